@@ -1,0 +1,79 @@
+"""The header of a dataset, `dataset.json`: written first, it fixes all that decides the pictures."""
+
+import hashlib
+from collections.abc import Mapping
+from typing import Annotated, Literal
+
+import pydantic_core
+from pydantic import Field
+
+from farm.model import Model, Sha256
+from farm.spec import DatasetSpec
+
+
+class FileRef(Model):
+    """A file outside the dataset that the workers need, by absolute path and content."""
+
+    path: str
+    sha256: Sha256
+
+
+class TemplateRef(Model):
+    """The template; `path` is None for the one that comes with the farm."""
+
+    path: str | None
+    sha256: Sha256
+
+
+class HdriRef(Model):
+    """An HDRI; `path` is None for one from Blender's own files. Only a `dark` one has its brightness drawn."""
+
+    name: str
+    path: str | None
+    sha256: Sha256
+    dark: bool
+
+
+class BuiltinSurfaceRef(Model):
+    """A floor surface of our own recipes, baked on each machine from a fixed seed."""
+
+    kind: Literal["builtin"] = "builtin"
+    name: str
+    recipe_version: int
+
+
+class FolderSurfaceRef(Model):
+    """A floor surface from the user's own PBR textures, by role (colour, normal, roughness, ...).
+
+    Attributes:
+        size_m: edge of the square that the texture covers, in metres.
+        flip_green: the normal map is in DirectX convention.
+        gloss: the roughness map holds glossiness.
+    """
+
+    kind: Literal["folder"] = "folder"
+    name: str
+    files: Mapping[str, FileRef]
+    size_m: Annotated[float, Field(gt=0)] = 0.4
+    flip_green: bool = False
+    gloss: bool = False
+
+
+SurfaceRef = Annotated[BuiltinSurfaceRef | FolderSurfaceRef, Field(discriminator="kind")]
+
+
+class DatasetHeader(Model):
+    """What `dataset.json` holds."""
+
+    format: Literal[1] = 1
+    farm_version: str
+    spec: DatasetSpec
+    template: TemplateRef
+    surfaces: Annotated[tuple[SurfaceRef, ...], Field(min_length=1)]
+    hdris: Annotated[tuple[HdriRef, ...], Field(min_length=1)]
+
+    @property
+    def spec_sha256(self) -> str:
+        """Fingerprint of all that decides the pictures: everything but the farm's version."""
+        content = self.model_dump(mode="json", exclude={"farm_version"})
+        return hashlib.sha256(pydantic_core.to_json(content)).hexdigest()

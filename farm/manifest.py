@@ -1,0 +1,88 @@
+"""The manifest: what stands beside every picture, written last. A job is done when it is there and agrees."""
+
+from collections.abc import Mapping
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from farm.job import DatasetName
+from farm.layout import FileRole
+from farm.model import Model, Sha256
+from farm.scene import Scene
+
+Seconds = Annotated[float, Field(ge=0)]
+
+
+class FileRecord(Model):
+    """One file of a job: where it is below the dataset's folder, its size and checksum."""
+
+    path: str
+    bytes: Annotated[int, Field(ge=0)]
+    sha256: Sha256
+
+
+class RejectedAttempt(Model):
+    """A scene that was drawn and failed a physics check."""
+
+    attempt: Annotated[int, Field(ge=0)]
+    reason: str
+
+
+class SettleFigures(Model):
+    """What was measured on the settled cables.
+
+    Attributes:
+        frames: frames of the cloth's clock until the end of the fall.
+        length_error: worst cable, |L/L0 - 1|.
+        cable_penetration: worst depth of one cable in another, over the radius, at the 99.9th percentile and at most.
+        floor_penetration: the same against the floor.
+        cable_penetration_max: deepest single place.
+        floor_penetration_max: deepest single place.
+        pass_throughs: crossings whose order flipped between start and rest.
+        speed_rms_mm_s: root mean square speed of the nodes at the end, in true time.
+        speed_max_mm_s: fastest node at the end.
+        lowest_gap: smallest height of a cable's underside above its support at its lowest point, over the radius.
+    """
+
+    frames: int
+    length_error: float
+    cable_penetration: float
+    cable_penetration_max: float
+    floor_penetration: float
+    floor_penetration_max: float
+    pass_throughs: int
+    speed_rms_mm_s: float
+    speed_max_mm_s: float
+    lowest_gap: float
+
+
+class RenderSettings(Model):
+    """How the picture was rendered, as acted on, not as asked for."""
+
+    engine: str
+    device: str
+    samples: int
+    denoiser: str | None
+    resolution: int
+
+
+class Manifest(Model):
+    """Everything about one picture.
+
+    Attributes:
+        timings_s: seconds per stage of this job (open, randomize, simulate, render, mask, write).
+        versions: of the farm, Blender and the libraries that take part.
+    """
+
+    version: Literal[1] = 1
+    dataset: DatasetName
+    spec_sha256: Sha256
+    job_id: str
+    seed: int
+    scene: Scene
+    settled: SettleFigures
+    rejected: tuple[RejectedAttempt, ...]
+    render: RenderSettings
+    timings_s: Mapping[str, Seconds]
+    versions: Mapping[str, str]
+    files: Mapping[FileRole, FileRecord]

@@ -1,0 +1,143 @@
+"""The description of a dataset: what a user writes in TOML or as flags, fully resolved."""
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import pydantic_core
+from pydantic import Field, ValidationError, model_validator
+
+from farm.category import Category
+from farm.errors import SpecError
+from farm.job import Job
+from farm.model import Model
+from farm.quotas import split_total
+from farm.ranges import Ranges
+
+Quota = Annotated[int, Field(ge=0, le=10**7)]
+
+
+class Engine(StrEnum):
+    """Blender's render engine."""
+
+    CYCLES = "cycles"
+    EEVEE = "eevee"
+
+
+class Quality(StrEnum):
+    """How much time a picture may take for how little noise."""
+
+    DRAFT = "draft"
+    STANDARD = "standard"
+    REFERENCE = "reference"
+
+
+class Fall(Model):
+    """How the cloth falls. More quality steps cost time in proportion."""
+
+    max_frames: Annotated[int, Field(ge=10, le=2000)] = 250
+    quality: Annotated[int, Field(ge=1, le=80)] = 10
+    collision_quality: Annotated[int, Field(ge=1, le=20)] = 4
+    max_attempts: Annotated[int, Field(ge=1, le=50)] = 8
+
+
+class DatasetSpec(Model):
+    """A dataset: how many images of which category, from which seed, made how.
+
+    `quotas` holds all six categories; `parse_spec` fills it in from a total.
+    """
+
+    version: Literal[1] = 1
+    seed: Annotated[int, Field(ge=0, lt=2**64)] = 0
+    quotas: Mapping[Category, Quota]
+    resolution: Annotated[int, Field(ge=32, le=8192)] = 512
+    engine: Engine = Engine.CYCLES
+    quality: Quality = Quality.STANDARD
+    close_distributed_hdri: str | None = None
+    fall: Fall = Fall()
+    ranges: Ranges = Ranges()
+
+    @model_validator(mode="after")
+    def _asks_for_something(self) -> "DatasetSpec":
+        if self.total == 0:
+            raise ValueError("the quotas add up to zero images; ask for at least one")
+        return self
+
+    @property
+    def total(self) -> int:
+        """Images in all."""
+        return sum(self.quotas.values())
+
+    def jobs(self) -> Iterator[Job]:
+        """Every job of the dataset, lazily, the categories in proportion.
+
+        Jobs of all categories are interleaved so that a dataset stopped half way has all of them.
+        """
+        for numerator in range(max(self.quotas.values())):
+            for category, quota in self.quotas.items():
+                if numerator < quota:
+                    yield Job.model_construct(category=category, index=numerator)
+
+
+def _resolve_quotas(data: Mapping[str, object]) -> dict[str, object]:
+    resolved = dict(data)
+    images, quotas = resolved.pop("images", None), resolved.get("quotas")
+    if images is not None and quotas is not None:
+        raise SpecError("give either images or quotas, not both")
+    if images is not None:
+        if not isinstance(images, int) or isinstance(images, bool) or images < 0:
+            raise SpecError(f"images: expected a whole number, 0 or more, not {images!r}")
+        quotas = {str(category): count for category, count in split_total(images).items()}
+    if isinstance(quotas, Mapping):
+        unknown = sorted({str(key) for key in quotas} - set(Category))
+        if unknown:
+            raise SpecError(f"quotas: unknown category {unknown[0]!r}; there are {', '.join(Category)}")
+        quotas = {str(category): quotas.get(category, 0) for category in Category}
+    return resolved if quotas is None else resolved | {"quotas": quotas}
+
+
+def parse_spec(data: Mapping[str, object], *, source: str) -> DatasetSpec:
+    """Validate a description; a total `images` is split over the categories as published, 2:2:1:1:2:2.
+
+    Args:
+        data: JSON-like values, with either `images` or `quotas`.
+        source: where they come from, named in the error.
+
+    Raises:
+        SpecError: with the key, what was wrong with it, and where.
+    """
+    try:
+        return DatasetSpec.model_validate_json(pydantic_core.to_json(_resolve_quotas(data)))
+    except ValidationError as error:
+        raise SpecError(f"{source}: {_describe(error)}") from error
+    except (SpecError, pydantic_core.PydanticSerializationError) as error:
+        raise SpecError(f"{source}: {error}") from error
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Read a TOML file.
+
+    Raises:
+        SpecError: if it can't be read or is no TOML.
+    """
+    try:
+        with path.open("rb") as file:
+            return tomllib.load(file)
+    except OSError as error:
+        raise SpecError(f"{path}: can't read the dataset's description: {error.strerror}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise SpecError(f"{path}: not valid TOML: {error}") from error
+
+
+def _describe(error: ValidationError) -> str:
+    first = error.errors(include_url=False, include_context=False)[0]
+    where = ".".join(str(part) for part in first["loc"])
+    message = first["msg"].removeprefix("Value error, ")
+    if first["type"] == "extra_forbidden":
+        message = "unknown key; see the list of keys in the README"
+    if first["type"] == "missing" and where == "quotas":
+        message = "give the number of images: images, or a [quotas] table"
+    more = f" (and {error.error_count() - 1} more)" if error.error_count() > 1 else ""
+    return f"{where}: {message}{more}" if where else f"{message}{more}"

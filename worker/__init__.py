@@ -1,0 +1,1 @@
+"""One image from one job: randomize, simulate, check, render, label, upload."""

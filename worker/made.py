@@ -1,0 +1,47 @@
+"""What a maker hands over for upload, and the port that workers call."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from farm.header import DatasetHeader
+from farm.job import Job
+from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
+from farm.scene import Scene
+
+
+@dataclass(frozen=True, slots=True)
+class MadeImage:
+    """One picture with its labels and everything its manifest tells.
+
+    Attributes:
+        image: (H, W, 3) uint8 sRGB.
+        mask: (H, W) uint8, 0 or 255.
+        instances: (H, W) uint16, 0 for background, k for cable k of the scene, counted from 1.
+        timings_s: seconds per stage; the upload adds its own.
+    """
+
+    image: NDArray[np.uint8]
+    mask: NDArray[np.uint8]
+    instances: NDArray[np.uint16]
+    scene: Scene
+    settled: SettleFigures
+    rejected: tuple[RejectedAttempt, ...]
+    render: RenderSettings
+    timings_s: Mapping[str, float]
+    versions: Mapping[str, str]
+
+
+class ImageMaker(Protocol):
+    """Makes the picture of a job. The real one holds an open Blender template; tests of the queue have a twin."""
+
+    def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+        """Make one picture.
+
+        Raises:
+            FarmError: of the kind that tells whether trying again can help.
+        """
+        ...
