@@ -1,0 +1,1 @@
+"""Procedural floor surfaces: recipes that draw seamless colour, roughness, normal and metallic maps."""

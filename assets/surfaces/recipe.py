@@ -1,0 +1,55 @@
+"""What a surface is called, what it is made of, how big it is and how to draw it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from assets.surfaces.grid import Grid
+from assets.surfaces.maps import SurfaceMaps
+
+
+class SurfaceFamily(StrEnum):
+    """What a surface is made of."""
+
+    WOOD = "wood"
+    TILE = "tile"
+    STONE = "stone"
+    CONCRETE = "concrete"
+    PLASTER = "plaster"
+    METAL = "metal"
+    GROUND = "ground"
+    FABRIC = "fabric"
+    SHEET = "sheet"
+
+
+@dataclass(frozen=True)
+class SurfaceRecipe:
+    """A surface that can be drawn at any resolution.
+
+    Attributes:
+        name: Unique, in snake case.
+        family: What it is made of.
+        size_m: Edge of the square tile in metres.
+        draw: Draws the maps on a grid.
+        version: To be raised whenever the drawing changes, so that stored maps are drawn afresh.
+    """
+
+    name: str
+    family: SurfaceFamily
+    size_m: float
+    draw: Callable[[np.random.Generator, Grid], SurfaceMaps]
+    version: int = 1
+
+    def build(self, rng: np.random.Generator, pixels: int) -> SurfaceMaps:
+        """Draw the surface.
+
+        Args:
+            rng: Source of all its randomness.
+            pixels: Texels along an edge, at least 64.
+
+        Returns:
+            The maps; the same generator state and size give the same bytes.
+        """
+        return self.draw(rng, Grid(pixels=pixels, size_mm=self.size_m * 1000.0))

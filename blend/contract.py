@@ -1,0 +1,118 @@
+"""What the farm must find in a template, and the check of it."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+import bpy
+
+from blend import names
+from farm.errors import TemplateError
+
+_OBJECTS: Final = (
+    (names.PICTURE_SCENE, names.CABLE, "MESH", None),
+    (names.PICTURE_SCENE, names.FLOOR, "MESH", None),
+    (names.PICTURE_SCENE, names.CAMERA, "CAMERA", None),
+    (names.PICTURE_SCENE, names.POINT_LAMP, "LIGHT", "POINT"),
+    (names.PICTURE_SCENE, names.AREA_LAMP, "LIGHT", "AREA"),
+    (names.FALL_SCENE, names.FALL_CABLES, "MESH", None),
+    (names.FALL_SCENE, names.FALL_FLOOR, "MESH", None),
+    (names.FALL_SCENE, names.FALL_WIND, "EMPTY", None),
+)
+
+_NODES: Final = (
+    ("materials", names.CABLE, names.CABLE_MAPPING, "MAPPING"),
+    ("materials", names.CABLE, names.CABLE_NOISE, "TEX_NOISE"),
+    ("materials", names.CABLE, names.CABLE_COLOUR_RAMP, "VALTORGB"),
+    ("materials", names.CABLE, names.CABLE_REFLECTION_RAMP, "VALTORGB"),
+    ("materials", names.FLOOR, names.FLOOR_COLOUR, "TEX_IMAGE"),
+    ("materials", names.FLOOR, names.FLOOR_ROUGHNESS, "TEX_IMAGE"),
+    ("materials", names.FLOOR, names.FLOOR_METALLIC, "TEX_IMAGE"),
+    ("materials", names.FLOOR, names.FLOOR_NORMAL, "TEX_IMAGE"),
+    ("worlds", names.WORLD, names.WORLD_SWITCH, "MIX_SHADER"),
+    ("worlds", names.WORLD, names.WORLD_BRIGHTNESS, "MIX_SHADER"),
+    ("worlds", names.WORLD, names.WORLD_MAPPING, "MAPPING"),
+    ("worlds", names.WORLD, names.WORLD_IMAGE, "TEX_ENVIRONMENT"),
+)
+
+
+def open_template(path: Path) -> None:
+    """Open a template in this process, with the scripts in it left off, and check it.
+
+    Raises:
+        TemplateError: if it can't be opened, or lacks something; the text names what.
+    """
+    if not path.is_file():
+        raise TemplateError(f"{path}: no such template; give --template a .blend file")
+    try:
+        bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=False, use_scripts=False)
+    except RuntimeError as error:
+        reason = " ".join(str(error).split())
+        raise TemplateError(f"{path}: Blender can't open this template: {reason}") from error
+    missing = list(find_missing())
+    if missing:
+        raise TemplateError(f"{path}: the template lacks {'; '.join(missing)}")
+
+
+def find_missing() -> Iterator[str]:
+    """What the open file lacks of the contract, one phrase each; nothing if it holds all."""
+    for scene_name in (names.PICTURE_SCENE, names.FALL_SCENE):
+        if scene_name not in bpy.data.scenes:
+            yield f"the scene '{scene_name}'"
+    for scene_name, object_name, kind, subkind in _OBJECTS:
+        yield from _missing_object(scene_name, object_name, kind, subkind)
+    for collection, owner, node, kind in _NODES:
+        yield from _missing_node(collection, owner, node, kind)
+    yield from _missing_links()
+    yield from _missing_physics()
+
+
+def _missing_object(scene_name: str, name: str, kind: str, subkind: str | None) -> Iterator[str]:
+    scene = bpy.data.scenes.get(scene_name)
+    found = scene.objects.get(name) if scene else None
+    wanted = f"{kind.lower()} object '{name}' in the scene '{scene_name}'"
+    if found is None or found.type != kind:
+        yield f"the {wanted}"
+    elif subkind and found.data.type != subkind:
+        yield f"a {subkind.lower()} light in the {wanted}"
+
+
+def _missing_node(collection: str, owner_name: str, node: str, kind: str) -> Iterator[str]:
+    owner: Any = getattr(bpy.data, collection).get(owner_name)
+    place = f"the {collection.removesuffix('s')} '{owner_name}'"
+    if owner is None or owner.node_tree is None:
+        yield f"{place} with nodes (for its node '{node}')"
+        return
+    found = owner.node_tree.nodes.get(node)
+    if found is None or found.type != kind:
+        yield f"the node '{node}' of type {kind} in {place}"
+
+
+def _missing_links() -> Iterator[str]:
+    """What must belong together for the worker's settings to act."""
+    picture = bpy.data.scenes.get(names.PICTURE_SCENE)
+    if picture is None:
+        return
+    if picture.camera is None or picture.camera.name != names.CAMERA:
+        yield f"'{names.CAMERA}' as the active camera of the scene '{names.PICTURE_SCENE}'"
+    if picture.world is None or picture.world.name != names.WORLD:
+        yield f"'{names.WORLD}' as the world of the scene '{names.PICTURE_SCENE}'"
+    for name in (names.CABLE, names.FLOOR):
+        found = picture.objects.get(name)
+        if found is None or found.type != "MESH":
+            continue
+        if [slot.name for slot in found.material_slots] != [name]:
+            yield f"the material '{name}' as the only material of the object '{name}'"
+        if not found.data.uv_layers:
+            yield f"a UV map on the object '{name}'"
+
+
+def _missing_physics() -> Iterator[str]:
+    cables, floor = (bpy.data.objects.get(name) for name in (names.FALL_CABLES, names.FALL_FLOOR))
+    if cables is not None and not any(modifier.type == "CLOTH" for modifier in cables.modifiers):
+        yield f"a Cloth modifier on '{names.FALL_CABLES}'"
+    if floor is not None and not any(modifier.type == "COLLISION" for modifier in floor.modifiers):
+        yield f"a Collision modifier on '{names.FALL_FLOOR}'"
+    wind = bpy.data.objects.get(names.FALL_WIND)
+    if wind is not None and (wind.field is None or wind.field.type != "WIND"):
+        yield f"a Wind force field on '{names.FALL_WIND}'"

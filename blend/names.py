@@ -1,0 +1,41 @@
+"""Names of what the farm looks for in a template. An artist may change everything else."""
+
+from typing import Final
+
+PICTURE_SCENE: Final = "picture"
+"""What is rendered, in metres."""
+
+FALL_SCENE: Final = "fall"
+"""What is simulated, in units of the cable's radius (`worker.fall_scale`)."""
+
+CABLE: Final = "cable"
+"""The cable that every rendered cable is a copy of, and its material."""
+
+FLOOR: Final = "floor"
+"""The floor of the picture, and its material."""
+
+CAMERA: Final = "camera"
+POINT_LAMP: Final = "point_lamp"
+AREA_LAMP: Final = "area_lamp"
+WORLD: Final = "world"
+
+FALL_CABLES: Final = "fall_cables"
+"""The strips of cloth, joined in one mesh."""
+
+FALL_FLOOR: Final = "fall_floor"
+FALL_WIND: Final = "fall_wind"
+
+CABLE_COLOUR_RAMP: Final = "dirt ramp"
+CABLE_REFLECTION_RAMP: Final = "reflection ramp"
+CABLE_MAPPING: Final = "dirt mapping"
+CABLE_NOISE: Final = "dirt noise"
+
+FLOOR_COLOUR: Final = "floor colour"
+FLOOR_ROUGHNESS: Final = "floor roughness"
+FLOOR_METALLIC: Final = "floor metallic"
+FLOOR_NORMAL: Final = "floor normal"
+
+WORLD_SWITCH: Final = "hdri or grey"
+WORLD_BRIGHTNESS: Final = "hdri brightness"
+WORLD_MAPPING: Final = "hdri mapping"
+WORLD_IMAGE: Final = "hdri image"

@@ -1,0 +1,101 @@
+import re
+
+import numpy as np
+import pytest
+
+from assets.bake import recipe_generator
+from assets.surfaces.catalogue import SURFACES
+from assets.surfaces.recipe import SurfaceFamily
+from tests.assets.built import PIXELS, built, steps
+
+NAMES = list(SURFACES)
+
+
+def test_there_are_at_least_32_surfaces_in_every_family() -> None:
+    """The catalogue is wide: at least 32 surfaces, and no family is empty."""
+    assert len(SURFACES) >= 32
+    assert {recipe.family for recipe in SURFACES.values()} == set(SurfaceFamily)
+
+
+def test_every_recipe_is_filed_under_its_own_name() -> None:
+    """No two recipes share a name, and names are in snake case."""
+    for name, recipe in SURFACES.items():
+        assert recipe.name == name
+        assert re.fullmatch(r"[a-z]+(_[a-z]+)*", name)
+    assert len({id(recipe.draw) for recipe in SURFACES.values()}) == len(SURFACES)
+
+
+def test_some_surfaces_are_light_some_dark() -> None:
+    """The floors cover the range of brightness that real floors have."""
+    means = [built(name).colour.mean() for name in NAMES]
+    assert sum(mean < 95 for mean in means) >= 5
+    assert sum(95 <= mean < 160 for mean in means) >= 10
+    assert sum(mean >= 160 for mean in means) >= 8
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_maps_have_the_announced_shapes(name: str) -> None:
+    """Colour and normal have three channels, roughness one, metallic is a share or a map."""
+    maps = built(name)
+    assert maps.colour.shape == maps.normal.shape == (PIXELS, PIXELS, 3)
+    assert maps.roughness.shape == (PIXELS, PIXELS)
+    assert {maps.colour.dtype, maps.normal.dtype, maps.roughness.dtype} == {np.dtype(np.uint8)}
+    if isinstance(maps.metallic, float):
+        assert 0.0 <= maps.metallic <= 1.0
+    else:
+        assert maps.metallic.shape == (PIXELS, PIXELS)
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("axis", [0, 1])
+def test_opposite_edges_meet(name: str, axis: int) -> None:
+    """The step across the border is no bigger than the steps that occur inside, joints included."""
+    maps = built(name)
+    for image in (maps.colour, maps.normal, maps.roughness):
+        seam, *inside = steps(image, axis)
+        assert seam <= 1.1 * max(inside) + 0.5
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_albedo_is_plausible(name: str) -> None:
+    """The mean lies between soot and snow, and hardly a texel is pure black or pure white."""
+    colour = built(name).colour
+    assert 45 <= colour.mean() <= 220
+    assert (colour.max(axis=2) < 8).mean() < 0.02
+    assert (colour.min(axis=2) > 248).mean() < 0.02
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_colour_varies_at_every_scale(name: str) -> None:
+    """A surface is neither a flat colour nor mere grain: it varies from texel to texel and from patch to patch."""
+    grey = built(name).colour.mean(axis=2)
+    patches = grey.reshape(16, PIXELS // 16, 16, PIXELS // 16).mean(axis=(1, 3))
+    assert grey.std() > 3.0
+    assert patches.std() > 0.8
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_normals_have_unit_length_and_point_up(name: str) -> None:
+    """Each normal has length 1 within rounding and leaves the surface; on average they stand upright."""
+    normal = built(name).normal.astype(np.float64) / 127.5 - 1.0
+    assert np.abs(np.linalg.norm(normal, axis=2) - 1.0).max() < 0.02
+    assert normal[..., 2].min() > -0.01
+    mean = normal.mean(axis=(0, 1))
+    assert np.abs(mean[:2]).max() < 0.03
+
+
+@pytest.mark.parametrize("name", ["oak_planks", "gravel", "linen", "rusted_steel", "carpet_meander"])
+def test_building_twice_gives_the_same_bytes(name: str) -> None:
+    """All randomness comes from the generator."""
+    recipe = SURFACES[name]
+    again = recipe.build(recipe_generator(recipe), PIXELS)
+    for role in ("colour", "roughness", "normal"):
+        assert np.array_equal(getattr(again, role), getattr(built(name), role))
+
+
+def test_another_generator_gives_another_surface() -> None:
+    """A recipe draws a new piece of the same material for each seed."""
+    recipe = SURFACES["marble_white"]
+    other = recipe.build(np.random.default_rng(5), PIXELS)
+    assert not np.array_equal(other.colour, built("marble_white").colour)
+    assert abs(other.colour.mean() - built("marble_white").colour.mean()) < 15

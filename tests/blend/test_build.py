@@ -1,0 +1,91 @@
+"""The template: repeatable in content, and checked."""
+
+from pathlib import Path
+
+import pytest
+
+bpy = pytest.importorskip("bpy")
+
+from blend import names  # noqa: E402  # after importorskip
+from blend.build import TEMPLATE, build_template  # noqa: E402
+from blend.content import describe_content  # noqa: E402
+from blend.contract import find_missing, open_template  # noqa: E402
+from farm.errors import TemplateError  # noqa: E402
+
+pytestmark = pytest.mark.blender
+
+
+def content_of(path: Path) -> object:
+    """All that a file holds."""
+    open_template(path)
+    return describe_content()
+
+
+def test_a_fresh_build_equals_the_shipped_template_in_content(tmp_path: Path) -> None:
+    """Building again gives the same scenes, settings and names, whatever addresses Blender writes into the bytes."""
+    build_template(tmp_path / "again.blend")
+    assert content_of(tmp_path / "again.blend") == content_of(TEMPLATE)
+
+
+def test_the_description_sees_a_changed_setting(tmp_path: Path) -> None:
+    """The comparison is no empty one: one changed number shows."""
+    before = content_of(TEMPLATE)
+    bpy.data.objects[names.POINT_LAMP].data.energy += 1.0
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "changed.blend"), copy=True)
+    assert content_of(tmp_path / "changed.blend") != before
+
+
+def test_the_shipped_template_lacks_nothing() -> None:
+    """The contract holds for the template that comes with the farm."""
+    open_template(TEMPLATE)
+    assert list(find_missing()) == []
+
+
+@pytest.mark.parametrize(
+    "name",
+    [names.CABLE, names.FLOOR, names.CAMERA, names.POINT_LAMP, names.AREA_LAMP, names.FALL_CABLES, names.FALL_WIND],
+)
+def test_a_template_without_an_object_is_refused_by_its_name(tmp_path: Path, name: str) -> None:
+    """What is missing is named."""
+    open_template(TEMPLATE)
+    bpy.data.objects.remove(bpy.data.objects[name])
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "less.blend"), copy=True)
+    with pytest.raises(TemplateError, match=f"'{name}'"):
+        open_template(tmp_path / "less.blend")
+
+
+@pytest.mark.parametrize("node", [names.CABLE_COLOUR_RAMP, names.CABLE_NOISE])
+def test_a_cable_material_without_a_node_is_refused(tmp_path: Path, node: str) -> None:
+    """The material's nodes are part of the contract."""
+    open_template(TEMPLATE)
+    nodes = bpy.data.materials[names.CABLE].node_tree.nodes
+    nodes.remove(nodes[node])
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "less.blend"), copy=True)
+    with pytest.raises(TemplateError, match=node):
+        open_template(tmp_path / "less.blend")
+
+
+def test_a_file_that_is_no_blend_is_refused(tmp_path: Path) -> None:
+    """The error names the file."""
+    wrong = tmp_path / "wrong.blend"
+    wrong.write_text("not a blend file")
+    with pytest.raises(TemplateError, match=r"wrong\.blend"):
+        open_template(wrong)
+
+
+def test_a_template_that_is_not_there_is_refused(tmp_path: Path) -> None:
+    """The error says which file was looked for."""
+    with pytest.raises(TemplateError, match=r"nowhere\.blend"):
+        open_template(tmp_path / "nowhere.blend")
+
+
+def test_scripts_in_a_template_do_not_run(tmp_path: Path) -> None:
+    """A text block registered to run at load is left alone."""
+    open_template(TEMPLATE)
+    marker = tmp_path / "ran"
+    text = bpy.data.texts.new("attack.py")
+    text.write(f"open({str(marker)!r}, 'w').close()")
+    text.use_module = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "attack.blend"), copy=True)
+    open_template(tmp_path / "attack.blend")
+    assert not marker.exists()

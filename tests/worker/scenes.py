@@ -1,0 +1,32 @@
+"""Headers and scenes for the tests of the worker's stages."""
+
+from farm.category import Category
+from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
+from farm.job import Job
+from farm.scene import Scene
+from farm.spec import parse_spec
+from worker.randomize import draw_scene
+
+SHA = "0" * 64
+
+
+def make_header(**keys: object) -> DatasetHeader:
+    """A header over two surfaces and two HDRIs, one of them dark; `keys` are those of the spec."""
+    return DatasetHeader(
+        farm_version="0",
+        spec=parse_spec({"images": 60, "seed": 0, **keys}, source="test"),
+        template=TemplateRef(path=None, sha256=SHA),
+        surfaces=(
+            BuiltinSurfaceRef(name="concrete_smooth", recipe_version=1),
+            BuiltinSurfaceRef(name="oak_planks", recipe_version=1),
+        ),
+        hdris=(
+            HdriRef(name="city", path=None, sha256=SHA, dark=False),
+            HdriRef(name="night", path=None, sha256=SHA, dark=True),
+        ),
+    )
+
+
+def make_scene(category: Category = Category.FAR, index: int = 0, attempt: int = 0, **keys: object) -> Scene:
+    """The scene of one attempt at one job."""
+    return draw_scene(make_header(**keys), Job(category=category, index=index), attempt)

@@ -1,0 +1,78 @@
+"""Masks and instances, against silhouettes that are known."""
+
+import numpy as np
+import pytest
+
+from worker.label import View, label_cables
+from worker.shapes import Points
+
+RADIUS = 0.001
+VIEW = View(height_m=0.15, resolution=256)
+
+
+def bar(angle_deg: float = 0.0, z: float = RADIUS, shift: float = 0.0, length: float = 0.4) -> Points:
+    """A straight cable through the middle of the view."""
+    s = np.linspace(-length / 2, length / 2, 401)
+    a = np.radians(angle_deg)
+    return np.stack([s * np.cos(a) - shift * np.sin(a), s * np.sin(a) + shift * np.cos(a), np.full_like(s, z)], axis=1)
+
+
+def label(*curves: Points) -> tuple[np.ndarray, np.ndarray]:
+    """Mask and instances of cables of one radius."""
+    labels = label_cables(list(curves), np.full(len(curves), RADIUS), VIEW)
+    return labels.mask, labels.instances
+
+
+@pytest.mark.parametrize("angle", [10.0, 17.0, 45.0, 80.0])
+def test_the_area_of_a_straight_cable_is_its_width_times_its_length(angle: float) -> None:
+    """Width of a cylinder of radius r seen from distance d: f 2 r / sqrt(d^2 - r^2), within 2 % (0.15 px)."""
+    mask, _ = label(bar(angle))
+    distance = VIEW.height_m - RADIUS
+    width = VIEW.resolution * 50 / 36 * 2 * RADIUS / np.sqrt(distance**2 - RADIUS**2)
+    middle = 128 / max(abs(np.cos(np.radians(angle))), abs(np.sin(np.radians(angle))))
+    assert np.count_nonzero(mask) == pytest.approx(width * 2 * middle, rel=0.02)
+
+
+def test_a_mask_is_0_or_255() -> None:
+    """As published."""
+    mask, _ = label(bar(), bar(60.0, z=3 * RADIUS))
+    assert mask.dtype == np.uint8
+    assert set(np.unique(mask)) == {0, 255}
+
+
+def test_instances_fill_the_mask() -> None:
+    """A pixel has an instance exactly where the mask is set."""
+    mask, instances = label(bar(), bar(60.0, z=3 * RADIUS), bar(30.0, z=5 * RADIUS))
+    assert ((instances > 0) == (mask == 255)).all()
+    assert set(np.unique(instances)) == {0, 1, 2, 3}
+
+
+@pytest.mark.parametrize("upper", [1, 2])
+def test_the_upper_cable_hides_the_lower(upper: int) -> None:
+    """At the crossing in the middle of the picture."""
+    heights = (3 * RADIUS, RADIUS) if upper == 1 else (RADIUS, 3 * RADIUS)
+    _, instances = label(bar(z=heights[0]), bar(90.0, z=heights[1]))
+    assert (instances[126:130, 126:130] == upper).all()
+
+
+def test_a_point_above_the_middle_of_the_floor_is_in_the_middle_of_the_picture() -> None:
+    """And y points up."""
+    pixels = VIEW.project(np.array([[0.0, 0.0, 0.0], [0.0, 0.01, 0.0], [0.01, 0.0, 0.0]]))
+    assert pixels[0] == pytest.approx([128.0, 128.0])
+    assert pixels[1][1] < 128.0
+    assert pixels[2][0] > 128.0
+
+
+def test_an_end_in_the_picture_is_cut_flat() -> None:
+    """A cable of 20 mm shows both its ends: the mask is 20 mm long, within a pixel."""
+    mask, _ = label(bar(length=0.02))
+    columns = np.flatnonzero(mask.any(axis=0))
+    expected = VIEW.resolution * 50 / 36 * 0.02 / (VIEW.height_m - RADIUS)
+    assert columns.max() - columns.min() + 1 == pytest.approx(expected, abs=1.0)
+
+
+def test_cables_outside_the_view_leave_nothing() -> None:
+    """A cable that lies to the side of the picture."""
+    mask, instances = label(bar(shift=0.5))
+    assert not mask.any()
+    assert not instances.any()

@@ -1,0 +1,139 @@
+"""Drawing scenes: within the ranges, from the job's own streams alone."""
+
+from collections.abc import Iterator
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from farm.category import Background, Category, Light
+from farm.ranges import Ranges
+from farm.scene import AreaLamp, PointLamp, Scene
+from tests.worker.scenes import make_scene
+
+RANGES = Ranges()
+
+
+def many(category: Category, count: int = 60) -> Iterator[Scene]:
+    """Scenes of the first jobs of a category."""
+    return (make_scene(category, index) for index in range(count))
+
+
+def within(value: float, bounds: tuple[float, float]) -> bool:
+    """Whether a drawn value lies in its range."""
+    return bounds[0] <= value <= bounds[1]
+
+
+@given(category=st.sampled_from(Category), index=st.integers(0, 10**6), seed=st.integers(0, 2**64 - 1))
+def test_the_same_job_gives_the_same_scene(category: Category, index: int, seed: int) -> None:
+    """Nothing but the dataset's seed, the category and the index decides a scene; 0 is a seed."""
+    assert make_scene(category, index, seed=seed) == make_scene(category, index, seed=seed)
+
+
+def test_another_seed_job_or_attempt_gives_another_scene() -> None:
+    """Streams of different jobs, seeds and attempts do not coincide."""
+    scenes = [make_scene(index=0), make_scene(index=1), make_scene(index=0, attempt=1), make_scene(index=0, seed=1)]
+    cables = [scene.cables[0] for scene in scenes]
+    assert len({cable.model_dump_json() for cable in cables}) == len(scenes)
+
+
+def test_a_range_of_one_stage_leaves_the_draws_of_the_others() -> None:
+    """One stream a stage: other wind does not move the cables, nor the camera."""
+    calm = make_scene(ranges={"wind": {"strength": [0.0, 0.0]}})
+    windy = make_scene()
+    assert calm.wind != windy.wind
+    assert (calm.cables, calm.camera, calm.hdri_world) == (windy.cables, windy.camera, windy.hdri_world)
+
+
+@pytest.mark.parametrize("category", Category)
+def test_a_category_fixes_floor_lamp_and_hdri(category: Category) -> None:
+    """Floors are drawn where they are seen, and exactly one of lamp and HDRI lights a scene."""
+    traits = category.traits
+    for scene in many(category, 10):
+        assert (scene.floor is not None) == (traits.background is Background.FLOOR)
+        assert (scene.lamp is not None) == (traits.light is Light.CONCENTRATED)
+        assert (scene.hdri_world is None) == (scene.lamp is not None)
+
+
+def test_one_to_eight_cables_are_drawn_and_each_number_occurs() -> None:
+    """The published 1 to 8."""
+    assert {len(scene.cables) for scene in many(Category.FAR, 150)} == set(range(1, 9))
+
+
+def test_free_cables_lie_in_the_published_ranges() -> None:
+    """x, y, rotation and vertex mass of cables that are not aligned."""
+    for scene in many(Category.FAR):
+        assert within(scene.vertex_mass, RANGES.cable.vertex_mass)
+        for cable in scene.cables:
+            assert within(cable.x_m, RANGES.placement.free_x_m)
+            assert within(cable.y_m, RANGES.placement.free_y_m)
+            assert within(cable.rotation_deg, RANGES.placement.free_rotation_deg)
+
+
+def test_aligned_cables_keep_within_ten_degrees_of_one_bearing() -> None:
+    """Two cables of an aligned picture differ by 20 degrees at most."""
+    for scene in many(Category.FAR_ALIGNED):
+        bearings = [cable.rotation_deg for cable in scene.cables]
+        assert max(bearings) - min(bearings) <= 20.0
+        for cable in scene.cables:
+            assert within(cable.x_m, RANGES.placement.aligned_x_m)
+            assert within(cable.y_m, RANGES.placement.aligned_y_m)
+
+
+def test_cables_start_at_stacked_heights() -> None:
+    """Each cable starts `spacing_m` above the one before."""
+    scene = next(scene for scene in many(Category.FAR) if len(scene.cables) > 3)
+    heights = [cable.start_height_m for cable in scene.cables]
+    assert heights == [
+        RANGES.placement.drop_height_m + level * RANGES.placement.spacing_m for level in range(len(heights))
+    ]
+
+
+def test_wind_flows_at_a_fifth_of_its_strength() -> None:
+    """The published flow."""
+    for scene in many(Category.FAR, 20):
+        assert scene.wind.flow == pytest.approx(scene.wind.strength / 5)
+
+
+def test_both_lamps_occur_and_lie_in_their_ranges() -> None:
+    """Half point, half area; the area light to either side."""
+    lamps = [scene.lamp for scene in many(Category.CLOSE_CONCENTRATED, 100)]
+    areas = [lamp for lamp in lamps if isinstance(lamp, AreaLamp)]
+    points = [lamp for lamp in lamps if isinstance(lamp, PointLamp)]
+    assert {area.x_m > 0 for area in areas} == {True, False}
+    assert all(4.0 <= abs(area.x_m) <= 15.0 and 400.0 <= area.power_w <= 1800.0 for area in areas)
+    assert points
+    assert all(5.0 <= point.radius_m <= 6.5 and 800.0 <= point.power_w <= 1500.0 for point in points)
+
+
+def test_all_eleven_camera_heights_occur() -> None:
+    """The published heights, which give cables of 4 to 16 pixels."""
+    heights = {scene.camera.height_m for scene in many(Category.FAR, 200)}
+    assert heights == set(RANGES.camera.heights_m)
+    widths = sorted(512 * 50 / 36 * 0.002 / height for height in heights)
+    assert widths[0] == pytest.approx(4.3, abs=0.05)
+    assert widths[-1] == pytest.approx(15.8, abs=0.05)
+
+
+def test_only_dark_hdris_are_brightened() -> None:
+    """Brightness is drawn for the dark HDRI and 0 for the other."""
+    for scene in many(Category.FAR):
+        assert scene.hdri_world is not None
+        if scene.hdri_world.hdri == "night":
+            assert 0.10 <= scene.hdri_world.brightness <= 0.60
+        else:
+            assert scene.hdri_world.brightness == 0.0
+
+
+def test_far_pictures_look_at_the_horizon_upright() -> None:
+    """The HDRI is tilted by 90 degrees wherever it is seen."""
+    assert {scene.hdri_world.tilt_deg for scene in many(Category.FAR, 30) if scene.hdri_world} == {90.0}
+
+
+def test_close_pictures_without_a_lamp_share_one_hdri() -> None:
+    """The named HDRI lights them all, tilted by 0 or 90 degrees."""
+    scenes = [
+        make_scene(Category.CLOSE_DISTRIBUTED, index, close_distributed_hdri="night").hdri_world for index in range(30)
+    ]
+    assert {world.hdri for world in scenes if world} == {"night"}
+    assert {world.tilt_deg for world in scenes if world} == {0.0, 90.0}

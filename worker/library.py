@@ -1,0 +1,120 @@
+"""Where this machine has the surfaces and HDRIs that a dataset's header names, checked against it."""
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from assets.bake import BakedSurface, load_baked, surface_directory
+from assets.hdris import builtin_hdris
+from farm.errors import AssetError
+from farm.header import BuiltinSurfaceRef, DatasetHeader, FileRef, FolderSurfaceRef
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceFiles:
+    """Image files of one floor surface.
+
+    Attributes:
+        size_m: edge of the square that the texture covers.
+        metallic: a map, or one value for all of the surface.
+        flip_green: the normal map is in DirectX convention.
+        gloss: the roughness map holds glossiness.
+    """
+
+    size_m: float
+    colour: Path
+    roughness: Path | None
+    normal: Path | None
+    metallic: Path | float
+    flip_green: bool = False
+    gloss: bool = False
+
+
+class AssetLibrary:
+    """Finds files by the names that scenes use."""
+
+    def __init__(self, header: DatasetHeader, baked_folder: Path | None) -> None:
+        """Look up nothing yet.
+
+        Args:
+            header: names what there is.
+            baked_folder: where the built-in surfaces were baked; None for the usual place.
+        """
+        self._surfaces = {surface.name: surface for surface in header.surfaces}
+        self._hdris = {hdri.name: hdri for hdri in header.hdris}
+        self._baked_folder = baked_folder or surface_directory()
+        self._baked: Mapping[str, BakedSurface] | None = None
+
+    def surface(self, name: str) -> SurfaceFiles:
+        """Files of a surface.
+
+        Raises:
+            AssetError: if they are not on this machine, or differ from the header's.
+        """
+        surface = self._surfaces[name]
+        return self._from_bakery(surface) if isinstance(surface, BuiltinSurfaceRef) else self._from_folder(surface)
+
+    def hdri(self, name: str) -> Path:
+        """File of an HDRI.
+
+        Raises:
+            AssetError: if it is not on this machine, or differs from the header's.
+        """
+        reference = self._hdris[name]
+        if reference.path is not None:
+            return checked(FileRef(path=reference.path, sha256=reference.sha256))
+        builtin = next((hdri for hdri in builtin_hdris() if hdri.name == name), None)
+        if builtin is None:
+            raise AssetError(f"the HDRI '{name}' is not among Blender's own; submit the dataset with this version")
+        return builtin.path
+
+    def _from_bakery(self, surface: BuiltinSurfaceRef) -> SurfaceFiles:
+        if self._baked is None:
+            self._baked = load_baked(self._baked_folder)
+        baked = self._baked.get(surface.name)
+        if baked is None or baked.record.recipe_version != surface.recipe_version:
+            raise AssetError(
+                f"{self._baked_folder}: the surface '{surface.name}' (version {surface.recipe_version}) is not baked "
+                "here; run `farm assets build`"
+            )
+        metallic = baked.record.metallic
+        return SurfaceFiles(
+            size_m=baked.record.size_m,
+            colour=baked.path("colour"),
+            roughness=baked.path("roughness"),
+            normal=baked.path("normal"),
+            metallic=baked.path("metallic") if metallic is None else metallic,
+        )
+
+    @staticmethod
+    def _from_folder(surface: FolderSurfaceRef) -> SurfaceFiles:
+        files = {role: checked(reference) for role, reference in surface.files.items()}
+        return SurfaceFiles(
+            size_m=surface.size_m,
+            colour=files["colour"],
+            roughness=files.get("roughness"),
+            normal=files.get("normal"),
+            metallic=files.get("metallic", 0.0),
+            flip_green=surface.flip_green,
+            gloss=surface.gloss,
+        )
+
+
+def checked(reference: FileRef) -> Path:
+    """The file of a reference, if it is there and unchanged.
+
+    Raises:
+        AssetError: otherwise.
+    """
+    path = Path(reference.path)
+    try:
+        with path.open("rb") as file:
+            digest = hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError as error:
+        raise AssetError(
+            f"{path}: can't be read ({error.strerror}); this machine needs it at the same place"
+        ) from error
+    if digest != reference.sha256:
+        raise AssetError(f"{path}: has changed since the dataset was submitted; restore it or submit a new dataset")
+    return path

@@ -1,0 +1,70 @@
+"""Cables as curves: what the fall produces, and what checking, rendering and labelling read."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+Points = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class CableShapes:
+    """Settled cables.
+
+    Attributes:
+        nodes_m: per cable (N, 3), nodes of the centreline from end to end.
+        radii_m: (cables,), radius of each cable.
+        lengths_m: (cables,), length of each at rest.
+        speeds_m_s: per cable (N,), speed of each node when the shape was captured.
+        start_order: the cables from the lowest start to the highest.
+        frames: frames of the fall.
+    """
+
+    nodes_m: tuple[Points, ...]
+    radii_m: NDArray[np.float64]
+    lengths_m: NDArray[np.float64]
+    speeds_m_s: tuple[NDArray[np.float64], ...]
+    start_order: tuple[int, ...]
+    frames: int
+
+
+def smooth(nodes: Points, samples_per_span: int) -> Points:
+    """A twice continuously differentiable curve through `nodes` (N, 3): ((N - 1) * samples_per_span + 1, 3)."""
+    parameter = np.arange(len(nodes))
+    fine = np.linspace(0, len(nodes) - 1, (len(nodes) - 1) * samples_per_span + 1)
+    curve: Points = CubicSpline(parameter, nodes)(fine)
+    return curve
+
+
+def tangents(curve: Points) -> Points:
+    """Unit tangents of a finely sampled curve (N, 3), by central differences."""
+    difference = np.gradient(curve, axis=0)
+    unit: Points = difference / np.linalg.norm(difference, axis=1, keepdims=True)
+    return unit
+
+
+def bent_rod(length_m: float, bends_per_m: tuple[float, ...], nodes: int) -> NDArray[np.float64]:
+    """A plane curve of given length and curvature, its middle at the origin and its mean bearing along x.
+
+    Args:
+        length_m: arc length.
+        bends_per_m: curvature at equally spaced points from end to end, interpolated smoothly between them.
+        nodes: how many points to return, >= 2, equally spaced along the curve.
+
+    Returns:
+        (nodes, 2) coordinates in metres.
+    """
+    knots = np.linspace(0.0, length_m, len(bends_per_m))
+    curvature = CubicSpline(knots, bends_per_m, bc_type="natural")
+    fine = np.linspace(0.0, length_m, 32 * (nodes - 1) + 1)
+    bearing = curvature.antiderivative()(fine)
+    step = length_m / (len(fine) - 1)
+    velocity = np.stack([np.cos(bearing), np.sin(bearing)], axis=1)
+    curve = np.concatenate([np.zeros((1, 2)), np.cumsum(step * 0.5 * (velocity[1:] + velocity[:-1]), axis=0)])
+    chord = curve[-1] - curve[0]
+    turn = -np.arctan2(chord[1], chord[0])
+    rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    level: NDArray[np.float64] = (curve - curve[len(curve) // 2]) @ rotation.T
+    return level[::32]

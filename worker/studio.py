@@ -1,0 +1,151 @@
+"""An open template that makes picture after picture: the real maker, one a process."""
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib.metadata import version
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from blend.build import TEMPLATE
+from blend.contract import open_template
+from farm.category import Background
+from farm.errors import SceneError
+from farm.header import DatasetHeader, FileRef
+from farm.job import Job
+from farm.manifest import RejectedAttempt, SettleFigures
+from farm.scene import Scene
+from worker.check import find_fault, measure
+from worker.devices import choose_device
+from worker.images import ImageShelf
+from worker.label import View, label_cables
+from worker.library import AssetLibrary, checked
+from worker.made import MadeImage
+from worker.randomize import draw_scene
+from worker.realize import realize
+from worker.render import configure, render_picture
+from worker.shapes import CableShapes, smooth
+from worker.simulate import drop_cables
+
+CURVE_SAMPLES = 5
+"""Points of the rendered curve per segment of the fall: one a millimetre for a 2 mm cable."""
+
+
+def open_studio(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> "Studio":
+    """Open the dataset's template in this process and make it ready.
+
+    Args:
+        header: names the template and the assets.
+        device: one of `worker.devices.CHOICES`.
+        threads: of the renderer on the CPU; 0 takes all cores.
+        assets: folder of the baked surfaces; None for the usual place.
+
+    Raises:
+        TemplateError: if the template can't be opened, lacks something, or has changed since the dataset's start.
+        AssetError: if the template's file can't be read.
+        EnvironmentMissingError: if there is no such device.
+    """
+    return Studio(header, device=device, threads=threads, assets=assets)
+
+
+class Studio:
+    """A Blender with the template open."""
+
+    def __init__(self, header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> None:
+        """See `open_studio`."""
+        start = time.perf_counter()
+        path = header.template.path or str(TEMPLATE)
+        open_template(checked(FileRef(path=path, sha256=header.template.sha256)))
+        # Undo steps and autosaves are of no use here and cost time and memory.
+        bpy.context.preferences.edit.use_global_undo = False
+        bpy.context.preferences.filepaths.use_auto_save_temporary_files = False
+        self._device = choose_device(device)
+        self._threads = threads
+        self._library = AssetLibrary(header, assets)
+        self._shelf = ImageShelf()
+        self._fingerprint = header.spec_sha256
+        self._open_s = time.perf_counter() - start
+
+    def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+        """Make one picture; see `worker.made.ImageMaker`.
+
+        Raises:
+            SceneError: if no drawn scene passed the checks.
+            AssetError: if a texture or HDRI can't be had.
+            RenderError: if Blender gives no picture.
+        """
+        if header.spec_sha256 != self._fingerprint:
+            raise ValueError("this studio was opened for another dataset")
+        # Opening is paid once, by the first picture of the process.
+        timings = {"open": self._open_s, "randomize": 0.0, "simulate": 0.0, "check": 0.0}
+        self._open_s = 0.0
+        scene, shapes, settled, rejected = self._settle(job, header, timings)
+        curves = [smooth(nodes, CURVE_SAMPLES) for nodes in shapes.nodes_m]
+        traits = job.category.traits
+        with _timed(timings, "realize"):
+            realize(scene, curves, self._library, self._shelf, camera_sees_floor=traits.background is Background.FLOOR)
+            settings = configure(
+                header.spec, traits.light, device=self._device, threads=self._threads, seed=scene.render_seed
+            )
+        with _timed(timings, "render"):
+            image = render_picture()
+        with _timed(timings, "mask"):
+            view = View(height_m=scene.camera.height_m, resolution=header.spec.resolution)
+            labels = label_cables(curves, shapes.radii_m, view)
+        return MadeImage(
+            image=image,
+            mask=labels.mask,
+            instances=labels.instances,
+            scene=scene,
+            settled=settled,
+            rejected=rejected,
+            render=settings,
+            timings_s=timings,
+            versions=_versions(),
+        )
+
+    @staticmethod
+    def _settle(
+        job: Job, header: DatasetHeader, timings: dict[str, float]
+    ) -> tuple[Scene, CableShapes, SettleFigures, tuple[RejectedAttempt, ...]]:
+        rejected: list[RejectedAttempt] = []
+        for attempt in range(header.spec.fall.max_attempts):
+            with _timed(timings, "randomize"):
+                scene = draw_scene(header, job, attempt)
+            try:
+                with _timed(timings, "simulate"):
+                    shapes = drop_cables(scene, header.spec.fall)
+            except SceneError as error:
+                rejected.append(RejectedAttempt(attempt=attempt, reason=str(error)))
+                continue
+            with _timed(timings, "check"):
+                settled = measure(shapes)
+            fault = find_fault(settled)
+            if fault is None:
+                return scene, shapes, settled, tuple(rejected)
+            rejected.append(RejectedAttempt(attempt=attempt, reason=fault))
+        raise SceneError(
+            f"{job.id}: none of {len(rejected)} drawn scenes passed the checks; the last: {rejected[-1].reason}"
+        )
+
+
+@contextmanager
+def _timed(timings: dict[str, float], stage: str) -> Iterator[None]:
+    """Add the seconds spent inside to a stage; they are told in the manifest and decide nothing."""
+    start = time.perf_counter()
+    try:
+        yield
+    finally:
+        timings[stage] = timings.get(stage, 0.0) + time.perf_counter() - start
+
+
+def _versions() -> dict[str, str]:
+    return {
+        "farm": version("cable-farm"),
+        "blender": bpy.app.version_string,
+        "numpy": np.__version__,
+        "scipy": version("scipy"),
+        "opencv": version("opencv-contrib-python-headless"),
+    }
