@@ -21,6 +21,10 @@ DARK_BELOW = 0.25
 """Mean luminance below which surroundings count as dark. In scene-linear units, where a white sheet in full
 light is about 1; seen from a point, weighted by solid angle. Blender's night has 0.17, its sunset 0.49."""
 
+BACKDROP_ABOVE = 0.02
+"""Luminance of the horizon, as `horizon_luminance` has it, above which surroundings can be seen behind cables.
+Blender's night has 0.04; its studio, lamps in a black room, has 0.007 and would give black pictures."""
+
 NEGATIVE_TOLERANCE = 0.05
 """How far below 0 a value may lie, as a share of the mean luminance: lossy compression rings round bright lamps."""
 
@@ -41,6 +45,7 @@ class Hdri(BaseModel):
         path: The file.
         sha256: Its checksum.
         dark: Whether its mean luminance is below `DARK_BELOW`.
+        backdrop: Whether it can be seen behind cables: its horizon is brighter than `BACKDROP_ABOVE`.
         mean_luminance: Mean over the sphere, scene-linear.
     """
 
@@ -50,6 +55,7 @@ class Hdri(BaseModel):
     path: Path
     sha256: Checksum
     dark: bool
+    backdrop: bool
     mean_luminance: float = Field(gt=0, allow_inf_nan=False)
 
 
@@ -65,6 +71,7 @@ class RegistryEntry(BaseModel):
         source: Page of the original.
         source_certain: False where Blender's own note says "probably".
         dark: Whether its mean luminance is below `DARK_BELOW`.
+        backdrop: Whether it can be seen behind cables: its horizon is brighter than `BACKDROP_ABOVE`.
         mean_luminance: Mean over the sphere, scene-linear.
     """
 
@@ -78,6 +85,7 @@ class RegistryEntry(BaseModel):
     source: str = Field(pattern=r"^https://")
     source_certain: bool
     dark: bool
+    backdrop: bool
     mean_luminance: float = Field(gt=0, allow_inf_nan=False)
 
 
@@ -186,7 +194,30 @@ def read_hdri(path: Path) -> Hdri:
     lowest = float(pixels.min())
     if lowest < -NEGATIVE_TOLERANCE * mean:
         raise AssetError(f"{path}: holds negative light ({lowest:.4g}); export it again, clamped at 0")
-    return Hdri(name=path.stem, path=path, sha256=sha256(data), dark=mean < DARK_BELOW, mean_luminance=mean)
+    return Hdri(
+        name=path.stem,
+        path=path,
+        sha256=sha256(data),
+        dark=mean < DARK_BELOW,
+        backdrop=horizon_luminance(pixels) > BACKDROP_ABOVE,
+        mean_luminance=mean,
+    )
+
+
+def horizon_luminance(pixels: npt.NDArray[np.float32]) -> float:
+    """Geometric mean of the luminance within 30 degrees of the horizon: what a picture's background looks like.
+
+    The arithmetic mean would be that of a few lamps.
+
+    Args:
+        pixels: Equirectangular, shape (height, width, 3), linear, channels red green blue.
+
+    Returns:
+        Scene-linear luminance; values below 1e-4 count as that.
+    """
+    rows = len(pixels)
+    luminance = pixels[rows // 3 : rows - rows // 3] @ LUMINANCE
+    return float(np.exp(np.log(np.maximum(luminance, 1e-4)).mean()))
 
 
 def mean_luminance(pixels: npt.NDArray[np.float32]) -> float:
@@ -209,4 +240,11 @@ def _builtin(path: Path, entry: RegistryEntry) -> Hdri:
     checksum = sha256(read_bounded(path))
     if checksum != entry.sha256:
         raise AssetError(f"{path}: differs from the registry's checksum; install bpy 4.5 afresh")
-    return Hdri(name=entry.name, path=path, sha256=checksum, dark=entry.dark, mean_luminance=entry.mean_luminance)
+    return Hdri(
+        name=entry.name,
+        path=path,
+        sha256=checksum,
+        dark=entry.dark,
+        backdrop=entry.backdrop,
+        mean_luminance=entry.mean_luminance,
+    )

@@ -4,7 +4,7 @@
 a person changes something. Each class carries the exit code with which the command line ends.
 
 Exit codes: 0 done, 1 an unexpected error (a defect: please report it), 2 wrong usage (from the argument parser),
-and those below.
+128 + N stopped by signal N (130 by Ctrl-C, 143 by SIGTERM), and those below.
 """
 
 from typing import ClassVar

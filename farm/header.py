@@ -26,12 +26,18 @@ class TemplateRef(Model):
 
 
 class HdriRef(Model):
-    """An HDRI; `path` is None for one from Blender's own files. Only a `dark` one has its brightness drawn."""
+    """An HDRI; `path` is None for one from Blender's own files.
+
+    Attributes:
+        dark: its brightness is drawn.
+        backdrop: it can be seen behind cables; others only light them.
+    """
 
     name: str
     path: str | None
     sha256: Sha256
     dark: bool
+    backdrop: bool = True
 
 
 class BuiltinSurfaceRef(Model):

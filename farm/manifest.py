@@ -41,7 +41,8 @@ class SettleFigures(Model):
         pass_throughs: crossings whose order flipped between start and rest.
         speed_rms_mm_s: root mean square speed of the nodes at the end, in true time.
         speed_max_mm_s: fastest node at the end.
-        lowest_gap: smallest height of a cable's underside above its support at its lowest point, over the radius.
+        support_gap: smallest clearance of a cable to the floor or another cable, over its radius; the worst cable's.
+            Negative where it is pressed in.
     """
 
     frames: int
@@ -53,7 +54,7 @@ class SettleFigures(Model):
     pass_throughs: int
     speed_rms_mm_s: float
     speed_max_mm_s: float
-    lowest_gap: float
+    support_gap: float
 
 
 class RenderSettings(Model):

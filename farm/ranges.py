@@ -33,6 +33,9 @@ NotNegative = Annotated[float, Field(ge=0, le=1e5)]
 Level = Annotated[int, Field(ge=0, le=255)]
 CableCount = Annotated[int, Field(ge=1, le=8)]
 
+Bend = Annotated[float, Field(ge=-50, le=50)]
+BEND_KNOTS = 7
+
 Range = Annotated[tuple[float, float], AfterValidator(_in_order)]
 FractionRange = Annotated[tuple[Fraction, Fraction], AfterValidator(_in_order)]
 LengthRange = Annotated[tuple[Length, Length], AfterValidator(_in_order)]
@@ -63,7 +66,11 @@ class WindRanges(Model):
 
 
 class PlacementRanges(Model):
-    """Where the cables start. `length_m`, `drop_height_m` and `spacing_m` are ours."""
+    """Where the cables start, at stacked heights. `drop_height_m`, `spacing_m` and `bend_per_m` are ours.
+
+    `bend_per_m` is a cable's natural curvature, drawn at `BEND_KNOTS` points along it: what is left of the coil it
+    came from. The published cables start straight and are bent by the cloth's own drift.
+    """
 
     free_x_m: LengthRange = (-0.025, 0.025)
     free_y_m: LengthRange = (-0.035, 0.035)
@@ -74,6 +81,7 @@ class PlacementRanges(Model):
     aligned_deviation_deg: Range = (-10.0, 10.0)
     drop_height_m: Annotated[float, Field(ge=0, le=0.2)] = 0.004
     spacing_m: Annotated[float, Field(gt=0, le=0.1)] = 0.004
+    bend_per_m: Annotated[tuple[Bend, Bend], AfterValidator(_in_order)] = (-5.0, 5.0)
 
 
 class CableRanges(Model):

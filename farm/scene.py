@@ -1,6 +1,6 @@
 """One scene, drawn and not yet fallen: every random value of a picture, free of Blender.
 
-Lengths are metres, angles degrees, powers watts, colours 8-bit sRGB, unless a field says otherwise. World axes:
+Lengths are metres, angles degrees, powers watts, colours 8-bit levels of linear light, unless a field says otherwise. World axes:
 x right and y up in the picture, z towards the camera, the floor's surface at z = 0.
 """
 
@@ -29,7 +29,12 @@ class CableMaterial(Model):
 
 
 class Cable(Model):
-    """One cable before the fall: a straight rod whose middle is at (x, y, start_height_m)."""
+    """One cable before the fall: a level curve whose middle is at (x, y, start_height_m).
+
+    Attributes:
+        rotation_deg: mean bearing of the cable, counted from the x axis.
+        bends_per_m: its natural curvature in 1/m at equally spaced points from end to end; all 0 is straight.
+    """
 
     diameter_m: Annotated[float, Field(gt=0)]
     length_m: Annotated[float, Field(gt=0)]
@@ -37,6 +42,7 @@ class Cable(Model):
     y_m: float
     start_height_m: Annotated[float, Field(ge=0)]
     rotation_deg: float
+    bends_per_m: Annotated[tuple[float, ...], Field(min_length=2)]
     material: CableMaterial
 
 

@@ -39,7 +39,7 @@ class Fall(Model):
 
     max_frames: Annotated[int, Field(ge=10, le=2000)] = 250
     quality: Annotated[int, Field(ge=1, le=80)] = 10
-    collision_quality: Annotated[int, Field(ge=1, le=20)] = 4
+    collision_quality: Annotated[int, Field(ge=1, le=20)] = 8
     max_attempts: Annotated[int, Field(ge=1, le=50)] = 8
 
 

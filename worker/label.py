@@ -78,7 +78,7 @@ def label_cables(curves: list[Points], radii_m: NDArray[np.float64], view: View)
     fixed = np.round((polygons * SUBPIXELS - 0.5) * 2**_FRACTION_BITS).astype(np.int32)
     for k in np.argsort(heights, kind="stable"):
         if seen[k]:
-            cv2.fillConvexPoly(canvas, fixed[k], int(cables[k]) + 1, cv2.LINE_8, _FRACTION_BITS)
+            cv2.fillConvexPoly(canvas, fixed[k], (float(cables[k] + 1),), cv2.LINE_8, _FRACTION_BITS)
     return _downsample(canvas, len(pieces), view.resolution)
 
 
@@ -132,7 +132,5 @@ def _downsample(canvas: NDArray[np.uint8], cables: int, resolution: int) -> Labe
 
 
 def _coverage(subpixels: NDArray[np.bool_], resolution: int) -> NDArray[np.float32]:
-    share: NDArray[np.float32] = cv2.resize(
-        subpixels.astype(np.float32), (resolution, resolution), interpolation=cv2.INTER_AREA
-    )
-    return share
+    share = cv2.resize(subpixels.astype(np.float32), (resolution, resolution), interpolation=cv2.INTER_AREA)
+    return share.astype(np.float32, copy=False)

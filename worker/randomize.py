@@ -183,7 +183,8 @@ def _draw_lamp(ranges: LampRanges, rng: np.random.Generator) -> PointLamp | Area
 
 def _draw_world(header: DatasetHeader, background: Background, rng: np.random.Generator) -> HdriWorld:
     ranges = header.spec.ranges.world
-    drawn = header.hdris[int(rng.integers(len(header.hdris)))]
+    backdrops = [hdri for hdri in header.hdris if hdri.backdrop] or list(header.hdris)
+    drawn = backdrops[int(rng.integers(len(backdrops)))]
     rotation = _uniform(rng, ranges.rotation_deg)
     brightness = _uniform(rng, ranges.dark_brightness)
     tilt = float(ranges.close_tilts_deg[int(rng.integers(len(ranges.close_tilts_deg)))])

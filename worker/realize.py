@@ -98,6 +98,8 @@ def _set_floor(floor: Floor | None, library: AssetLibrary, shelf: ImageShelf, *,
         nodes[names.FLOOR_ROUGHNESS].image = shelf.constant(UNSEEN_FLOOR)
         nodes[names.FLOOR_METALLIC].image = shelf.constant(0.0)
         nodes[names.FLOOR_NORMAL].image = shelf.flat_normal()
+        # The map's tangents reach the last bit of the light that the floor throws back, so none may be left over.
+        _place_texture(floor_object.data, UNTEXTURED, 1.0)
         return
     files = library.surface(floor.texture)
     nodes[names.FLOOR_COLOUR].image = shelf.load(files.colour, colour=True)
@@ -115,6 +117,8 @@ def _set_floor(floor: Floor | None, library: AssetLibrary, shelf: ImageShelf, *,
 
 UNSEEN_FLOOR = 0.4
 """Albedo and roughness of a floor that only throws light back at the cables."""
+
+UNTEXTURED = Floor(texture="", offset_x=0.0, offset_y=0.0, rotation_deg=0.0, scale=1.0)
 
 
 def _place_texture(mesh: Any, floor: Floor, size_m: float) -> None:

@@ -104,5 +104,4 @@ def render_picture() -> NDArray[np.uint8]:
         pixels = cv2.imread(str(target), cv2.IMREAD_COLOR)
     if pixels is None:
         raise RenderError("Blender ended a render without writing a picture; see the worker's log")
-    rgb: NDArray[np.uint8] = cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB)
-    return rgb
+    return cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB).astype(np.uint8, copy=False)

@@ -30,13 +30,14 @@ def panorama(path: Path, pixels: npt.NDArray[np.float32] | None = None) -> Path:
 
 @needs_bpy
 def test_the_registry_agrees_with_the_installed_files() -> None:
-    """Checksums, measured light and darkness of all eight are as the registry says."""
+    """Checksums, measured light and darkness of all eight are as the registry says, and which can be a background."""
     assert len(registry()) == 8
     for entry in registry():
         measured = read_hdri(world_directory() / entry.file)
         assert measured.sha256 == entry.sha256
         assert measured.mean_luminance == pytest.approx(entry.mean_luminance, abs=1e-4)
         assert measured.dark == entry.dark
+        assert measured.backdrop == entry.backdrop
 
 
 @needs_bpy
@@ -57,10 +58,11 @@ def test_the_licence_note_names_the_registered_sources() -> None:
 
 @needs_bpy
 def test_builtin_hdris_come_with_their_paths() -> None:
-    """All eight, existing, of which the night is dark."""
+    """All eight, existing; the night is dark, the studio's horizon black."""
     found = builtin_hdris()
     assert all(entry.path.is_file() for entry in found)
     assert [entry.name for entry in found if entry.dark] == ["night"]
+    assert [entry.name for entry in found if not entry.backdrop] == ["studio"]
 
 
 @needs_bpy

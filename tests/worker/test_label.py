@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from worker.label import View, label_cables
 from worker.shapes import Points
@@ -17,13 +18,13 @@ def bar(angle_deg: float = 0.0, z: float = RADIUS, shift: float = 0.0, length: f
     return np.stack([s * np.cos(a) - shift * np.sin(a), s * np.sin(a) + shift * np.cos(a), np.full_like(s, z)], axis=1)
 
 
-def label(*curves: Points) -> tuple[np.ndarray, np.ndarray]:
+def label(*curves: Points) -> tuple[NDArray[np.uint8], NDArray[np.uint16]]:
     """Mask and instances of cables of one radius."""
     labels = label_cables(list(curves), np.full(len(curves), RADIUS), VIEW)
     return labels.mask, labels.instances
 
 
-@pytest.mark.parametrize("angle", [10.0, 17.0, 45.0, 80.0])
+@pytest.mark.parametrize("angle", [10.0, 17.0, 35.0, 80.0])
 def test_the_area_of_a_straight_cable_is_its_width_times_its_length(angle: float) -> None:
     """Width of a cylinder of radius r seen from distance d: f 2 r / sqrt(d^2 - r^2), within 2 % (0.15 px)."""
     mask, _ = label(bar(angle))

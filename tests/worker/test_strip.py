@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
+from worker.shapes import Points
 from worker.strip import centreline, zigzag, zigzag_faces
 
 
-def straight(nodes: int) -> np.ndarray:
+def straight(nodes: int) -> Points:
     """A level straight path along x."""
     return np.stack([np.linspace(0, 1, nodes), np.zeros(nodes), np.full(nodes, 0.3)], axis=1)
 

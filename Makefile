@@ -1,0 +1,56 @@
+# Targets are plain words; `make` alone lists them. Nothing but Debian's packages is needed before any of them.
+SHELL := /bin/sh
+PYTHON ?= python3.11
+VENV := .venv
+BIN := $(VENV)/bin
+WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
+
+.DEFAULT_GOAL := help
+.PHONY: help setup demo test lint bench masks flower template clean
+
+help: ## list the targets
+	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
+
+$(VENV)/installed: pyproject.toml constraints.txt docker/debian-packages.txt
+	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
+	    { echo "Python 3.11 with venv is missing; on Debian 12: apt-get install -y python3.11-venv"; exit 1; }
+	@docker/missing-packages.sh docker/debian-packages.txt
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[worker,local,flower,dev]'
+	@touch $@
+
+setup: $(VENV)/installed ## make .venv and install the pinned dependencies
+
+demo: setup ## render 12 pictures, two of each category, into demo/
+	$(BIN)/farm assets build
+	$(BIN)/farm run --spec examples/demo.toml --out demo --workers $(WORKERS)
+	@echo "Pictures: $(CURDIR)/demo/<category>/images"
+	@echo "Report:   $(CURDIR)/demo/report.html"
+
+test: setup ## lint, check types, run the whole test suite
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/pytest
+
+lint: setup ## lint and check types only
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+bench: setup ## seconds per stage and category; writes bench/stages.json and .png
+	$(BIN)/farm assets build
+	$(BIN)/python -m worker.bench stages --out bench
+
+masks: setup ## masks against Cycles renders of 1,024 samples; writes bench/masks.json
+	$(BIN)/farm assets build
+	$(BIN)/python -m worker.bench masks --out bench
+
+flower: setup ## watch the tasks of a farm in the browser (FARM_BROKER_URL)
+	$(BIN)/farm flower
+
+template: setup ## build blend/template.blend afresh
+	$(BIN)/python -m blend.build
+
+clean: ## remove what the other targets made
+	rm -rf $(VENV) demo bench .pytest_cache .mypy_cache .ruff_cache .hypothesis

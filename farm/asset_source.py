@@ -1,0 +1,52 @@
+"""The surfaces and HDRIs of this machine, as a dataset's header names them."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from assets.hdris import registry, scan_hdris
+from assets.surfaces.catalogue import SURFACES
+from assets.textures import TextureSet, scan_textures
+from farm.header import BuiltinSurfaceRef, FileRef, FolderSurfaceRef, HdriRef
+
+
+class InstalledAssets:
+    """Implements `farm.catalogue.AssetSource` over the `assets` package."""
+
+    def builtin_surfaces(self) -> Sequence[BuiltinSurfaceRef]:
+        """See `AssetSource.builtin_surfaces`."""
+        return [BuiltinSurfaceRef(name=recipe.name, recipe_version=recipe.version) for recipe in SURFACES.values()]
+
+    def surfaces_in(self, folder: Path) -> Sequence[FolderSurfaceRef]:
+        """See `AssetSource.surfaces_in`."""
+        return [_surface(texture) for texture in scan_textures(folder)]
+
+    def builtin_hdris(self) -> Sequence[HdriRef]:
+        """See `AssetSource.builtin_hdris`. Told by the registry, as a coordinator may be without Blender's files."""
+        return [
+            HdriRef(name=hdri.name, path=None, sha256=hdri.sha256, dark=hdri.dark, backdrop=hdri.backdrop)
+            for hdri in registry()
+        ]
+
+    def hdris_in(self, folder: Path) -> Sequence[HdriRef]:
+        """See `AssetSource.hdris_in`."""
+        return [
+            HdriRef(
+                name=hdri.name,
+                path=str(hdri.path.resolve()),
+                sha256=hdri.sha256,
+                dark=hdri.dark,
+                backdrop=hdri.backdrop,
+            )
+            for hdri in scan_hdris(folder)
+        ]
+
+
+def _surface(texture: TextureSet) -> FolderSurfaceRef:
+    return FolderSurfaceRef(
+        name=texture.name,
+        files={
+            entry.role.value: FileRef(path=str(entry.path.resolve()), sha256=entry.sha256) for entry in texture.maps
+        },
+        flip_green=texture.flip_green,
+        gloss=texture.invert_roughness,
+    )

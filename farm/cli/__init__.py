@@ -1,0 +1,70 @@
+"""The command line. Each command has a module of its own; failures that the farm foresees end in one line."""
+
+import signal
+import sys
+from types import FrameType
+from typing import Annotated
+
+import typer
+
+from farm import __version__
+from farm.cli.assets import assets_app
+from farm.cli.doctor import doctor
+from farm.cli.flower import flower
+from farm.cli.preview import preview
+from farm.cli.report import report
+from farm.cli.run import run
+from farm.cli.status import status, watch
+from farm.cli.submit import submit
+from farm.cli.verify import verify
+from farm.cli.worker import worker
+from farm.errors import FarmError
+
+app = typer.Typer(
+    name="farm",
+    help="A render farm that makes labelled pictures of cables for training robots.",
+    no_args_is_help=True,
+    add_completion=False,
+    # A traceback of a defect belongs to its report whole, and without the values of variables.
+    pretty_exceptions_enable=False,
+)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(__version__)
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and end.")
+    ] = False,
+) -> None:
+    """The options of the program itself; its help is the application's."""
+
+
+for command in (run, submit, worker, status, watch, verify, report, preview, doctor, flower):
+    app.command()(command)
+app.add_typer(assets_app, name="assets")
+
+
+def end_on_signals() -> None:
+    """Let SIGTERM and SIGHUP end this process by an exception: it unwinds every `with`, which ends what was started."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _end)
+
+
+def _end(number: int, _frame: FrameType | None) -> None:
+    sys.exit(128 + number)
+
+
+def main() -> None:
+    """Run the command line; see `farm.errors` for the exit codes."""
+    end_on_signals()
+    try:
+        app()
+    except FarmError as error:
+        sys.stderr.write(f"farm: {error}\n")
+        sys.exit(error.exit_code)

@@ -1,0 +1,63 @@
+"""`farm assets`: the built-in surfaces and HDRIs, and checking one's own."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.table import Table
+
+from assets.bake import load_baked, surface_directory
+from assets.hdris import registry
+from assets.surfaces.catalogue import SURFACES
+from farm.asset_source import InstalledAssets
+from farm.cli.baking import bake
+from farm.cli.display import console
+from farm.cli.options import Assets
+from farm.errors import AssetError, SpecError
+
+assets_app = typer.Typer(no_args_is_help=True, help="The built-in surfaces and HDRIs, and checking your own.")
+
+
+@assets_app.command("list")
+def list_assets(assets: Assets = None) -> None:
+    """List the built-in surfaces and HDRIs."""
+    folder = assets or surface_directory()
+    try:
+        baked = set(load_baked(folder))
+    except AssetError:
+        baked = set()
+    surfaces = Table("surface", "made of", "edge", "drawn", box=None, pad_edge=False)
+    for recipe in SURFACES.values():
+        drawn = "yes" if recipe.name in baked else "not yet"
+        surfaces.add_row(recipe.name, recipe.family, f"{recipe.size_m * 100:.0f} cm", drawn)
+    hdris = Table("HDRI", "licence", "author", "source", box=None, pad_edge=False)
+    for hdri in registry():
+        hdris.add_row(hdri.name, hdri.licence, hdri.author, hdri.source)
+    screen = console(results=True)
+    screen.print(surfaces)
+    screen.print()
+    screen.print(hdris)
+
+
+@assets_app.command()
+def build(assets: Assets = None) -> None:
+    """Draw every built-in surface that is not on this machine yet."""
+    baked = bake(SURFACES, assets, console())
+    typer.echo(f"{len(baked.surfaces)} surfaces in {baked.directory}, {len(baked.drawn)} of them drawn now")
+
+
+@assets_app.command()
+def check(
+    textures: Annotated[list[Path] | None, typer.Option(metavar="DIR", help="Folder of PBR textures.")] = None,
+    hdris: Annotated[list[Path] | None, typer.Option(metavar="DIR", help="Folder of .hdr and .exr files.")] = None,
+) -> None:
+    """Check your own textures and HDRIs before a dataset uses them."""
+    if not textures and not hdris:
+        raise SpecError("name a folder to check: --textures DIR or --hdris DIR")
+    source = InstalledAssets()
+    for folder in textures or ():
+        for surface in source.surfaces_in(folder):
+            typer.echo(f"surface {surface.name}: {', '.join(surface.files)}")
+    for folder in hdris or ():
+        for hdri in source.hdris_in(folder):
+            typer.echo(f"HDRI {hdri.name}: {'dark' if hdri.dark else 'bright'}")

@@ -1,0 +1,148 @@
+"""The options that several commands share, declared once."""
+
+import functools
+import inspect
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from farm.description import Description, describe, parse_quotas
+from farm.errors import SpecError
+from farm.spec import Engine, Quality
+
+_DATASET = "What to make"
+
+
+class DeviceChoice(StrEnum):
+    """Where Cycles renders."""
+
+    AUTO = "auto"
+    CPU = "cpu"
+    OPTIX = "optix"
+    CUDA = "cuda"
+    HIP = "hip"
+    ONEAPI = "oneapi"
+
+
+Broker = Annotated[
+    str | None,
+    typer.Option(help="The Redis: redis://HOST:PORT/NUMBER. Default: FARM_BROKER_URL, else redis://localhost:6379/0."),
+]
+DatasetPlace = Annotated[str, typer.Argument(metavar="DATASET", help="The dataset's folder or URL.")]
+Out = Annotated[str, typer.Option("--out", help="The dataset's folder or URL; made if it is not there.")]
+Device = Annotated[DeviceChoice, typer.Option(help="Where Cycles renders; auto takes a GPU if there is one.")]
+Assets = Annotated[
+    Path | None, typer.Option("--assets", envvar="FARM_ASSETS", help="Folder of the baked surfaces; a default one.")
+]
+Logs = Annotated[Path | None, typer.Option("--logs", envvar="FARM_LOGS", help="Folder for what Blender prints.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
+
+
+def log_folder(given: Path | None) -> Path:
+    """The folder given, else the user's folder for programs' state."""
+    if given is not None:
+        return given.resolve()
+    state = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
+    return Path(state) / "cable-farm" / "logs"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DatasetOptions:
+    """The options that describe a dataset; every field is one, with its help."""
+
+    spec_file: Annotated[
+        Path | None, typer.Argument(metavar="[SPEC.toml]", help="The dataset's description.", show_default=False)
+    ] = None
+    spec: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="The same, as an option.", rich_help_panel=_DATASET)
+    ] = None
+    images: Annotated[
+        int | None, typer.Option(help="Images in all, split 2:2:1:1:2:2 as published.", rich_help_panel=_DATASET)
+    ] = None
+    quota: Annotated[
+        list[str] | None,
+        typer.Option(metavar="CATEGORY=NUMBER", help="Images of one category; repeat it.", rich_help_panel=_DATASET),
+    ] = None
+    seed: Annotated[int | None, typer.Option(help="Decides every random value.", rich_help_panel=_DATASET)] = None
+    resolution: Annotated[int | None, typer.Option(help="Edge of a picture, px.", rich_help_panel=_DATASET)] = None
+    engine: Annotated[Engine | None, typer.Option(help="Render engine.", rich_help_panel=_DATASET)] = None
+    quality: Annotated[Quality | None, typer.Option(help="Time against noise.", rich_help_panel=_DATASET)] = None
+    template: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Your own .blend template.", rich_help_panel=_DATASET)
+    ] = None
+    textures: Annotated[
+        list[Path] | None,
+        typer.Option(metavar="DIR", help="Folder of PBR textures to add; repeat it.", rich_help_panel=_DATASET),
+    ] = None
+    hdris: Annotated[
+        list[Path] | None,
+        typer.Option(metavar="DIR", help="Folder of .hdr and .exr files to add; repeat it.", rich_help_panel=_DATASET),
+    ] = None
+    no_builtin_textures: Annotated[
+        bool, typer.Option("--no-builtin-textures", help="Leave our surfaces out.", rich_help_panel=_DATASET)
+    ] = False
+    no_builtin_hdris: Annotated[
+        bool, typer.Option("--no-builtin-hdris", help="Leave Blender's HDRIs out.", rich_help_panel=_DATASET)
+    ] = False
+    close_distributed_hdri: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="The one HDRI over a floor in its light.", rich_help_panel=_DATASET),
+    ] = None
+
+    def describe(self, **override: object) -> Description:
+        """What the options and the file they name describe.
+
+        Args:
+            override: keys of the description that the command itself decides.
+
+        Raises:
+            SpecError: with the option or key, and what was wrong with it.
+        """
+        if self.spec_file is not None and self.spec is not None:
+            raise SpecError("name one file that describes the dataset, not two")
+        if self.images is not None and self.quota:
+            raise SpecError("give either --images or --quota, not both")
+        flags: dict[str, object] = {
+            name: getattr(self, name)
+            for name in ("images", "seed", "resolution", "engine", "quality", "close_distributed_hdri")
+            if getattr(self, name) is not None
+        }
+        if self.quota:
+            flags["quotas"] = parse_quotas(self.quota)
+        inputs: dict[str, object] = {}
+        if self.template is not None:
+            inputs["template"] = self.template
+        if self.textures:
+            inputs["textures"] = tuple(self.textures)
+        if self.hdris:
+            inputs["hdris"] = tuple(self.hdris)
+        if self.no_builtin_textures:
+            inputs["builtin_textures"] = False
+        if self.no_builtin_hdris:
+            inputs["builtin_hdris"] = False
+        return describe(self.spec_file or self.spec, {**flags, **override}, inputs)
+
+
+def takes_dataset_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command, whose first parameter is `DatasetOptions`, all of their fields as options of its own."""
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    own = [parameter.replace(kind=keyword) for parameter in list(inspect.signature(command).parameters.values())[1:]]
+    shared = [
+        inspect.Parameter(field.name, keyword, default=field.default, annotation=field.type)
+        for field in fields(DatasetOptions)
+    ]
+
+    @functools.wraps(command)
+    def with_options(**values: Any) -> None:
+        options = DatasetOptions(**{parameter.name: values.pop(parameter.name) for parameter in shared})
+        command(options, **values)
+
+    # Typer reads the signature and the annotations; both must be the merged ones.
+    with_options.__signature__ = inspect.Signature([*shared, *own])  # type: ignore[attr-defined]  # read by inspect
+    with_options.__annotations__ = {parameter.name: parameter.annotation for parameter in [*shared, *own]}
+    return with_options

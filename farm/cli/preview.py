@@ -1,0 +1,49 @@
+"""`farm preview`: one picture, now, without queue or dataset."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from farm.asset_source import InstalledAssets
+from farm.catalogue import make_header
+from farm.category import Category
+from farm.cli.baking import bake_for
+from farm.cli.display import console
+from farm.cli.options import Assets, DatasetOptions, Device, DeviceChoice, Logs, log_folder, takes_dataset_options
+from farm.cli.worker_program import ask_worker, require_blender
+from farm.errors import DestinationError, SpecError
+from farm.job import Job
+
+
+@takes_dataset_options
+def preview(
+    options: DatasetOptions,
+    category: Annotated[Category, typer.Option(help="What kind of picture.", show_default=False)],
+    index: Annotated[int, typer.Option(min=0, help="Which of its pictures.")] = 0,
+    out: Annotated[Path, typer.Option(help="The picture; its mask goes beside it.")] = Path("preview.png"),
+    device: Device = DeviceChoice.AUTO,
+    threads: Annotated[int, typer.Option(min=0, help="Of the renderer; 0: all cores.")] = 0,
+    assets: Assets = None,
+    logs: Logs = None,
+) -> None:
+    """Make one picture as it would be in the dataset described, and its mask."""
+    if options.images is not None or options.quota:
+        raise SpecError("farm preview makes one image: leave --images and --quota out")
+    if out.suffix != ".png":
+        raise DestinationError(f"{out}: a preview is a PNG; let its name end in .png")
+    if not out.parent.is_dir():
+        raise DestinationError(f"{out}: there is no folder {out.parent}; make it first")
+    description = options.describe(quotas={str(category): index + 1})
+    header = make_header(description.spec, description.inputs, InstalledAssets())
+    require_blender()
+    bake_for(header, assets, console())
+    job = Job(category=category, index=index)
+    mask = out.with_name(f"{out.stem}-mask.png")
+    arguments = ["preview", "--job", job.id, "--out", str(out), "--mask", str(mask)]
+    arguments += ["--device", device, "--threads", str(threads)]
+    if assets is not None:
+        arguments += ["--assets", str(assets)]
+    with console().status(f"making {job.id}"):
+        ask_worker(arguments, header, log_folder(logs))
+    typer.echo(f"{out} and {mask}")

@@ -1,0 +1,69 @@
+"""`farm run`: a dataset, made on this machine, with nothing installed or left running."""
+
+import os
+from typing import Annotated
+
+import typer
+
+from farm.asset_source import InstalledAssets
+from farm.catalogue import make_header
+from farm.cli.baking import bake_for
+from farm.cli.display import ProgressDisplay, console
+from farm.cli.options import Assets, DatasetOptions, Device, DeviceChoice, Logs, Out, log_folder, takes_dataset_options
+from farm.cli.worker_program import ask_worker, require_blender
+from farm.collect import write_index
+from farm.dataset import Destination, find_dataset, open_dataset, parse_destination
+from farm.errors import IncompleteError
+from farm.layout import REPORT_FILE
+from farm.local.run import LocalRun, run_locally
+from farm.report import write_report
+
+
+@takes_dataset_options
+def run(
+    options: DatasetOptions,
+    out: Out,
+    workers: Annotated[int, typer.Option(min=1, max=256, help="Processes, each with a Blender of its own.")] = 2,
+    device: Device = DeviceChoice.AUTO,
+    assets: Assets = None,
+    logs: Logs = None,
+) -> None:
+    """Make a dataset here and now, with a private Redis and workers that end with it.
+
+    Repeat the command to complete a dataset that was interrupted.
+    """
+    destination = parse_destination(out)
+    description = options.describe()
+    header = make_header(description.spec, description.inputs, InstalledAssets())
+    require_blender()
+    find_dataset(destination, header)  # a conflict is told before the minutes that drawing surfaces may take
+    screen = console()
+    bake_for(header, assets, screen)
+    if description.inputs.template is not None:
+        ask_worker(["check"], header, log_folder(logs))
+    how = LocalRun(
+        workers=workers,
+        device=device,
+        threads=max(1, (os.cpu_count() or 1) // workers),
+        assets=assets,
+        logs=log_folder(logs),
+    )
+    with ProgressDisplay(screen) as display:
+        try:
+            progress = run_locally(destination, header, how, display.show)
+        except IncompleteError:
+            # What is there is worth a look, too.
+            screen.print(f"the workers' logs are in {how.logs}", markup=False)
+            _collect(destination)
+            raise
+        except (KeyboardInterrupt, SystemExit):
+            screen.print("stopped; repeat the command to make what is missing")
+            raise
+    _collect(destination)
+    typer.echo(f"{progress.done} images in {progress.location}; look at {progress.location}/{REPORT_FILE}")
+
+
+def _collect(destination: Destination) -> None:
+    dataset = open_dataset(destination)
+    write_index(dataset)
+    write_report(dataset)

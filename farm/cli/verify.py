@@ -1,0 +1,43 @@
+"""`farm verify`: every file against its manifest."""
+
+from collections import Counter
+
+import typer
+from rich.progress import Progress
+
+from farm.cli.display import console
+from farm.cli.options import AsJson, DatasetPlace
+from farm.dataset import open_dataset, parse_destination
+from farm.errors import VerificationError
+from farm.verify import Verdict
+from farm.verify import verify as verify_dataset
+
+_SHOWN = 50
+
+
+def verify(place: DatasetPlace, as_json: AsJson = False) -> None:
+    """Check every file's size, checksum and pixels; list what is missing, extra, truncated or altered."""
+    dataset = open_dataset(parse_destination(place))
+    screen = console()
+    with Progress(console=screen, disable=not screen.is_terminal, transient=True) as bar:
+        task = bar.add_task("checking", total=dataset.header.spec.total)
+        verdict = verify_dataset(dataset, lambda count: bar.update(task, completed=count))
+    if as_json:
+        typer.echo(verdict.model_dump_json(indent=1))
+    if not verdict.clean:
+        raise VerificationError(_summary(verdict, listed=not as_json))
+    if not as_json:
+        typer.echo(f"{verdict.location}: {verdict.images} images, every file as its manifest tells")
+
+
+def _summary(verdict: Verdict, *, listed: bool) -> str:
+    counts = Counter(finding.fault for finding in verdict.findings)
+    words = ", ".join(f"{count} {fault}" for fault, count in counts.items())
+    remedy = "remove the altered and extra files, then run or submit it again to make what is missing"
+    lines = [f"{verdict.location}: {words}; {verdict.images} of {verdict.quota} images are as they should be; {remedy}"]
+    if listed:
+        findings = verdict.findings
+        lines += [f"  {finding.fault}: {finding.path} ({finding.detail})" for finding in findings[:_SHOWN]]
+        if len(findings) > _SHOWN:
+            lines.append(f"  and {len(findings) - _SHOWN} more; --json lists all")
+    return "\n".join(lines)

@@ -1,0 +1,45 @@
+"""`farm worker`: take jobs and make their pictures until told to stop."""
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from assets.surfaces.catalogue import SURFACES
+from farm.cli.baking import bake
+from farm.cli.display import console
+from farm.cli.options import Assets, Broker, Device, DeviceChoice, Logs, log_folder
+from farm.cli.worker_program import become_worker, require_blender
+from farm.queue.broker import broker_url, connect
+from farm.queue.settings import MEMORY_PER_CHILD_KIB, TASKS_PER_CHILD
+
+
+def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
+    store: Annotated[
+        str, typer.Option(envvar="FARM_STORE", help="Folder or URL below which the datasets lie.", show_default=False)
+    ],
+    broker: Broker = None,
+    device: Device = DeviceChoice.AUTO,
+    threads: Annotated[int, typer.Option(min=0, help="Of the renderer; 0: all cores.")] = 0,
+    concurrency: Annotated[int, typer.Option(min=1, help="Pictures at a time, each with a Blender of its own.")] = 1,
+    name: Annotated[str | None, typer.Option(help="Unique on this host; Flower shows it.")] = None,
+    tasks_per_child: Annotated[int, typer.Option(min=1, help="A Blender is replaced after so many.")] = TASKS_PER_CHILD,
+    memory_per_child_mib: Annotated[
+        int, typer.Option(min=256, help="A Blender is replaced above this.")
+    ] = MEMORY_PER_CHILD_KIB // 1024,
+    assets: Assets = None,
+    logs: Logs = None,
+) -> None:
+    """Make pictures for the datasets of a store until stopped; Ctrl-C lets the running one end."""
+    require_blender()
+    url = broker_url(broker)
+    connect(url).close()
+    bake(SURFACES, assets, console())
+    arguments = ["serve", "--store", store if "://" in store else str(Path(store).expanduser().resolve())]
+    arguments += ["--name", name or f"worker-{os.getpid()}", "--device", device, "--threads", str(threads)]
+    arguments += ["--concurrency", str(concurrency), "--tasks-per-child", str(tasks_per_child)]
+    arguments += ["--memory-per-child-kib", str(memory_per_child_mib * 1024), "--logs", str(log_folder(logs))]
+    if assets is not None:
+        arguments += ["--assets", str(assets)]
+    become_worker(arguments, url)

@@ -1,0 +1,101 @@
+"""What every ledger offers. Losing one loses nothing that the folder and a new submission don't restore."""
+
+from collections.abc import Callable, Mapping
+from typing import Protocol
+
+from farm.category import Category
+from farm.model import Model
+
+CLAIM_S = 60.0
+"""A claim that is not refreshed for this long is void, in seconds."""
+
+RECENT_COMPLETIONS = 200
+"""The rate is taken over at most this many pictures..."""
+
+RECENT_S = 3600.0
+"""...of the last hour, so that yesterday's run does not slow today's."""
+
+RETRY_OWNER = ""
+"""Holds a job that waits for its next attempt; anyone may take it over."""
+
+
+class Activity(Model):
+    """How the work goes.
+
+    Attributes:
+        images_per_hour: over the recent completions; None before the first two.
+        last_picture: path of the newest picture below the dataset's folder.
+        done: pictures made since the ledger began, by category.
+    """
+
+    images_per_hour: float | None
+    last_picture: str | None
+    done: Mapping[Category, int]
+
+
+class Ledger(Protocol):
+    """The ledger of one dataset. Every method may raise BrokerError."""
+
+    def claim(self, job_id: str, owner: str, ttl_s: float = CLAIM_S) -> int | None:
+        """Claim a job for `ttl_s` seconds.
+
+        Returns:
+            Which attempt at the job this is, from 1, or None if another owner has it.
+        """
+        ...
+
+    def refresh(self, job_id: str, owner: str, ttl_s: float = CLAIM_S) -> bool:
+        """Hold a claim for another `ttl_s` seconds; False if it is no longer the owner's."""
+        ...
+
+    def release(self, job_id: str, owner: str) -> None:
+        """Give a claim up, if it is the owner's."""
+        ...
+
+    def postpone(self, job_id: str, owner: str, delay_s: float) -> None:
+        """Turn the owner's claim into one that anyone may take over, and that lapses after `delay_s` seconds."""
+        ...
+
+    def claims(self) -> Mapping[str, str]:
+        """The live claims: job id to owner."""
+        ...
+
+    def record_done(self, job_id: str, category: Category, picture: str) -> None:
+        """Count a finished job, and forget its attempts and failure."""
+        ...
+
+    def record_failure(self, job_id: str, reason: str) -> None:
+        """Note that a job failed for good, with a one-line reason."""
+        ...
+
+    def failures(self) -> Mapping[str, str]:
+        """The jobs that failed for good: id to reason."""
+        ...
+
+    def forget_failures(self) -> None:
+        """Give every failed job a fresh set of attempts."""
+        ...
+
+    def activity(self) -> Activity:
+        """How the work goes."""
+        ...
+
+
+LedgerFactory = Callable[[str, str], Ledger]
+"""Opens the ledger of a dataset by its name and the fingerprint of its description."""
+
+
+def images_per_hour(finished_s: list[float], now_s: float) -> float | None:
+    """The rate over recent completions.
+
+    Args:
+        finished_s: when pictures were finished, in seconds of the Unix epoch, in any order.
+        now_s: the time now.
+
+    Returns:
+        None if fewer than two are recent.
+    """
+    recent = sorted(moment for moment in finished_s if now_s - moment <= RECENT_S)
+    if len(recent) < 2 or now_s <= recent[0]:
+        return None
+    return (len(recent) - 1) / (now_s - recent[0]) * 3600.0

@@ -1,0 +1,27 @@
+"""Ending processes that lead a group of their own."""
+
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+
+
+def stop(processes: Sequence["subprocess.Popen[bytes]"], grace_s: float) -> None:
+    """End processes and all of their groups: ask, wait at most `grace_s` seconds for all, then kill."""
+    for process in processes:
+        _signal_group(process, signal.SIGTERM)
+    give_up_s = time.monotonic() + grace_s
+    for process in processes:
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(timeout=max(0.0, give_up_s - time.monotonic()))
+    for process in processes:
+        _signal_group(process, signal.SIGKILL)
+        process.wait()
+
+
+def _signal_group(process: "subprocess.Popen[bytes]", number: signal.Signals) -> None:
+    # The group outlives its leader where a child of it still runs, so it is signalled whether the leader lives or not.
+    with suppress(ProcessLookupError, PermissionError):
+        os.killpg(process.pid, number)

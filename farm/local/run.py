@@ -1,0 +1,74 @@
+"""`farm run`: the whole path on this machine, from a header to a finished dataset."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from farm.coordinator import Coordinator
+from farm.dataset import Destination, create_dataset
+from farm.header import DatasetHeader
+from farm.ledger.redis import RedisLedger
+from farm.local.redis_server import private_redis
+from farm.local.workers import WORKER_COMMAND, LocalWorkers, WorkerOptions
+from farm.progress import Progress
+from farm.queue.broker import connect
+from farm.queue.celery import CeleryQueue
+from farm.queue.settings import make_app
+
+
+@dataclass(frozen=True, slots=True)
+class LocalRun:
+    """How the machine is used.
+
+    Attributes:
+        workers: processes, each with a Blender.
+        device: where Cycles renders.
+        threads: of each worker's renderer.
+        assets: folder of baked surfaces; None for the default one.
+        logs: folder for the workers' logs.
+        worker_command: the program that is a worker.
+        lost_after_s: see `farm.coordinator.LOST_AFTER_S`.
+    """
+
+    workers: int
+    device: str
+    threads: int
+    assets: Path | None
+    logs: Path
+    worker_command: Sequence[str] = WORKER_COMMAND
+    lost_after_s: float = 10.0
+
+
+def run_locally(
+    destination: Destination,
+    header: DatasetHeader,
+    how: LocalRun,
+    on_progress: Callable[[Progress], None] = lambda _: None,
+) -> Progress:
+    """Make the dataset here; everything started is gone when this returns or raises.
+
+    Raises:
+        ConflictError: if the place holds something else.
+        DestinationError: if it can't be written.
+        EnvironmentMissingError: if this machine lacks what is needed.
+        IncompleteError: if images failed for good.
+    """
+    with private_redis() as url:
+        dataset = create_dataset(destination, header)
+        client = connect(url)
+        ledger = RedisLedger(client, dataset.name, header.spec_sha256)
+        coordinator = Coordinator(
+            dataset, ledger, CeleryQueue(make_app(url), client), lost_after_s=how.lost_after_s, poll_s=0.5
+        )
+        if coordinator.submit_missing() == 0:
+            return coordinator.watch(on_progress, mend=False)
+        options = WorkerOptions(
+            store=destination.store,
+            broker_url=url,
+            device=how.device,
+            threads=how.threads,
+            assets=how.assets,
+            logs=how.logs,
+        )
+        with LocalWorkers(how.workers, options, how.worker_command) as workers:
+            return coordinator.watch(on_progress, supervise=workers.supervise)

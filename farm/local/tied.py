@@ -1,0 +1,44 @@
+"""Ties a process to its parent's life. As a program: `python -m farm.local.tied PARENT PROGRAM ARGUMENTS...`.
+
+A coordinator killed by SIGKILL can't stop its children; Linux does it, where asked. Elsewhere nothing is done.
+"""
+
+import ctypes
+import os
+import signal
+import sys
+
+_PR_SET_PDEATHSIG = 1  # from linux/prctl.h
+
+
+def die_with_parent(parent: int) -> None:
+    """Ask the kernel to kill this process when its parent ends.
+
+    Args:
+        parent: the parent's process id; if it has ended already, this process ends at once.
+
+    Raises:
+        OSError: if the kernel refuses.
+    """
+    if not sys.platform.startswith("linux"):
+        return
+    libc = ctypes.CDLL(None, use_errno=True)
+    if libc.prctl(_PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0) != 0:
+        raise OSError(ctypes.get_errno(), "prctl(PR_SET_PDEATHSIG) failed")
+    if os.getppid() != parent:
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+def tied(command: list[str]) -> list[str]:
+    """The command that runs `command` as a child tied to the calling process."""
+    return [sys.executable, "-P", "-m", "farm.local.tied", str(os.getpid()), *command]
+
+
+def main(arguments: list[str]) -> None:
+    """Tie this process, then become the program."""
+    die_with_parent(int(arguments[0]))
+    os.execvp(arguments[1], arguments[1:])  # noqa: S606 - no shell is wanted
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,1 @@
+"""The way to the workers: Celery over Redis, JSON only, one task by name."""

@@ -1,0 +1,48 @@
+"""The Celery application, with every setting that the farm relies on."""
+
+from typing import Any
+
+from celery import Celery
+from kombu.entity import Queue
+
+TASK_NAME = "farm.render_image"
+QUEUE = "farm"
+
+SOFT_LIMIT_S = 25 * 60
+HARD_LIMIT_S = 30 * 60
+VISIBILITY_S = 2 * 3600
+"""Redis gives an unacknowledged message to another worker after this long: well over the hard limit."""
+
+TASKS_PER_CHILD = 200
+MEMORY_PER_CHILD_KIB = 4 * 1024 * 1024
+
+
+def make_app(broker_url: str) -> Any:
+    """A Celery application that sends and takes the farm's one task; nothing is connected yet."""
+    app = Celery("farm", broker=broker_url, set_as_current=False)
+    app.conf.update(
+        accept_content=["json"],
+        task_serializer="json",
+        task_default_queue=QUEUE,
+        task_queues=[Queue(QUEUE)],  # type: ignore[no-untyped-call]  # kombu is typed in parts
+        # Without results there is no backend: the folder tells what is done.
+        task_ignore_result=True,
+        # A message is given back when its worker dies, and a worker holds no more than it works on.
+        task_acks_late=True,
+        task_reject_on_worker_lost=True,
+        worker_prefetch_multiplier=1,
+        task_soft_time_limit=SOFT_LIMIT_S,
+        task_time_limit=HARD_LIMIT_S,
+        broker_transport_options={"visibility_timeout": VISIBILITY_S, "socket_connect_timeout": 5},
+        broker_connection_retry_on_startup=True,
+        worker_max_tasks_per_child=TASKS_PER_CHILD,
+        worker_max_memory_per_child=MEMORY_PER_CHILD_KIB,
+        # What Flower shows.
+        worker_send_task_events=True,
+        task_send_sent_event=True,
+        # Blender writes to the descriptors themselves; the child's are sent to its log instead.
+        worker_redirect_stdouts=False,
+        worker_hijack_root_logger=False,
+        enable_utc=True,
+    )
+    return app

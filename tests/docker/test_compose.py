@@ -1,0 +1,125 @@
+"""What the images and the compose file promise, read from the files; nothing here starts a container."""
+
+import re
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+_ROOT = Path(__file__).parents[2]
+_DOCKER = _ROOT / "docker"
+_COMPOSE = yaml.safe_load((_DOCKER / "compose.yaml").read_text())
+_GPU = yaml.safe_load((_DOCKER / "compose.gpu.yaml").read_text())
+_SERVICES = sorted(_COMPOSE["services"])
+
+
+def _instructions() -> list[str]:
+    text = (_DOCKER / "Dockerfile").read_text().replace("\\\n", " ")
+    return [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+
+
+def _stages() -> dict[str, list[str]]:
+    stages: dict[str, list[str]] = {}
+    for line in _instructions():
+        if line.startswith("FROM "):
+            stages[line.split()[-1]] = []
+        stages[next(reversed(stages))].append(line)
+    return stages
+
+
+@pytest.fixture(params=_SERVICES)
+def service(request: pytest.FixtureRequest) -> dict[str, Any]:
+    """Each service of the compose file, in turn."""
+    found: dict[str, Any] = _COMPOSE["services"][request.param]
+    return found
+
+
+def test_a_service_has_no_rights_to_spare(service: dict[str, Any]) -> None:
+    """Not root, no capabilities, none to gain, nothing to write but volumes and /tmp."""
+    assert re.fullmatch(r"[1-9]\d*:[1-9]\d*", service["user"])
+    assert service["cap_drop"] == ["ALL"]
+    assert "no-new-privileges:true" in service["security_opt"]
+    assert service["read_only"] is True
+    assert not service.get("privileged", False)
+
+
+def test_a_service_is_published_to_this_host_alone(service: dict[str, Any]) -> None:
+    """No port is open to the network around the host."""
+    assert all(port.startswith("127.0.0.1:") for port in service.get("ports", ()))
+
+
+def test_an_image_is_pinned(service: dict[str, Any]) -> None:
+    """No image changes unnoticed: each names a full version."""
+    assert re.search(r":\d+\.\d+\.\d+", service["image"])
+
+
+def test_redis_is_out_of_reach_from_outside() -> None:
+    """Redis publishes nothing, asks for a password and sits in a network without a way out."""
+    redis = _COMPOSE["services"]["redis"]
+    assert "ports" not in redis
+    assert "--requirepass" in redis["command"]
+    assert redis["networks"] == ["queue"]
+    assert _COMPOSE["networks"]["queue"]["internal"] is True
+
+
+def test_no_password_is_in_the_files() -> None:
+    """Every password comes from the environment, and compose refuses to start without it."""
+    for name in ("compose.yaml", "compose.gpu.yaml"):
+        text = (_DOCKER / name).read_text()
+        assert text.count("PASSWORD") == len(re.findall(r"\$\{\w+PASSWORD:\?", text))
+    assert re.findall(r"^\w*PASSWORD=(.*)$", (_DOCKER / ".env.example").read_text(), re.MULTILINE) == ["", ""]
+
+
+def test_workers_scale() -> None:
+    """Nothing of a worker is fixed that two of them would fight over."""
+    worker = _COMPOSE["services"]["worker"]
+    assert not {"container_name", "hostname", "ports"} & worker.keys()
+
+
+def test_the_gpu_file_only_adds_to_the_worker() -> None:
+    """The override leaves the worker's rights as they are."""
+    assert _GPU["services"].keys() == {"worker"}
+    assert _GPU["services"]["worker"].keys() == {"command", "environment", "deploy"}
+
+
+def test_our_images_carry_our_version() -> None:
+    """The images' tags follow pyproject.toml."""
+    version = tomllib.loads((_ROOT / "pyproject.toml").read_text())["project"]["version"]
+    ours = {service["image"] for service in _COMPOSE["services"].values() if "build" in service}
+    assert ours == {f"cable-farm-coordinator:{version}", f"cable-farm-worker:{version}"}
+
+
+def test_the_base_image_is_pinned() -> None:
+    """Every stage stands on one Python image, named with its full version, or on another stage."""
+    stages = _stages()
+    outside = {lines[0].split()[1] for lines in stages.values()} - stages.keys()
+    assert len(outside) == 1
+    assert re.fullmatch(r"python:3\.11\.\d+-slim-bookworm(@sha256:[0-9a-f]{64})?", outside.pop())
+
+
+@pytest.mark.parametrize("name", ["coordinator", "worker"])
+def test_an_image_runs_as_the_farms_user(name: str) -> None:
+    """Also without compose no image runs as root, or by way of a shell."""
+    lines = _stages()[name]
+    assert "USER 10001:10001" in lines
+    started = [line for line in lines if re.match(r"\s*(CMD|ENTRYPOINT) ", line)]
+    assert all(re.match(r'\s*(CMD|ENTRYPOINT) \["', line) for line in started)
+    assert any(line.startswith("ENTRYPOINT ") for line in started)
+
+
+def test_the_worker_image_takes_the_list_of_packages() -> None:
+    """The list that `make setup` checks is the one that the image installs, and the builder gets to see it."""
+    installs = [line for line in _instructions() if "apt-get install" in line]
+    assert len(installs) == 1
+    assert "docker/debian-packages.txt" in "".join(_stages()["worker"])
+    assert re.search(r"apt-get install --yes --no-install-recommends\s+&&", installs[0])
+    assert "!docker/debian-packages.txt" in (_ROOT / ".dockerignore").read_text().splitlines()
+
+
+def test_every_install_is_held_to_the_constraints() -> None:
+    """No dependency is installed in another version than the tested one."""
+    installs = [line for line in _instructions() if "pip install" in line]
+    assert installs
+    assert all("-c constraints.txt" in line or "--no-deps" in line for line in installs)

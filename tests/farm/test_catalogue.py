@@ -1,0 +1,117 @@
+"""From inputs to a header."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from farm.catalogue import Inputs, make_header
+from farm.description import describe
+from farm.errors import AssetError, SpecError, TemplateError
+from farm.header import BuiltinSurfaceRef, HdriRef, SurfaceRef
+from farm.spec import DatasetSpec, parse_spec
+
+SHA = "0" * 64
+
+
+class Shelf:
+    """Implements `farm.catalogue.AssetSource` with names instead of files."""
+
+    def builtin_surfaces(self) -> Sequence[SurfaceRef]:
+        """One of our own."""
+        return [BuiltinSurfaceRef(name="oak", recipe_version=1)]
+
+    def surfaces_in(self, folder: Path) -> Sequence[SurfaceRef]:
+        """One called as its folder."""
+        return [BuiltinSurfaceRef(name=folder.name, recipe_version=1)]
+
+    def builtin_hdris(self) -> Sequence[HdriRef]:
+        """One of Blender's."""
+        return [HdriRef(name="city", path=None, sha256=SHA, dark=False)]
+
+    def hdris_in(self, folder: Path) -> Sequence[HdriRef]:
+        """One called as its folder."""
+        return [HdriRef(name=folder.name, path=str(folder), sha256=SHA, dark=True)]
+
+
+@pytest.fixture
+def template(tmp_path: Path) -> Path:
+    """What begins like a .blend file."""
+    path = tmp_path / "mine.blend"
+    path.write_bytes(b"BLENDER-v405")
+    return path
+
+
+@pytest.fixture
+def spec() -> DatasetSpec:
+    """One image."""
+    return parse_spec({"images": 1}, source="test")
+
+
+def test_folders_add_to_the_builtin(spec: DatasetSpec, template: Path) -> None:
+    """The user's folders come after our own."""
+    header = make_header(spec, Inputs(template, (Path("a"), Path("b")), (Path("sky"),)), Shelf())
+    assert [surface.name for surface in header.surfaces] == ["oak", "a", "b"]
+    assert [hdri.name for hdri in header.hdris] == ["city", "sky"]
+
+
+def test_folders_replace_the_builtin(spec: DatasetSpec, template: Path) -> None:
+    """Our own can be left out."""
+    inputs = Inputs(template, (Path("a"),), (Path("sky"),), builtin_textures=False, builtin_hdris=False)
+    header = make_header(spec, inputs, Shelf())
+    assert [surface.name for surface in header.surfaces] == ["a"]
+    assert [hdri.name for hdri in header.hdris] == ["sky"]
+
+
+def test_one_name_twice(spec: DatasetSpec, template: Path) -> None:
+    """Two things of one name can't be told apart in a scene, and are refused."""
+    with pytest.raises(AssetError, match="'oak'"):
+        make_header(spec, Inputs(template, (Path("oak"),)), Shelf())
+
+
+def test_content_of_the_template_counts(spec: DatasetSpec, template: Path) -> None:
+    """Another content of the template is another dataset."""
+    before = make_header(spec, Inputs(template), Shelf())
+    template.write_bytes(b"BLENDER-v406")
+    after = make_header(spec, Inputs(template), Shelf())
+    assert before.template.path == after.template.path == str(template)
+    assert before.spec_sha256 != after.spec_sha256
+
+
+def test_template_that_is_a_folder(spec: DatasetSpec, tmp_path: Path) -> None:
+    """A folder is no template."""
+    with pytest.raises(TemplateError, match="directory"):
+        make_header(spec, Inputs(tmp_path), Shelf())
+
+
+def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:
+    """A description can be used from any folder."""
+    file = tmp_path / "cables.toml"
+    file.write_text('images = 3\ntemplate = "mine.blend"\ntextures = ["wood"]\nhdris = ["/sky"]\nbuiltin_hdris = false')
+    inputs = describe(file, {}, {}).inputs
+    assert inputs == Inputs(tmp_path / "mine.blend", (tmp_path / "wood",), (Path("/sky"),), builtin_hdris=False)
+
+
+def test_flags_override_the_file(tmp_path: Path) -> None:
+    """A flag wins over the file's key; the others stay."""
+    file = tmp_path / "cables.toml"
+    file.write_text('images = 3\nseed = 4\nresolution = 64\ntemplate = "mine.blend"')
+    found = describe(file, {"seed": 5, "quotas": {"far": 2}}, {"template": Path("yours.blend")})
+    assert (found.spec.seed, found.spec.resolution, found.spec.total) == (5, 64, 2)
+    assert found.inputs.template == Path("yours.blend")
+
+
+def test_ranges_from_a_file(tmp_path: Path) -> None:
+    """Every range can be set in its own table."""
+    file = tmp_path / "cables.toml"
+    file.write_text("images = 3\n[ranges.cable]\ncount = [2, 3]\n[fall]\nquality = 5")
+    spec = describe(file, {}, {}).spec
+    assert spec.ranges.cable.count == (2, 3)
+    assert spec.fall.quality == 5
+
+
+def test_hdri_over_the_floor_must_be_there(template: Path) -> None:
+    """The HDRI that a description names is one of the dataset's."""
+    spec = parse_spec({"images": 1, "close_distributed_hdri": "moon"}, source="test")
+    with pytest.raises(SpecError, match="there are city"):
+        make_header(spec, Inputs(template), Shelf())

@@ -1,0 +1,61 @@
+"""Progress for people."""
+
+from io import StringIO
+
+import pytest
+from rich.console import Console
+
+from farm.category import Category
+from farm.cli.display import ProgressDisplay, duration, summary
+from farm.progress import CategoryProgress, Progress
+
+
+def progress(done: int) -> Progress:
+    """So many of four images."""
+    return Progress(
+        location="store/cables",
+        spec_sha256="0" * 64,
+        categories={
+            Category.FAR: CategoryProgress(done=done, quota=4),
+            Category.FAR_ALIGNED: CategoryProgress(done=0, quota=0),
+        },
+        running=("far-000003",),
+        failures={"far-000000": "reason"},
+        images_per_hour=120.0,
+        seconds_left=95.0,
+        last_picture="far/images/far-000002.png",
+    )
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"), [(0.4, "0 s"), (59.6, "1 min 00 s"), (95, "1 min 35 s"), (7500, "2 h 05 min")]
+)
+def test_duration(seconds: float, words: str) -> None:
+    """Seconds are told as people do."""
+    assert duration(seconds) == words
+
+
+def test_summary() -> None:
+    """One line has all that is known."""
+    assert summary(progress(3)) == "3 of 4 done, 1 running, 120 an hour, 1 min 35 s left, 1 failed"
+
+
+def test_plain_lines_are_few() -> None:
+    """Without a terminal, many looks make few lines: the first and the last."""
+    out = StringIO()
+    with ProgressDisplay(Console(file=out, width=200)) as display:
+        for done in (0, 1, 1, 2, 3, 4, 4):
+            display.show(progress(done))
+    lines = out.getvalue().splitlines()
+    assert [line.partition(",")[0] for line in lines] == ["0 of 4 done", "4 of 4 done"]
+    assert "\x1b" not in out.getvalue()
+
+
+def test_bars_on_a_terminal() -> None:
+    """On a terminal each category that has a quota has a bar, and the last picture is told."""
+    out = StringIO()
+    with ProgressDisplay(Console(file=out, width=200, force_terminal=True)) as display:
+        display.show(progress(3))
+    assert "3/4" in out.getvalue()
+    assert "far_aligned" not in out.getvalue()
+    assert "far-000002.png" in out.getvalue()

@@ -1,0 +1,159 @@
+"""One suite over the ledger in memory and the one in Redis."""
+
+import time
+
+import pytest
+
+from farm.category import Category
+from farm.ledger.memory import MemoryLedger
+from farm.ledger.owner import is_gone, live_claims, this_process
+from farm.ledger.port import RETRY_OWNER, Ledger, images_per_hour
+from farm.ledger.redis import RedisLedger
+
+
+@pytest.fixture(params=["memory", pytest.param("redis", marks=pytest.mark.redis)])
+def ledger(request: pytest.FixtureRequest) -> Ledger:
+    """An empty ledger."""
+    if request.param == "memory":
+        return MemoryLedger()
+    return RedisLedger(request.getfixturevalue("redis_client"), "cables", "0" * 64)
+
+
+def wait_until_free(ledger: Ledger, job_id: str) -> None:
+    """Wait for a claim to lapse."""
+    give_up_s = time.monotonic() + 10
+    while job_id in ledger.claims():
+        assert time.monotonic() < give_up_s
+        time.sleep(0.01)
+
+
+def test_first_claim(ledger: Ledger) -> None:
+    """The first to claim a job has it, for its first attempt."""
+    assert ledger.claim("far-000001", "a:1") == 1
+    assert ledger.claims() == {"far-000001": "a:1"}
+
+
+def test_second_owner_is_refused(ledger: Ledger) -> None:
+    """A claimed job is nobody else's, and the refused one spends no attempt."""
+    ledger.claim("far-000001", "a:1")
+    assert ledger.claim("far-000001", "b:1") is None
+    ledger.release("far-000001", "a:1")
+    assert ledger.claim("far-000001", "b:1") == 2
+
+
+def test_owner_may_claim_again(ledger: Ledger) -> None:
+    """The owner's second claim is its next attempt."""
+    ledger.claim("far-000001", "a:1")
+    assert ledger.claim("far-000001", "a:1") == 2
+
+
+def test_claim_lapses(ledger: Ledger) -> None:
+    """A claim that is not refreshed becomes free."""
+    ledger.claim("far-000001", "a:1", ttl_s=0.05)
+    wait_until_free(ledger, "far-000001")
+    assert ledger.claim("far-000001", "b:1") == 2
+
+
+def test_refresh_holds(ledger: Ledger) -> None:
+    """A refreshed claim outlives its first term."""
+    ledger.claim("far-000001", "a:1", ttl_s=0.5)
+    assert ledger.refresh("far-000001", "a:1", ttl_s=60)
+    time.sleep(0.6)
+    assert "far-000001" in ledger.claims()
+
+
+def test_refresh_of_a_lost_claim(ledger: Ledger) -> None:
+    """Another's claim can't be refreshed, nor one that nobody has."""
+    assert not ledger.refresh("far-000001", "a:1")
+    ledger.claim("far-000001", "b:1")
+    assert not ledger.refresh("far-000001", "a:1")
+
+
+def test_release_by_another(ledger: Ledger) -> None:
+    """Only the owner gives a claim up."""
+    ledger.claim("far-000001", "a:1")
+    ledger.release("far-000001", "b:1")
+    assert ledger.claims() == {"far-000001": "a:1"}
+
+
+def test_postponed_job_is_on_its_way(ledger: Ledger) -> None:
+    """A postponed job counts as claimed, and anyone may take it over."""
+    ledger.claim("far-000001", "a:1")
+    ledger.postpone("far-000001", "a:1", 60)
+    assert ledger.claims() == {"far-000001": RETRY_OWNER}
+    assert ledger.claim("far-000001", "b:1") == 2
+
+
+def test_postponed_job_survives_the_release(ledger: Ledger) -> None:
+    """The former owner's release does not touch what it has postponed."""
+    ledger.claim("far-000001", "a:1")
+    ledger.postpone("far-000001", "a:1", 60)
+    ledger.release("far-000001", "a:1")
+    assert "far-000001" in ledger.claims()
+
+
+def test_done_is_counted(ledger: Ledger) -> None:
+    """A finished job counts for its category and leaves its picture's path."""
+    ledger.record_done("far-000001", Category.FAR, "far/images/far-000001.png")
+    activity = ledger.activity()
+    assert activity.done == {Category.FAR: 1}
+    assert activity.last_picture == "far/images/far-000001.png"
+
+
+def test_done_forgets_attempts_and_failure(ledger: Ledger) -> None:
+    """A job that succeeded after all is no failure, and would begin anew."""
+    ledger.claim("far-000001", "a:1")
+    ledger.record_failure("far-000001", "bad luck")
+    ledger.record_done("far-000001", Category.FAR, "picture")
+    assert ledger.failures() == {}
+    assert ledger.claim("far-000001", "a:1") == 1
+
+
+def test_failures(ledger: Ledger) -> None:
+    """A failure is kept with its reason until it is forgotten, with its attempts."""
+    ledger.claim("far-000001", "a:1")
+    ledger.record_failure("far-000001", "no scene passed")
+    assert ledger.failures() == {"far-000001": "no scene passed"}
+    ledger.forget_failures()
+    assert ledger.failures() == {}
+    assert ledger.claim("far-000001", "a:1") == 1
+
+
+def test_no_rate_at_first(ledger: Ledger) -> None:
+    """An empty ledger knows no rate and no picture."""
+    activity = ledger.activity()
+    assert activity.images_per_hour is None
+    assert activity.last_picture is None
+
+
+def test_rate_over_recent_completions() -> None:
+    """Eleven pictures at even steps of six seconds make six hundred an hour; older ones don't count."""
+    finished = [1000.0 + 6.0 * step for step in range(11)]
+    assert images_per_hour([*finished, -9999.0], 1060.0) == pytest.approx(600.0)
+
+
+@pytest.mark.redis
+def test_datasets_are_apart(redis_client: object) -> None:
+    """Two descriptions under one name share nothing."""
+    one = RedisLedger(redis_client, "cables", "0" * 64)  # type: ignore[arg-type]  # a fixture's value
+    other = RedisLedger(redis_client, "cables", "1" * 64)  # type: ignore[arg-type]  # a fixture's value
+    one.claim("far-000001", "a:1")
+    assert other.claims() == {}
+
+
+def test_ended_process_is_gone() -> None:
+    """A process of this host that has ended is gone; this one is not, nor one of which nothing is known."""
+    host = this_process().partition(":")[0]
+    assert is_gone(f"{host}:{2**22 + 1}")
+    assert not is_gone(this_process())
+    assert not is_gone("elsewhere:1")
+
+
+def test_claim_of_an_ended_process_is_released() -> None:
+    """The dead hold no job."""
+    ledger = MemoryLedger()
+    host = this_process().partition(":")[0]
+    ledger.claim("far-000001", f"{host}:{2**22 + 1}")
+    ledger.claim("far-000002", this_process())
+    assert live_claims(ledger) == {"far-000002": this_process()}
+    assert ledger.claims() == {"far-000002": this_process()}

@@ -1,0 +1,134 @@
+"""A maker without Blender: draws noise from the job's own seed, so the queue can be tested in seconds.
+
+As a program it is a worker with this maker: `python -P tests/stand_in.py serve ...`. Two environment variables make
+it slow or failing: `STAND_IN_DELAY_S`, and `STAND_IN_FAILS` with `job id=kind` pairs. The kinds: `permanent`;
+`passing`, which never passes; `once` in each process; `crash` of the process; `defect`, an exception of no FarmError.
+"""
+
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+from farm import __version__
+from farm.category import Category
+from farm.errors import RenderError, SceneError
+from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
+from farm.job import Job
+from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
+from farm.scene import Cable, CableMaterial, Camera, Floor, HdriWorld, PointLamp, Scene, Wind
+from farm.seeds import Stage, generator
+from farm.spec import parse_spec
+from worker.command import main
+from worker.made import ImageMaker, MadeImage
+
+SHA = "0" * 64
+
+_FAILED_ONCE: set[str] = set()
+
+# Every figure zero: nothing was simulated. Strict models take no integer for a float.
+SETTLED = SettleFigures.model_validate(
+    {name: 0 if field.annotation is int else 0.0 for name, field in SettleFigures.model_fields.items()}
+)
+
+
+def stand_in_header(*, seed: int = 0, resolution: int = 32, **quotas: int) -> DatasetHeader:
+    """A header that asks for so many images of the categories named."""
+    data = {"seed": seed, "resolution": resolution, "quotas": quotas or {"far": 2, "close_concentrated_light": 2}}
+    return DatasetHeader(
+        farm_version=__version__,
+        spec=parse_spec(data, source="test"),
+        template=TemplateRef(path=None, sha256=SHA),
+        surfaces=(BuiltinSurfaceRef(name="oak", recipe_version=1),),
+        hdris=(HdriRef(name="city", path=None, sha256=SHA, dark=False),),
+    )
+
+
+def stand_in_scene(job: Job) -> Scene:
+    """A plausible scene of the job's category."""
+    material = CableMaterial(
+        colour=(200, 20, 20),
+        dirt_colour=(1, 1, 1),
+        dirt_position=0.7,
+        dirt_mapping=(0.0, 0.0, 0.0),
+        dirt_offset=0.0,
+        reflection_position=0.65,
+    )
+    cable = Cable(
+        diameter_m=0.002,
+        length_m=0.4,
+        x_m=0.0,
+        y_m=0.0,
+        start_height_m=0.004,
+        rotation_deg=0.0,
+        bends_per_m=(0.0, 0.0),
+        material=material,
+    )
+    far = job.category in {Category.FAR, Category.FAR_ALIGNED}
+    lit_by_lamp = job.category in {Category.CLOSE_CONCENTRATED, Category.CLOSE_ALIGNED_CONCENTRATED}
+    lamp = PointLamp(bearing_deg=0.0, radius_m=5.0, height_m=5.0, power_w=900.0, size_m=0.5)
+    world = HdriWorld(hdri="city", rotation_deg=0.0, tilt_deg=0.0, brightness=0.0)
+    return Scene(
+        attempt=0,
+        cables=(cable,),
+        vertex_mass=0.4,
+        wind=Wind(bearing_deg=0.0, distance=5.0, height=1.0, tilt_deg=90.0, strength=1.0, flow=0.2),
+        floor=None if far else Floor(texture="oak", offset_x=0.0, offset_y=0.0, rotation_deg=0.0, scale=1.0),
+        lamp=lamp if lit_by_lamp else None,
+        hdri_world=None if lit_by_lamp else world,
+        camera=Camera(height_m=0.2, f_number=8.0),
+        render_seed=1,
+    )
+
+
+class StandInMaker:
+    """Implements `worker.made.ImageMaker`."""
+
+    def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+        """Draw noise, with one cable across."""
+        time.sleep(float(os.environ.get("STAND_IN_DELAY_S", "0")))
+        _fail_if_told(job)
+        size = header.spec.resolution
+        draw = generator(header.spec.seed, job.category, job.index, 0, Stage.CABLES)
+        instances = np.zeros((size, size), np.uint16)
+        top = int(draw.integers(1, size - 5))
+        instances[top : top + 4] = 1
+        print("noise of Blender, which belongs in the log")
+        return MadeImage(
+            image=draw.integers(0, 256, (size, size, 3), dtype=np.uint8),
+            mask=np.where(instances > 0, 255, 0).astype(np.uint8),
+            instances=instances,
+            scene=stand_in_scene(job),
+            settled=SETTLED,
+            rejected=(RejectedAttempt(attempt=0, reason="one for the show"),),
+            render=RenderSettings(engine="none", device="CPU", samples=1, denoiser=None, resolution=size),
+            timings_s={"render": 0.01},
+            versions={"farm": __version__},
+        )
+
+
+def _fail_if_told(job: Job) -> None:
+    told = dict(pair.split("=") for pair in os.environ.get("STAND_IN_FAILS", "").split() if pair)
+    kind = told.get(job.id)
+    if kind == "permanent":
+        raise SceneError("no scene passed the checks")
+    if kind == "passing" or (kind == "once" and job.id not in _FAILED_ONCE):
+        _FAILED_ONCE.add(job.id)
+        raise RenderError("Blender lost the device")
+    if kind == "defect":
+        raise ZeroDivisionError("a bug")
+    if kind == "crash":
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+def open_stand_in(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> ImageMaker:
+    """Takes what the real one takes, and needs none of it."""
+    del header, device, threads, assets
+    return StandInMaker()
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:], open_stand_in))
