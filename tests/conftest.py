@@ -14,6 +14,20 @@ from farm.header import DatasetHeader
 from farm.local.redis_server import find_redis_server, private_redis
 from farm.queue.broker import connect
 from tests.stand_in import stand_in_header
+from worker.leave import leave
+
+exit_status = pytest.StashKey[int]()
+
+
+def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
+    """Remember how the tests ended."""
+    session.config.stash[exit_status] = int(exitstatus)
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    """After the summary, leave without Blender's own exit, which may hang."""
+    if "bpy" in sys.modules and exit_status in config.stash:
+        leave(config.stash[exit_status])
 
 
 @pytest.fixture(scope="session")

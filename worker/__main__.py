@@ -1,8 +1,15 @@
-"""What the farm starts as a process of its own: `python -m worker serve` and `python -m worker preview`."""
+"""What the farm starts as a process of its own: `python -m worker serve`, `check` and `preview`."""
 
 import sys
+import traceback
 
 from worker.command import main
+from worker.leave import leave
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    try:
+        exit_code = main(sys.argv[1:])
+    except Exception:
+        traceback.print_exc()
+        exit_code = 1
+    leave(exit_code)

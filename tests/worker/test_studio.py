@@ -1,7 +1,6 @@
 """Real pictures from a real Blender: small, of every category, repeatable, and masked rightly."""
 
 import os
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +19,7 @@ from farm.spec import parse_spec  # noqa: E402
 from worker.bench.mask_reference import render_coverage  # noqa: E402
 from worker.bench.masks import compare  # noqa: E402
 from worker.library import checked  # noqa: E402
+from worker.render import render_picture  # noqa: E402
 from worker.studio import Studio, open_studio  # noqa: E402
 
 pytestmark = pytest.mark.blender
@@ -42,17 +42,10 @@ def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.fixture(scope="module")
-def studio(baked: Path) -> Studio:
-    """One open studio for the tests of this module."""
-    return open_studio(small_header(), device="cpu", threads=0, assets=baked)
-
-
 @pytest.fixture
-def restored() -> Iterator[None]:
-    """For tests that alter the open scene or open another file: the next test opens its own."""
-    yield
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+def studio(baked: Path) -> Studio:
+    """A studio that no other test has opened a file under."""
+    return open_studio(small_header(), device="cpu", threads=0, assets=baked)
 
 
 @pytest.mark.parametrize("category", Category)
@@ -72,8 +65,6 @@ def test_a_cable_pixel_looks_unlike_the_picture_without_cables(studio: Studio) -
     made = studio.make(Job(category=Category.FAR, index=1), header)
     for cable in [item for item in bpy.data.objects if item.name.startswith("cable.")]:
         cable.hide_render = True
-    from worker.render import render_picture  # noqa: PLC0415  # needs the scene that was just realized
-
     change = np.abs(render_picture().astype(int) - made.image.astype(int)).mean(axis=2)
     assert change[made.mask == 255].mean() > 5 * change[made.mask == 0].mean()
 
@@ -176,7 +167,7 @@ def test_a_template_that_changed_since_the_submit_is_refused() -> None:
         open_studio(changed, device="cpu", threads=0, assets=None)
 
 
-def test_an_artists_template_that_lacks_something_is_refused(tmp_path: Path, restored: None) -> None:
+def test_an_artists_template_that_lacks_something_is_refused(tmp_path: Path) -> None:
     """By the name of what is missing."""
     path = tmp_path / "empty.blend"
     bpy.ops.wm.read_factory_settings(use_empty=True)

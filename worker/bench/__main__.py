@@ -6,6 +6,7 @@ from pathlib import Path
 
 from farm.errors import FarmError
 from worker.bench import masks, stages
+from worker.leave import leave
 
 
 def main(arguments: list[str]) -> int:
@@ -26,4 +27,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    leave(main(sys.argv[1:]))

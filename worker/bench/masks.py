@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
@@ -15,10 +14,10 @@ from farm.category import Category
 from farm.errors import VerificationError
 from worker.bench.bench_dataset import bench_header, bench_jobs
 from worker.bench.mask_reference import SAMPLES, render_coverage
-from worker.bench.quiet import blender_writes_to
+from worker.bench.terminal import bench_console, blender_writes_to
 from worker.studio import open_studio
 
-DEFAULT_IMAGES = 4
+DEFAULT_IMAGES = 2
 MIN_IOU = 0.95
 """Below this a mask is plainly not of the picture: half a pixel off all along a 4 px cable."""
 
@@ -79,7 +78,7 @@ def run(out: Path, *, images: int | None, seed: int) -> int:
     count = images or DEFAULT_IMAGES
     header = bench_header(count, seed, quality="draft")
     found: dict[Category, list[Agreement]] = defaultdict(list)
-    console = Console()
+    console = bench_console()
     log_file = out / "masks.log"
     with blender_writes_to(log_file):
         studio = open_studio(header, device="cpu", threads=0, assets=None)

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
-from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
@@ -18,7 +17,7 @@ from farm.dataset import Destination, create_dataset
 from farm.errors import VerificationError
 from farm.verify import verify
 from worker.bench.bench_dataset import bench_header, bench_jobs
-from worker.bench.quiet import blender_writes_to
+from worker.bench.terminal import bench_console, blender_writes_to
 from worker.studio import open_studio
 from worker.upload import upload
 
@@ -40,7 +39,7 @@ def run(out: Path, *, images: int | None, seed: int) -> int:
     count = images or DEFAULT_IMAGES
     header = bench_header(count, seed)
     timings: dict[Category, list[Mapping[str, float]]] = defaultdict(list)
-    console = Console()
+    console = bench_console()
     with tempfile.TemporaryDirectory(prefix="cable-farm-") as folder:
         dataset = create_dataset(Destination(folder, "bench"), header)
         log_file = out / "stages.log"

@@ -1,4 +1,4 @@
-"""Keeping Blender's chatter out of a benchmark's table."""
+"""A benchmark's terminal: its table whole, and Blender's chatter kept out of it."""
 
 import os
 import sys
@@ -6,7 +6,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from rich.console import Console
+
 from worker.process import send_output_to
+
+_TABLE_WIDTH = 130
+
+
+def bench_console() -> Console:
+    """A console that cuts no column off where the output is a file."""
+    console = Console()
+    return console if console.is_terminal else Console(width=_TABLE_WIDTH)
 
 
 @contextmanager
