@@ -1,7 +1,7 @@
 """One scene, drawn and not yet fallen: every random value of a picture, free of Blender.
 
-Lengths are metres, angles degrees, powers watts, colours 8-bit levels of linear light, unless a field says otherwise. World axes:
-x right and y up in the picture, z towards the camera, the floor's surface at z = 0.
+Lengths are metres, angles degrees, powers watts, colours 8-bit levels of linear light, unless a field says
+otherwise. World axes: x right and y up in the picture, z towards the camera, the floor's surface at z = 0.
 """
 
 from typing import Annotated, Literal
