@@ -1,23 +1,34 @@
 """`farm report`: the page of pictures and the index."""
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from farm.cli.options import DatasetPlace
 from farm.collect import write_index
+from farm.contact_sheet import make_contact_sheet
 from farm.dataset import open_dataset, parse_destination
 from farm.layout import INDEX_FILE, REPORT_FILE
 from farm.report import write_report
+from farm.storage import open_storage
+
+_SHEET_EDGE_PX = 192
 
 
 def report(
     place: DatasetPlace,
     pictures: Annotated[int, typer.Option(min=0, help="Pictures shown of each category.")] = 40,
+    sheet: Annotated[Path | None, typer.Option(help="Write a contact sheet too, a JPEG.")] = None,
+    columns: Annotated[int, typer.Option(min=1, max=40, help="Pictures of each category on the sheet.")] = 4,
 ) -> None:
     """Write report.html, the pictures beside their masks, and index.jsonl."""
     dataset = open_dataset(parse_destination(place))
     write_index(dataset)
     count = write_report(dataset, pictures_per_category=pictures)
     location = dataset.storage.location
+    if sheet is not None:
+        open_storage(str(sheet.parent)).write(
+            sheet.name, make_contact_sheet(dataset, columns=columns, edge_px=_SHEET_EDGE_PX)
+        )
     typer.echo(f"{count} images: {location}/{REPORT_FILE}, {location}/{INDEX_FILE}")
