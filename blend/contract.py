@@ -65,6 +65,8 @@ def find_missing() -> Iterator[str]:
         yield from _missing_node(collection, owner, node, kind)
     yield from _missing_links()
     yield from _missing_physics()
+    yield from _misplaced()
+    yield from _wrong_ramps()
 
 
 def _missing_object(scene_name: str, name: str, kind: str, subkind: str | None) -> Iterator[str]:
@@ -116,3 +118,32 @@ def _missing_physics() -> Iterator[str]:
     wind = bpy.data.objects.get(names.FALL_WIND)
     if wind is not None and (wind.field is None or wind.field.type != "WIND"):
         yield f"a Wind force field on '{names.FALL_WIND}'"
+
+
+def _misplaced() -> Iterator[str]:
+    """What stands elsewhere than the masks and the fall take for granted."""
+    for name in (names.FLOOR, names.FALL_FLOOR):
+        floor = bpy.data.objects.get(name)
+        if floor is not None and not _is_unmoved(floor):
+            yield f"'{name}' unmoved, unturned and unscaled at the origin, with no parent or constraint"
+        elif floor is not None and floor.type == "MESH" and any(vertex.co.z != 0.0 for vertex in floor.data.vertices):
+            yield f"'{name}' flat at z = 0"
+    camera = bpy.data.objects.get(names.CAMERA)
+    if camera is not None and (camera.parent is not None or len(camera.constraints)):
+        yield f"'{names.CAMERA}' without parent and constraints"
+
+
+def _is_unmoved(floor: Any) -> bool:
+    free = floor.parent is None and not len(floor.constraints)
+    placed = (*floor.location, *floor.rotation_euler, *(scale - 1.0 for scale in floor.scale))
+    return free and not any(placed)
+
+
+def _wrong_ramps() -> Iterator[str]:
+    material = bpy.data.materials.get(names.CABLE)
+    if material is None or material.node_tree is None:
+        return
+    for name in (names.CABLE_COLOUR_RAMP, names.CABLE_REFLECTION_RAMP):
+        ramp = material.node_tree.nodes.get(name)
+        if ramp is not None and ramp.type == "VALTORGB" and len(ramp.color_ramp.elements) != 2:
+            yield f"exactly two stops in the ramp '{name}'"

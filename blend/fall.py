@@ -14,7 +14,7 @@ import bpy
 
 from blend import names
 
-FLOOR_HALF_EDGE = 60.0
+FLOOR_HALF_EDGE = 600.0
 _FIELD_SEED = 1
 """Blender numbers the fields of a session otherwise, and builds would differ."""
 SELF_DISTANCE = 0.1

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from assets.hdris import registry, scan_hdris
 from assets.surfaces.catalogue import SURFACES
+from assets.texture_names import TextureRole
 from assets.textures import TextureSet, scan_textures
 from farm.header import BuiltinSurfaceRef, FileRef, FolderSurfaceRef, HdriRef
 
@@ -41,11 +42,17 @@ class InstalledAssets:
         ]
 
 
+_RENDERED = frozenset({TextureRole.COLOUR, TextureRole.ROUGHNESS, TextureRole.NORMAL, TextureRole.METALLIC})
+"""Roles that the floor's material has a place for; occlusion and height maps are checked and left aside."""
+
+
 def _surface(texture: TextureSet) -> FolderSurfaceRef:
     return FolderSurfaceRef(
         name=texture.name,
         files={
-            entry.role.value: FileRef(path=str(entry.path.resolve()), sha256=entry.sha256) for entry in texture.maps
+            entry.role.value: FileRef(path=str(entry.path.resolve()), sha256=entry.sha256)
+            for entry in texture.maps
+            if entry.role in _RENDERED
         },
         flip_green=texture.flip_green,
         gloss=texture.invert_roughness,

@@ -39,6 +39,7 @@ class SettleFigures(Model):
         cable_penetration_max: deepest single place.
         floor_penetration_max: deepest single place.
         pass_throughs: crossings whose order flipped between start and rest.
+        self_crossings: places where a cable crosses itself.
         speed_rms_mm_s: root mean square speed of the nodes at the end, in true time.
         speed_max_mm_s: fastest node at the end.
         support_gap: smallest clearance of a cable to the floor or another cable, over its radius; the worst cable's.
@@ -52,6 +53,7 @@ class SettleFigures(Model):
     floor_penetration: float
     floor_penetration_max: float
     pass_throughs: int
+    self_crossings: int
     speed_rms_mm_s: float
     speed_max_mm_s: float
     support_gap: float

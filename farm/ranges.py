@@ -8,9 +8,9 @@ numbers are those of a Blender wind field in the fall's own units (ARCHITECTURE.
 publication gives no figure (cable length, drop height, spacing, f-number) the default is ours and marked so.
 """
 
-from typing import Annotated
+from typing import Annotated, Self
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, model_validator
 
 from farm.model import Model
 
@@ -33,7 +33,7 @@ NotNegative = Annotated[float, Field(ge=0, le=1e5)]
 Level = Annotated[int, Field(ge=0, le=255)]
 CableCount = Annotated[int, Field(ge=1, le=8)]
 
-Bend = Annotated[float, Field(ge=-50, le=50)]
+Bend = Annotated[float, Field(ge=-15, le=15)]
 BEND_KNOTS = 7
 
 Range = Annotated[tuple[float, float], AfterValidator(_in_order)]
@@ -43,6 +43,10 @@ PositiveRange = Annotated[tuple[Positive, Positive], AfterValidator(_in_order)]
 NotNegativeRange = Annotated[tuple[NotNegative, NotNegative], AfterValidator(_in_order)]
 LevelRange = Annotated[tuple[Level, Level], AfterValidator(_counts_in_order)]
 CableCountRange = Annotated[tuple[CableCount, CableCount], AfterValidator(_counts_in_order)]
+
+
+SPACING_DIAMETERS = 1.5
+"""Cables start at least so far above each other, which leaves room for the cloth's collision distance."""
 
 
 class FloorRanges(Model):
@@ -120,9 +124,12 @@ class WorldRanges(Model):
 
 
 class CameraRanges(Model):
-    """The camera's heights, which set the cable's size in pixels. The f-number is ours."""
+    """The camera's heights, which set the cable's size in pixels. The f-number is ours.
 
-    heights_m: Annotated[tuple[Annotated[float, Field(ge=0.02, le=5)], ...], Field(min_length=1)] = (
+    Above 1.5 m a picture would show the edge of the floor.
+    """
+
+    heights_m: Annotated[tuple[Annotated[float, Field(ge=0.02, le=1.5)], ...], Field(min_length=1)] = (
         0.09,
         0.12,
         0.15,
@@ -148,3 +155,19 @@ class Ranges(Model):
     lamp: LampRanges = LampRanges()
     world: WorldRanges = WorldRanges()
     camera: CameraRanges = CameraRanges()
+
+    @model_validator(mode="after")
+    def _fit_each_other(self) -> Self:
+        diameter = self.cable.diameter_m
+        if self.placement.spacing_m < SPACING_DIAMETERS * diameter:
+            raise ValueError(
+                f"placement.spacing_m {self.placement.spacing_m} is below {SPACING_DIAMETERS} times cable.diameter_m "
+                f"{diameter}: cables would start inside each other"
+            )
+        pile = self.cable.count[1] * diameter
+        if min(self.camera.heights_m) < 2 * pile:
+            raise ValueError(
+                f"camera.heights_m {min(self.camera.heights_m)} is below twice the highest pile, {pile:g} m "
+                "(cable.count times cable.diameter_m): the camera would be among the cables"
+            )
+        return self

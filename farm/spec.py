@@ -136,7 +136,7 @@ def _describe(error: ValidationError) -> str:
     where = ".".join(str(part) for part in first["loc"])
     message = first["msg"].removeprefix("Value error, ")
     if first["type"] == "extra_forbidden":
-        message = "unknown key; see the list of keys in the README"
+        message = "unknown key; the README tells where all keys are listed"
     if first["type"] == "missing" and where == "quotas":
         message = "give the number of images: images, or a [quotas] table"
     more = f" (and {error.error_count() - 1} more)" if error.error_count() > 1 else ""

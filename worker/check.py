@@ -13,12 +13,16 @@ from farm.manifest import SettleFigures
 from worker.shapes import CableShapes, Points, smooth
 
 SAMPLES_PER_SPAN = 12
+_COARSE = 3
+"""Every third sample is enough to find crossings."""
 
 MAX_LENGTH_ERROR = 0.01
 MAX_PENETRATION = 0.10
-MAX_SPEED_MM_S = 50.0
+MAX_PENETRATION_ANYWHERE = 0.20
 MAX_SUPPORT_GAP = 0.5
-"""Beyond these a picture would show the fault; such a scene is drawn again."""
+MAX_SPEED_RMS_MM_S = 1.0
+MAX_SPEED_MM_S = 5.0
+"""Beyond these a picture would show the fault, or the cables still move; such a scene is drawn again."""
 
 
 def measure(shapes: CableShapes) -> SettleFigures:
@@ -44,6 +48,7 @@ def measure(shapes: CableShapes) -> SettleFigures:
         floor_penetration=float(np.percentile(all_floor_depths, 99.9)),
         floor_penetration_max=float(all_floor_depths.max()),
         pass_throughs=_flipped_crossings(shapes, curves),
+        self_crossings=sum(_self_crossings(curve[::_COARSE]) for curve in curves),
         speed_rms_mm_s=float(np.sqrt(np.mean(speeds**2))),
         speed_max_mm_s=float(speeds.max()),
         support_gap=max(float(gap.min() / radius) for gap, radius in zip(gaps, shapes.radii_m, strict=True)),
@@ -54,10 +59,15 @@ def find_fault(figures: SettleFigures) -> str | None:
     """Why a scene must be drawn again, or None if it may be shipped."""
     if figures.pass_throughs:
         return f"{figures.pass_throughs} crossing(s) of cables that passed through each other"
+    if figures.self_crossings:
+        return f"a cable crosses itself {figures.self_crossings} time(s)"
     limits = (
         ("length error", figures.length_error, MAX_LENGTH_ERROR),
         ("cable penetration over radius", figures.cable_penetration, MAX_PENETRATION),
         ("floor penetration over radius", figures.floor_penetration, MAX_PENETRATION),
+        ("deepest cable penetration over radius", figures.cable_penetration_max, MAX_PENETRATION_ANYWHERE),
+        ("deepest floor penetration over radius", figures.floor_penetration_max, MAX_PENETRATION_ANYWHERE),
+        ("root mean square speed in mm/s", figures.speed_rms_mm_s, MAX_SPEED_RMS_MM_S),
         ("speed in mm/s", figures.speed_max_mm_s, MAX_SPEED_MM_S),
         ("gap below a cable over radius", figures.support_gap, MAX_SUPPORT_GAP),
     )
@@ -99,17 +109,30 @@ def _flipped_crossings(shapes: CableShapes, curves: list[Points]) -> int:
     means that one went through the other (or, which is as rare and as wrong in a picture, slipped around its end).
     """
     rank = {cable: level for level, cable in enumerate(shapes.start_order)}
-    coarse = [curve[::3] for curve in curves]
+    coarse = [curve[::_COARSE] for curve in curves]
     flipped = 0
     for a, b in combinations(range(len(curves)), 2):
-        height_difference = _crossing_heights(coarse[a], coarse[b])
+        _, _, height_difference = _crossings(coarse[a], coarse[b])
         expected = 1.0 if rank[b] > rank[a] else -1.0
         flipped += int(np.count_nonzero(height_difference * expected < 0))
     return flipped
 
 
-def _crossing_heights(one: Points, other: Points) -> NDArray[np.float64]:
-    """Height of `other` above `one` at every crossing of their projections on the floor."""
+def _self_crossings(curve: Points) -> int:
+    """Crossings of a cable with itself, seen from above; neighbouring segments, which share a point, do not count."""
+    first, second, _ = _crossings(curve, curve)
+    return int(np.count_nonzero(second > first + 1))
+
+
+Indices = NDArray[np.int64]
+
+
+def _crossings(one: Points, other: Points) -> tuple[Indices, Indices, NDArray[np.float64]]:
+    """Where the projections of two lines on the floor cross.
+
+    Returns:
+        The segments of `one` and of `other` at each crossing, and the height of `other` above `one` there.
+    """
     p, r = one[:-1, None], np.diff(one, axis=0)[:, None]
     q, s = other[None, :-1], np.diff(other, axis=0)[None]
     cross = r[..., 0] * s[..., 1] - r[..., 1] * s[..., 0]
@@ -120,5 +143,4 @@ def _crossing_heights(one: Points, other: Points) -> NDArray[np.float64]:
     i, j = np.nonzero((t >= 0) & (t < 1) & (u >= 0) & (u < 1) & (cross != 0))
     below = one[i, 2] + t[i, j] * np.diff(one[:, 2])[i]
     above = other[j, 2] + u[i, j] * np.diff(other[:, 2])[j]
-    heights: NDArray[np.float64] = above - below
-    return heights
+    return i, j, above - below

@@ -13,11 +13,11 @@ Key = tuple[str, bool, bool, bool]
 
 
 class ImageShelf:
-    """Blender images by file, at most `capacity` of them."""
+    """Blender images by file, up to a number of bytes in all."""
 
-    def __init__(self, capacity: int = 24) -> None:
+    def __init__(self, capacity_bytes: int = 2**30) -> None:
         """Start empty."""
-        self._capacity = capacity
+        self._capacity_bytes = capacity_bytes
         self._loaded: OrderedDict[Key, Any] = OrderedDict()
         self._constants: dict[str, Any] = {}
 
@@ -41,7 +41,8 @@ class ImageShelf:
         if invert or flip_green:
             _alter(image, invert=invert, flip_green=flip_green)
         self._loaded[key] = image
-        while len(self._loaded) > self._capacity:
+        # A picture needs five images at most; those stay, however large.
+        while len(self._loaded) > _IN_USE and sum(map(_bytes, self._loaded.values())) > self._capacity_bytes:
             _, oldest = self._loaded.popitem(last=False)
             bpy.data.images.remove(oldest)
         return image
@@ -74,6 +75,15 @@ class ImageShelf:
         if path.suffix.lower() not in {".exr", ".hdr"}:
             image.colorspace_settings.name = "sRGB" if colour else "Non-Color"
         return image
+
+
+_IN_USE = 5
+
+
+def _bytes(image: Any) -> int:
+    """Memory of an image's pixels: four channels of a byte or a float."""
+    width, height = image.size
+    return int(width * height * 4 * (4 if image.is_float else 1))
 
 
 def _alter(image: Any, *, invert: bool, flip_green: bool) -> None:

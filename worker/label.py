@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from worker.shapes import Points, tangents
 
 SUBPIXELS = 8
@@ -17,8 +18,8 @@ SUBPIXELS = 8
 
 _FRACTION_BITS = 4
 
-LENS_M = 0.050
-SENSOR_M = 0.036
+_BAND_PX = 512
+"""Rows that are drawn at a time, which bounds the memory of large pictures."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +36,7 @@ class View:
 
     def project(self, points: Points) -> NDArray[np.float64]:
         """Pixel coordinates (N, 2) of points (N, 3); the top left corner of the picture is (0, 0)."""
-        focal_px = self.resolution * LENS_M / SENSOR_M
+        focal_px = self.resolution * FOCAL_LENGTH_MM / SENSOR_MM
         scale = focal_px / (self.height_m - points[:, 2])
         return np.stack(
             [self.resolution / 2 + scale * points[:, 0], self.resolution / 2 - scale * points[:, 1]], axis=1
@@ -66,20 +67,34 @@ def label_cables(curves: list[Points], radii_m: NDArray[np.float64], view: View)
     Returns:
         The binary mask and the instances.
     """
-    edge = view.resolution * SUBPIXELS
-    canvas = np.zeros((edge, edge), np.uint8)
     pieces = [_silhouette(curve, float(radius), view) for curve, radius in zip(curves, radii_m, strict=True)]
     heights = np.concatenate([piece.heights_m for piece in pieces])
     polygons = np.concatenate([piece.polygons_px for piece in pieces])
     cables = np.repeat(np.arange(len(pieces)), [len(piece.heights_m) for piece in pieces])
-    margin = polygons.reshape(len(polygons), -1, 2)
-    seen = ((margin.max(axis=1) >= 0) & (margin.min(axis=1) <= view.resolution)).all(axis=1)
+    order = np.argsort(heights, kind="stable")
+    bands = [
+        _label_band(polygons[order], cables[order] + 1, top, min(_BAND_PX, view.resolution - top), view.resolution)
+        for top in range(0, view.resolution, _BAND_PX)
+    ]
+    return Labels(
+        mask=np.concatenate([band.mask for band in bands]),
+        instances=np.concatenate([band.instances for band in bands]),
+    )
+
+
+def _label_band(
+    polygons_px: NDArray[np.float64], numbers: NDArray[np.int64], top: int, rows: int, resolution: int
+) -> Labels:
+    """Label `rows` rows of the picture from row `top` on, painting the polygons in the order given."""
+    canvas = np.zeros((rows * SUBPIXELS, resolution * SUBPIXELS), np.uint8)
+    shifted = polygons_px - [0.0, float(top)]
+    low, high = shifted.min(axis=1), shifted.max(axis=1)
+    seen = ((high >= 0) & (low <= [resolution, rows])).all(axis=1)
     # OpenCV counts from the middle of the first pixel, the picture from its corner.
-    fixed = np.round((polygons * SUBPIXELS - 0.5) * 2**_FRACTION_BITS).astype(np.int32)
-    for k in np.argsort(heights, kind="stable"):
-        if seen[k]:
-            cv2.fillConvexPoly(canvas, fixed[k], (float(cables[k] + 1),), cv2.LINE_8, _FRACTION_BITS)
-    return _downsample(canvas, len(pieces), view.resolution)
+    fixed = np.round((shifted * SUBPIXELS - 0.5) * 2**_FRACTION_BITS).astype(np.int32)
+    for k in np.flatnonzero(seen):
+        cv2.fillConvexPoly(canvas, fixed[k], (float(numbers[k]),), cv2.LINE_8, _FRACTION_BITS)
+    return _downsample(canvas, int(numbers.max()), (resolution, rows))
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,19 +133,22 @@ def _inset(left: NDArray[np.float64], right: NDArray[np.float64]) -> tuple[NDArr
     return left - step, right + step
 
 
-def _downsample(canvas: NDArray[np.uint8], cables: int, resolution: int) -> Labels:
-    covered = _coverage(canvas > 0, resolution)
-    mask = covered >= 0.5
-    best = np.zeros((resolution, resolution))
-    instances = np.zeros((resolution, resolution), np.uint16)
+def _downsample(canvas: NDArray[np.uint8], cables: int, size: tuple[int, int]) -> Labels:
+    mask = _coverage(canvas > 0, size) >= _HALF
+    best = np.zeros(mask.shape, np.uint8)
+    instances = np.zeros(mask.shape, np.uint16)
     for cable in range(1, cables + 1):
-        coverage = _coverage(canvas == cable, resolution)
+        coverage = _coverage(canvas == cable, size)
         better = mask & (coverage > best)
         best[better] = coverage[better]
         instances[better] = cable
     return Labels(mask=np.where(mask, 255, 0).astype(np.uint8), instances=instances)
 
 
-def _coverage(subpixels: NDArray[np.bool_], resolution: int) -> NDArray[np.float32]:
-    share = cv2.resize(subpixels.astype(np.float32), (resolution, resolution), interpolation=cv2.INTER_AREA)
-    return share.astype(np.float32, copy=False)
+_HALF = 128
+
+
+def _coverage(subpixels: NDArray[np.bool_], size: tuple[int, int]) -> NDArray[np.uint8]:
+    """Share of each pixel, 0 to 255; `size` is (width, height). A half is 127.5, which OpenCV rounds to `_HALF`."""
+    share = cv2.resize(subpixels.view(np.uint8) * np.uint8(255), size, interpolation=cv2.INTER_AREA)
+    return share.astype(np.uint8, copy=False)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from assets.bake import BakedSurface, load_baked, surface_directory
-from assets.hdris import builtin_hdris
+from assets.hdris import Hdri, builtin_hdris
 from farm.errors import AssetError
 from farm.header import BuiltinSurfaceRef, DatasetHeader, FileRef, FolderSurfaceRef
 
@@ -45,6 +45,8 @@ class AssetLibrary:
         self._hdris = {hdri.name: hdri for hdri in header.hdris}
         self._baked_folder = baked_folder or surface_directory()
         self._baked: Mapping[str, BakedSurface] | None = None
+        self._builtin_hdris: Mapping[str, Hdri] | None = None
+        self._checked: dict[str, Path] = {}
 
     def surface(self, name: str) -> SurfaceFiles:
         """Files of a surface.
@@ -63,11 +65,21 @@ class AssetLibrary:
         """
         reference = self._hdris[name]
         if reference.path is not None:
-            return checked(FileRef(path=reference.path, sha256=reference.sha256))
-        builtin = next((hdri for hdri in builtin_hdris() if hdri.name == name), None)
-        if builtin is None:
-            raise AssetError(f"the HDRI '{name}' is not among Blender's own; submit the dataset with this version")
+            return self._once_checked(FileRef(path=reference.path, sha256=reference.sha256))
+        if self._builtin_hdris is None:
+            self._builtin_hdris = {hdri.name: hdri for hdri in builtin_hdris()}
+        builtin = self._builtin_hdris.get(name)
+        if builtin is None or builtin.sha256 != reference.sha256:
+            raise AssetError(
+                f"the HDRI '{name}' is not among this Blender's own; install the bpy it was submitted with"
+            )
         return builtin.path
+
+    def _once_checked(self, reference: FileRef) -> Path:
+        """A file whose checksum this process reads once, since pictures by the thousand use it."""
+        if reference.path not in self._checked:
+            self._checked[reference.path] = checked(reference)
+        return self._checked[reference.path]
 
     def _from_bakery(self, surface: BuiltinSurfaceRef) -> SurfaceFiles:
         if self._baked is None:
@@ -87,9 +99,8 @@ class AssetLibrary:
             metallic=baked.path("metallic") if metallic is None else metallic,
         )
 
-    @staticmethod
-    def _from_folder(surface: FolderSurfaceRef) -> SurfaceFiles:
-        files = {role: checked(reference) for role, reference in surface.files.items()}
+    def _from_folder(self, surface: FolderSurfaceRef) -> SurfaceFiles:
+        files = {role: self._once_checked(reference) for role, reference in surface.files.items()}
         return SurfaceFiles(
             size_m=surface.size_m,
             colour=files["colour"],

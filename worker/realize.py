@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from blend import names
+from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from farm.scene import AreaLamp, Cable, CableMaterial, Camera, Floor, HdriWorld, PointLamp, Rgb, Scene
 from worker.images import ImageShelf
 from worker.library import AssetLibrary
@@ -166,7 +167,15 @@ def _set_world(world: HdriWorld | None, library: AssetLibrary, shelf: ImageShelf
 
 
 def _set_camera(camera: Camera) -> None:
+    """Straight down through the published lens, whatever the template's is: the masks take it for granted."""
     camera_object = bpy.data.objects[names.CAMERA]
     camera_object.location = (0.0, 0.0, camera.height_m)
-    camera_object.data.dof.focus_distance = camera.height_m
-    camera_object.data.dof.aperture_fstop = camera.f_number
+    camera_object.rotation_mode = "XYZ"
+    camera_object.rotation_euler = (0.0, 0.0, 0.0)
+    camera_object.scale = (1.0, 1.0, 1.0)
+    data = camera_object.data
+    data.type = "PERSP"
+    data.lens, data.sensor_width, data.sensor_fit = FOCAL_LENGTH_MM, SENSOR_MM, "HORIZONTAL"
+    data.shift_x = data.shift_y = 0.0
+    data.dof.focus_distance = camera.height_m
+    data.dof.aperture_fstop = camera.f_number

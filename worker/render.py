@@ -36,6 +36,8 @@ def configure(spec: DatasetSpec, light: Light, *, device: str, threads: int, see
     render = scene.render
     render.resolution_x = render.resolution_y = spec.resolution
     render.resolution_percentage = 100
+    render.pixel_aspect_x = render.pixel_aspect_y = 1.0
+    render.use_border = False
     render.film_transparent = False
     render.use_compositing = render.use_sequencer = False
     render.threads_mode = "FIXED" if threads else "AUTO"

@@ -13,7 +13,8 @@ from blend.fall import SELF_DISTANCE
 from farm.errors import SceneError
 from farm.scene import Cable, Scene, Wind
 from farm.spec import Fall
-from worker.fall_scale import RADIUS_UNITS, FallScale
+from worker.check import MAX_SPEED_MM_S, MAX_SPEED_RMS_MM_S
+from worker.fall_scale import GRAVITY, RADIUS_UNITS, FallScale
 from worker.shapes import CableShapes, Points, bent_rod
 from worker.strip import centreline, zigzag, zigzag_faces
 
@@ -24,16 +25,15 @@ STRIP_WIDTH = 0.08
 """Width of a strip, in the fall's units; narrower than the cable, so that it turns over like a round one."""
 
 FLOOR_SINK = 0.006
-"""How far a loaded strip sinks into the floor's collision layer, in units; measured, see ARCHITECTURE.md."""
+"""How far a loaded strip sinks into the floor's collision layer, in units, as measured at crossings of two cables: a
+cable alone rests so much above the floor, a loaded one on it."""
 
 WIND_GAIN = 2.0
 """From the published strength to this scale's: the strongest wind shifts cables by millimetres, yet friction holds
 them once they lie (at twice the gain they slide along the floor for ever)."""
 
-REST_RMS_M_S = 0.001
-REST_MAX_M_S = 0.005
-"""Cables rest when they are slower than this over `REST_FRAMES` frames; gate 4 of the checks."""
 REST_FRAMES = 3
+"""Cables rest when they are slower than `worker.check` asks for, over so many frames."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,6 +105,8 @@ def _prepare(fall_scene: Any, strips: _Strips, scene: Scene, fall: Fall) -> None
     cloth.settings.quality = fall.quality
     cloth.settings.mass = scene.vertex_mass
     cloth.settings.effector_weights.wind = 1.0 if scene.wind.strength > 0 else 0.0
+    fall_scene.use_gravity = True
+    fall_scene.gravity = (0.0, 0.0, -GRAVITY)
     collision = cloth.collision_settings
     collision.collision_quality = fall.collision_quality
     collision.use_self_collision = len(strips.slices) > 1
@@ -140,7 +142,7 @@ def _step_until_rest(
             raise SceneError(f"the cloth diverged at frame {frame}")
         speeds = np.linalg.norm(vertices - previous, axis=1) * scale.unit_m / scale.frame_s
         previous = vertices
-        still = np.sqrt(np.mean(speeds**2)) <= REST_RMS_M_S and speeds.max() <= REST_MAX_M_S
+        still = 1000 * np.sqrt(np.mean(speeds**2)) <= MAX_SPEED_RMS_MM_S and 1000 * speeds.max() <= MAX_SPEED_MM_S
         quiet = quiet + 1 if still and frame > REST_FRAMES else 0
         if quiet >= REST_FRAMES:
             break

@@ -65,6 +65,25 @@ def test_a_cable_material_without_a_node_is_refused(tmp_path: Path, node: str) -
         open_template(tmp_path / "less.blend")
 
 
+def test_a_floor_that_was_moved_is_refused(tmp_path: Path) -> None:
+    """The masks and the fall take it to be at z = 0."""
+    open_template(TEMPLATE)
+    bpy.data.objects[names.FLOOR].location.z = 0.01
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "moved.blend"), copy=True)
+    with pytest.raises(TemplateError, match="'floor' unmoved"):
+        open_template(tmp_path / "moved.blend")
+
+
+def test_a_dirt_ramp_of_three_stops_is_refused(tmp_path: Path) -> None:
+    """The worker sets a clean and a dirty stop."""
+    open_template(TEMPLATE)
+    ramp = bpy.data.materials[names.CABLE].node_tree.nodes[names.CABLE_COLOUR_RAMP].color_ramp
+    ramp.elements.new(0.5)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "three.blend"), copy=True)
+    with pytest.raises(TemplateError, match="two stops in the ramp 'dirt ramp'"):
+        open_template(tmp_path / "three.blend")
+
+
 def test_a_file_that_is_no_blend_is_refused(tmp_path: Path) -> None:
     """The error names the file."""
     wrong = tmp_path / "wrong.blend"

@@ -1,5 +1,7 @@
 """Checks of a settled scene, on shapes whose figures are known."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -95,5 +97,21 @@ def test_a_stretched_cable_is_refused() -> None:
 
 
 def test_a_moving_cable_is_refused() -> None:
-    """60 mm/s at capture."""
-    assert "speed" in str(find_fault(measure(shapes(rod(), speed=0.06))))
+    """6 mm/s at capture."""
+    assert "speed" in str(find_fault(measure(shapes(rod(), speed=0.006))))
+
+
+def test_a_cable_that_crosses_itself_is_refused() -> None:
+    """A loop of 20 mm in an otherwise straight cable."""
+    t = np.linspace(-1.0, 1.0, 41)
+    loop = np.stack([0.02 * (t**3 - 0.3 * t) / 0.3, 0.02 * (1 - t**2), np.full_like(t, RADIUS)], axis=1)
+    looped = shapes(loop)
+    lengths = np.array([np.linalg.norm(np.diff(loop, axis=0), axis=1).sum()])
+    figures = measure(replace(looped, lengths_m=lengths))
+    assert figures.self_crossings == 1
+    assert "crosses itself" in str(find_fault(figures))
+
+
+def test_a_gentle_bend_is_no_crossing() -> None:
+    """Neighbouring segments share a point and do not cross."""
+    assert measure(shapes(rod())).self_crossings == 0

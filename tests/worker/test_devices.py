@@ -1,5 +1,7 @@
 """Devices that Cycles may render on."""
 
+from pathlib import Path
+
 import pytest
 
 pytest.importorskip("bpy")
@@ -20,6 +22,7 @@ def test_the_cpu_can_always_be_chosen() -> None:
     assert choose_device("cpu") == "cpu"
 
 
-def test_auto_finds_a_device() -> None:
-    """A GPU if there is one, else the CPU."""
-    assert choose_device("auto") in set(CHOICES) - {"auto"}
+@pytest.mark.skipif(any(Path("/dev").glob("nvidia[0-9]")), reason="needs a machine without a GPU")
+def test_auto_falls_back_to_the_cpu() -> None:
+    """On a machine without a GPU."""
+    assert choose_device("auto") == "cpu"

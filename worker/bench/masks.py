@@ -21,6 +21,8 @@ DEFAULT_IMAGES = 2
 MIN_IOU = 0.95
 """Below this a mask is plainly not of the picture: half a pixel off all along a 4 px cable."""
 
+MAX_EDGE_ERROR_PX = 0.5
+
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
@@ -90,6 +92,9 @@ def run(out: Path, *, images: int | None, seed: int) -> int:
     content = {category: [asdict(agreement) for agreement in found[category]] for category in Category}
     (out / "masks.json").write_text(json.dumps(content, indent=1) + "\n")
     worst = min(agreement.iou for agreements in found.values() for agreement in agreements)
+    off = max(agreement.edge_error_px for agreements in found.values() for agreement in agreements)
+    if off > MAX_EDGE_ERROR_PX:
+        raise VerificationError(f"a mask's edge is {off:.2f} px off its reference at the 99th percentile")
     if worst < MIN_IOU:
         raise VerificationError(f"a mask agrees with its reference only to an IoU of {worst:.3f}; see masks.json")
     return 0

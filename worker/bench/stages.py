@@ -2,7 +2,10 @@
 
 import json
 import platform
+import subprocess
+import sys
 import tempfile
+import time
 from collections import defaultdict
 from collections.abc import Mapping
 from pathlib import Path
@@ -25,7 +28,7 @@ mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first
 
 DEFAULT_IMAGES = 8
-STAGES = ("open", "randomize", "simulate", "check", "realize", "render", "mask", "write")
+STAGES = ("randomize", "simulate", "check", "realize", "render", "mask", "write")
 
 Seconds = Mapping[Category, Mapping[str, float]]
 
@@ -43,8 +46,11 @@ def run(out: Path, *, images: int | None, seed: int) -> int:
     with tempfile.TemporaryDirectory(prefix="cable-farm-") as folder:
         dataset = create_dataset(Destination(folder, "bench"), header)
         log_file = out / "stages.log"
+        start_s = _start_up_s()
+        opening_s = time.perf_counter()
         with blender_writes_to(log_file):
             studio = open_studio(header, device="cpu", threads=0, assets=None)
+        opening_s = time.perf_counter() - opening_s
         for job in track(bench_jobs(count), "images", console=console, transient=True):
             with blender_writes_to(log_file):
                 manifest = upload(studio.make(job, header), job, dataset)
@@ -57,8 +63,20 @@ def run(out: Path, *, images: int | None, seed: int) -> int:
         for category in Category
     }
     console.print(_table(seconds, count))
-    _write(out, seconds, count, seed)
+    console.print(f"once a process: start and load Blender {start_s:.2f} s, open the template {opening_s:.3f} s")
+    _write(out, seconds, {"start": start_s, "open": opening_s}, count, seed)
     return 0
+
+
+def _start_up_s() -> float:
+    """Median seconds from the start of a process until Blender and the worker's stages are loaded in it."""
+    command = [sys.executable, "-c", "import os, worker.studio; os._exit(0)"]
+    seconds = []
+    for _ in range(3):
+        start = time.perf_counter()
+        subprocess.run(command, check=True, capture_output=True)  # noqa: S603  # our own program
+        seconds.append(time.perf_counter() - start)
+    return float(np.median(seconds))
 
 
 def _table(seconds: Seconds, count: int) -> Table:
@@ -71,8 +89,8 @@ def _table(seconds: Seconds, count: int) -> Table:
     return table
 
 
-def _write(out: Path, seconds: Seconds, count: int, seed: int) -> None:
-    content = {"images_per_category": count, "seed": seed, "seconds": seconds}
+def _write(out: Path, seconds: Seconds, once: Mapping[str, float], count: int, seed: int) -> None:
+    content = {"images_per_category": count, "seed": seed, "seconds": seconds, "seconds_once_a_process": once}
     (out / "stages.json").write_text(json.dumps(content, indent=1) + "\n")
     figure, axes = plt.subplots(figsize=(9, 3.6), layout="constrained")
     left = np.zeros(len(seconds))
