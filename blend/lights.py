@@ -26,8 +26,6 @@ def add_lamps(scene: Any) -> None:
 def _add_lamp(scene: Any, name: str, kind: str) -> Any:
     lamp = bpy.data.objects.new(name, bpy.data.lights.new(name, kind))
     lamp.hide_render = True
-    # Eevee's shadow texels, in metres: the default of 1 mm would lose a cable's shadow.
-    lamp.data.shadow_maximum_resolution = 0.00005
     scene.collection.objects.link(lamp)
     return lamp
 

@@ -14,6 +14,7 @@ from farm.category import Light
 from farm.errors import RenderError
 from farm.manifest import RenderSettings
 from farm.spec import DatasetSpec, Engine, Quality
+from worker.eevee import light_with_a_spot
 from worker.render_settings import CyclesSettings, cycles_settings
 
 _EEVEE_SAMPLES = {Quality.DRAFT: 8, Quality.STANDARD: 16, Quality.REFERENCE: 128}
@@ -57,6 +58,7 @@ def _configure_eevee(scene: Any, spec: DatasetSpec) -> RenderSettings:
     scene.eevee.taa_render_samples = samples
     # Ambient occlusion and bounced light, without which cables under an HDRI seem to float.
     scene.eevee.use_raytracing = True
+    light_with_a_spot(scene)
     return RenderSettings(engine="eevee", device="opengl", samples=samples, denoiser=None, resolution=spec.resolution)
 
 

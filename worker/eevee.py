@@ -1,0 +1,55 @@
+"""What Eevee needs that Cycles does not: a lamp whose shadows are fine enough for cables."""
+
+from typing import Any
+
+import bpy
+import numpy as np
+from mathutils import Vector
+
+from blend import names
+
+_NAME = f"{names.POINT_LAMP}.eevee"
+
+_DISTANCE_M = 2.0
+"""Far enough to light the view evenly. At the published distances a 2 mm cable threw no shadow, at 3 m it did."""
+
+_LIT_RADIUS_M = 0.4
+"""Half the width of the floor that the lamp lights: the view and what may throw shadows into it."""
+
+_AREA_TO_POINT = 4.0
+"""An area light of power P shines P / pi per steradian along its axis, a point light P / (4 pi)."""
+
+
+def light_with_a_spot(scene: Any) -> None:
+    """Let a near, narrow spot light stand for the picture's lamp, if it has one.
+
+    Eevee's shadow maps lose a cable under a lamp 7 m away. The stand-in has the lamp's direction, its angular size and
+    its irradiance at the origin.
+    """
+    before = bpy.data.objects.get(_NAME)
+    if before is not None:
+        bpy.data.lights.remove(before.data)
+    for name in (names.POINT_LAMP, names.AREA_LAMP):
+        lamp = bpy.data.objects[name]
+        if not lamp.hide_render:
+            lamp.hide_render = True
+            _add_spot(scene, lamp)
+
+
+def _add_spot(scene: Any, lamp: Any) -> None:
+    is_area = lamp.data.type == "AREA"
+    nearer = _DISTANCE_M / lamp.location.length
+    data = bpy.data.lights.new(_NAME, "SPOT")
+    data.color = lamp.data.color
+    data.energy = lamp.data.energy * nearer**2 * (_AREA_TO_POINT if is_area else 1.0)
+    data.shadow_soft_size = nearer * (lamp.data.size / 2 if is_area else lamp.data.shadow_soft_size)
+    data.spot_size = 2 * float(np.arctan(_LIT_RADIUS_M / _DISTANCE_M))
+    data.spot_blend = 0.0
+    data.shadow_maximum_resolution = 0.0001
+    # Another point of the lamp at every sample. The alternative, marching through one shadow map, steps over cables.
+    data.use_shadow_jitter = True
+    data.shadow_jitter_overblur = 0.0
+    spot = bpy.data.objects.new(_NAME, data)
+    spot.location = nearer * lamp.location
+    spot.rotation_euler = (-Vector(lamp.location)).to_track_quat("-Z", "Y").to_euler()
+    scene.collection.objects.link(spot)
