@@ -65,9 +65,12 @@ class Coordinator:
         done = self._completion.refresh()
         self._completion.remove_leftovers(time.time())
         self._ledger.forget_failures()
-        on_the_way = self._queue.queued(self._dataset.name) | live_claims(self._ledger).keys()
+        on_the_way = self._queued() | live_claims(self._ledger).keys()
         jobs = (job for job in self._dataset.header.spec.jobs() if job.id not in done and job.id not in on_the_way)
         return self._submit(_counted(jobs, on_submitted))
+
+    def _queued(self) -> set[str]:
+        return self._queue.queued(self._dataset.name, self._dataset.header.spec_sha256)
 
     def _submit(self, jobs: Iterable[Job]) -> int:
         return self._queue.submit(self._dataset.message(job) for job in jobs)
@@ -120,7 +123,7 @@ class Coordinator:
         if self._queue.length() > _SHORT_QUEUE:
             return frozenset()
         # The queue is looked at before the claims: a job moves from there to here, never back.
-        accounted = self._queue.queued(self._dataset.name)
+        accounted = self._queued()
         accounted |= live_claims(self._ledger).keys()
         accounted |= (progress.failures or {}).keys() | self._completion.refresh()
         return frozenset(job.id for job in self._dataset.header.spec.jobs() if job.id not in accounted)

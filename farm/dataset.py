@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pydantic import TypeAdapter, ValidationError
 
-from farm.errors import ConflictError, DestinationError, MessageError
+from farm.errors import ConflictError, DatasetMissingError, DestinationError, MessageError, StaleMessageError
 from farm.header import DatasetHeader
 from farm.job import DatasetName, Job, JobMessage
 from farm.layout import HEADER_FILE
@@ -49,10 +49,14 @@ def parse_destination(out: str) -> Destination:
     """Split a place, a path or URL, into the store and the dataset's name.
 
     Raises:
-        DestinationError: if the last part can't be the name of a dataset.
+        DestinationError: if a URL names no folder in a bucket, or the last part can't be the name of a dataset.
     """
     if "://" in out:
-        store, _, name = out.rstrip("/").rpartition("/")
+        kind, _, rest = out.partition("://")
+        store, _, name = rest.rstrip("/").rpartition("/")
+        if not store.strip("/"):
+            raise DestinationError(f"{out}: names no folder for the dataset; write {kind}://BUCKET/FOLDER")
+        store = f"{kind}://{store}"
     else:
         path = Path(out).expanduser().resolve()
         store, name = str(path.parent), path.name
@@ -69,14 +73,15 @@ def open_dataset(destination: Destination) -> Dataset:
     """Open the dataset that is there.
 
     Raises:
-        DestinationError: if there is none, or its header can't be read.
+        DatasetMissingError: if there is none.
+        DestinationError: if its header can't be read.
         ConflictError: if its header is damaged or of another version of the farm.
     """
     storage = open_storage(destination.location)
     try:
         header = _read_header(storage)
     except FileNotFoundError as error:
-        raise DestinationError(
+        raise DatasetMissingError(
             f"{destination.location}: no dataset here (no {HEADER_FILE}); check the path, or make one with farm run"
         ) from error
     return Dataset(destination.name, storage, header)
@@ -86,12 +91,14 @@ def open_for_message(store: str, message: JobMessage) -> Dataset:
     """Open the dataset that a job message names, in this worker's own store.
 
     Raises:
-        DestinationError: if the store does not hold it.
-        MessageError: if it is there with another description, or does not ask for this job.
+        DatasetMissingError: if the store does not hold it.
+        DestinationError: if its header can't be read.
+        StaleMessageError: if it is there with another description.
+        MessageError: if it does not ask for this job.
     """
     dataset = open_dataset(Destination(store=store, name=message.dataset))
     if dataset.header.spec_sha256 != message.spec_sha256:
-        raise MessageError(
+        raise StaleMessageError(
             f"{message.task_id}: made for description {message.spec_sha256[:12]}, but {dataset.storage.location} holds "
             f"{dataset.header.spec_sha256[:12]}; submit again, or give this worker the right --store"
         )

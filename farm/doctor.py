@@ -20,6 +20,21 @@ _MEMORY_GIB = 4.0
 _DISK_GIB = 2.0
 _BLENDER_S = 120.0
 
+_DEVICES = Path("/dev")
+_GPU_SIGNS = (
+    ("optix or cuda", "nvidia[0-9]*", "NVIDIA"),
+    ("hip", "kfd", "AMD"),
+    ("oneapi or hip", "dri/renderD*", "a render node"),
+)
+
+# Mesa's, of older and newer packages, and NVIDIA's own; below the root.
+_DRIVERS = (
+    "usr/lib/*/dri/swrast_dri.so",
+    "usr/lib/*/dri/libdril_dri.so",
+    "usr/lib/*/libgallium-*.so",
+    "usr/lib/*/libEGL_nvidia.so.0",
+)
+
 # Debian's packages of the libraries that bpy is linked to.
 _PACKAGES = {
     "libEGL.so.1": "libegl1",
@@ -64,6 +79,7 @@ def examine(folder: Path) -> list[Check]:
         _redis_server(),
         _surfaces(),
         _egl(),
+        _gpu(),
         _flower(),
         _cores(),
         _memory(),
@@ -150,7 +166,22 @@ def _egl() -> Check:
     except OSError:
         remedy = "apt-get install --no-install-recommends libegl1 libgl1-mesa-dri"
         return Check(name="EGL", ok=False, needed=False, detail="not found; --engine eevee needs it", remedy=remedy)
-    return Check(name="EGL", ok=True, needed=False, detail="found, for --engine eevee")
+    if not any(list(Path("/").glob(pattern)) for pattern in _DRIVERS):
+        remedy = "apt-get install --no-install-recommends libgl1-mesa-dri"
+        detail = "found, but no driver for it; --engine eevee needs one"
+        return Check(name="EGL", ok=False, needed=False, detail=detail, remedy=remedy)
+    return Check(name="EGL", ok=True, needed=False, detail="found with a driver, for --engine eevee")
+
+
+def _gpu() -> Check:
+    # Whether Cycles can use it, only Blender knows; this tells in no time what is worth a try.
+    found = [
+        f"{backend} ({sign})"
+        for backend, pattern, sign in _GPU_SIGNS
+        if list(_DEVICES.glob(pattern)) or (sign == "NVIDIA" and shutil.which("nvidia-smi"))
+    ]
+    detail = f"may serve --device {'; '.join(found)}" if found else "none found; Cycles renders on the CPU"
+    return Check(name="GPU", ok=True, needed=False, detail=detail)
 
 
 def _flower() -> Check:

@@ -1,7 +1,7 @@
 """A job: one image of a dataset, and the message that asks a worker for it."""
 
 import re
-from typing import Annotated, Literal, Self
+from typing import Annotated, Self
 
 from pydantic import Field, ValidationError
 
@@ -50,7 +50,7 @@ class JobMessage(Model):
     The worker looks `dataset` up in its own store and checks that the spec it finds there has `spec_sha256`.
     """
 
-    version: Literal[1] = 1
+    version: Annotated[int, Field(ge=1, le=1)] = 1  # not Literal[1], which takes true for 1
     dataset: DatasetName
     spec_sha256: Sha256
     job_id: Annotated[str, Field(max_length=80)]
@@ -62,8 +62,8 @@ class JobMessage(Model):
 
     @property
     def task_id(self) -> str:
-        """The Celery task's id, readable in Flower."""
-        return f"{self.dataset}:{self.job_id}"
+        """The Celery task's id, readable in Flower. The fingerprint keeps datasets of one name apart."""
+        return f"{queue_key(self.dataset, self.spec_sha256)}:{self.job_id}"
 
     def encode(self) -> dict[str, object]:
         """As JSON-ready values."""
@@ -84,3 +84,8 @@ class JobMessage(Model):
             raise MessageError(f"job message refused: {where}: {first['msg']}") from error
         Job.from_id(message.job_id)
         return message
+
+
+def queue_key(dataset: str, spec_sha256: str) -> str:
+    """What task ids and ledger keys of one dataset begin with: its name and its description's fingerprint, short."""
+    return f"{dataset}:{spec_sha256[:12]}"

@@ -10,7 +10,7 @@ from string import Template
 from urllib.parse import quote
 
 from farm.category import Category
-from farm.collect import IndexEntry, done_manifests, index_entry
+from farm.collect import IndexEntry, done_manifests, index_entry, write_index
 from farm.dataset import Dataset
 from farm.layout import REPORT_FILE
 
@@ -50,6 +50,16 @@ def write_report(dataset: Dataset, *, pictures_per_category: int = 40) -> int:
             section.seconds[stage].append(seconds)
     dataset.storage.write(REPORT_FILE, _page(dataset, sections).encode())
     return sum(section.done for section in sections.values())
+
+
+def write_overview(dataset: Dataset) -> None:
+    """Write the index and the page, at the end of a dataset's making, whether it succeeded or not.
+
+    Raises:
+        DestinationError: if the folder can't be read or written.
+    """
+    write_index(dataset)
+    write_report(dataset)
 
 
 def _page(dataset: Dataset, sections: Mapping[Category, _Section]) -> str:

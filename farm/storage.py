@@ -7,7 +7,6 @@ starts with `TEMPORARY_PREFIX` and counts for nothing.
 
 import hashlib
 import os
-import socket
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from typing import Any, Protocol
 import fsspec
 
 from farm.errors import DestinationError, EnvironmentMissingError
+from farm.machine import machine_name
 
 TEMPORARY_PREFIX = ".tmp-"
 
@@ -114,8 +114,8 @@ class LocalStorage:
     def write(self, path: str, content: bytes) -> None:
         """Write beside the target, read back, then move; see `Storage.write`."""
         target = self._root / path
-        # Host and process make the name unique among all writers of one shared folder.
-        temporary = target.with_name(f"{TEMPORARY_PREFIX}{target.name}.{socket.gethostname()}.{os.getpid()}")
+        # Machine and process make the name unique among all writers of one shared folder.
+        temporary = target.with_name(f"{TEMPORARY_PREFIX}{target.name}.{machine_name()}.{os.getpid()}")
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
             try:

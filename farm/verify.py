@@ -58,7 +58,7 @@ class Verdict(Model):
 
 
 def verify(dataset: Dataset, on_checked: Callable[[int], None] = lambda _: None) -> Verdict:
-    """Check a dataset.
+    """Check a dataset, which may grow meanwhile: what is made before its job is looked at is not missing.
 
     Args:
         dataset: the dataset.
@@ -67,17 +67,16 @@ def verify(dataset: Dataset, on_checked: Callable[[int], None] = lambda _: None)
     Raises:
         DestinationError: if the folder or a file in it can't be read.
     """
-    files = dataset.storage.files()
     spec = dataset.header.spec
     findings: list[Finding] = []
     clean = 0
     with ThreadPoolExecutor(_THREADS) as threads:
-        results = threads.map(lambda job: list(_check_job(dataset, job, files)), spec.jobs())
+        results = threads.map(lambda job: list(_check_job_twice(dataset, job)), spec.jobs())
         for count, found in enumerate(results, start=1):
             findings += found
             clean += not found
             on_checked(count)
-    findings += _extra(dataset, files)
+    findings += _extra(dataset, dataset.storage.files())
     return Verdict(
         location=dataset.storage.location,
         images=clean,
@@ -86,7 +85,13 @@ def verify(dataset: Dataset, on_checked: Callable[[int], None] = lambda _: None)
     )
 
 
-def _check_job(dataset: Dataset, job: Job, files: dict[str, StoredFile]) -> Iterator[Finding]:
+def _check_job_twice(dataset: Dataset, job: Job) -> Iterator[Finding]:
+    """Look again at what seems wrong: a worker may have been replacing the files one by one."""
+    if list(_check_job(dataset, job)):
+        yield from _check_job(dataset, job)
+
+
+def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
     path = manifest_path(job)
     try:
         manifest = parse_manifest(dataset.storage.read(path), dataset, job)
@@ -98,7 +103,7 @@ def _check_job(dataset: Dataset, job: Job, files: dict[str, StoredFile]) -> Iter
         return
     pixels: dict[FileRole, NDArray[np.generic]] = {}
     for role in FileRole:
-        found = _check_file(dataset, role, manifest.files[role], files, pixels)
+        found = _check_file(dataset, role, manifest.files[role], pixels)
         if found is not None:
             yield found
     if len(pixels) == len(FileRole):
@@ -109,16 +114,16 @@ def _check_file(
     dataset: Dataset,
     role: FileRole,
     record: FileRecord,
-    files: dict[str, StoredFile],
     pixels: dict[FileRole, NDArray[np.generic]],
 ) -> Finding | None:
-    stored = files.get(record.path)
-    if stored is None:
+    # Read rather than looked up in a listing, which would be older than the manifest where the dataset grows.
+    try:
+        content = dataset.storage.read(record.path)
+    except FileNotFoundError:
         return Finding(fault=Fault.MISSING, path=record.path, detail="its manifest is there")
-    if stored.bytes < record.bytes:
-        detail = f"{stored.bytes} of {record.bytes} bytes"
+    if len(content) < record.bytes:
+        detail = f"{len(content)} of {record.bytes} bytes"
         return Finding(fault=Fault.TRUNCATED, path=record.path, detail=detail)
-    content = dataset.storage.read(record.path)
     if len(content) != record.bytes or hashlib.sha256(content).hexdigest() != record.sha256:
         return Finding(fault=Fault.ALTERED, path=record.path, detail="its checksum is not the manifest's")
     decoded = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)

@@ -1,8 +1,9 @@
 """A maker without Blender: draws noise from the job's own seed, so the queue can be tested in seconds.
 
-As a program it is a worker with this maker: `python -P tests/stand_in.py serve ...`. Two environment variables make
-it slow or failing: `STAND_IN_DELAY_S`, and `STAND_IN_FAILS` with `job id=kind` pairs. The kinds: `permanent`;
-`passing`, which never passes; `once` in each process; `crash` of the process; `defect`, an exception of no FarmError.
+As a program it is a worker with this maker: `python -P tests/stand_in.py serve ...`. Environment variables make it
+slow or failing: `STAND_IN_DELAY_S`; `STAND_IN_UNFIT` with a reason why it can't be opened; and `STAND_IN_FAILS` with
+`job id=kind` pairs. The kinds: `permanent`; `passing`, which never passes; `once` in each process; `crash` of the
+process; `hang`; `asset`, which this machine lacks; `defect`, an exception of no FarmError.
 """
 
 import os
@@ -15,7 +16,7 @@ import numpy as np
 
 from farm import __version__
 from farm.category import Category
-from farm.errors import RenderError, SceneError
+from farm.errors import AssetError, EnvironmentMissingError, RenderError, SceneError
 from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
 from farm.job import Job
 from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
@@ -120,13 +121,24 @@ def _fail_if_told(job: Job) -> None:
         raise RenderError("Blender lost the device")
     if kind == "defect":
         raise ZeroDivisionError("a bug")
+    if kind == "asset":
+        raise AssetError("the surface 'oak' is not baked here")
+    if kind == "hang":
+        signal.signal(signal.SIGUSR1, signal.SIG_IGN)  # Celery's soft limit does not reach into Blender's C code
+        time.sleep(3600)
     if kind == "crash":
         os.kill(os.getpid(), signal.SIGKILL)
 
 
 def open_stand_in(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> ImageMaker:
-    """Takes what the real one takes, and needs none of it."""
+    """Takes what the real one takes, and needs none of it.
+
+    Raises:
+        EnvironmentMissingError: if told to.
+    """
     del header, device, threads, assets
+    if reason := os.environ.get("STAND_IN_UNFIT"):
+        raise EnvironmentMissingError(reason)
     return StandInMaker()
 
 

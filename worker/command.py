@@ -11,14 +11,14 @@ from typing import Protocol
 
 from pydantic import ValidationError
 
-from farm.errors import FarmError, MessageError
+from farm.errors import EnvironmentMissingError, FarmError, MessageError
 from farm.header import DatasetHeader
 from farm.job import Job
 from farm.queue.broker import broker_url
 from farm.queue.settings import MEMORY_PER_CHILD_KIB, TASKS_PER_CHILD
 from farm.storage import LocalStorage
 from worker.made import ImageMaker
-from worker.process import WorkerSettings, send_output_to, serve
+from worker.process import WorkerSettings, prepare_log, send_output_to, serve
 from worker.runner import MakerFactory
 from worker.upload import encode_png
 
@@ -60,6 +60,8 @@ def _parser() -> argparse.ArgumentParser:
 
     commands.add_parser("check", parents=[render], help="open what renders; the dataset's header comes by stdin")
 
+    commands.add_parser("device", parents=[render], help="load Blender and find the device")
+
     one = commands.add_parser("preview", parents=[render], help="one picture; the dataset's header comes by stdin")
     one.add_argument("--job", required=True)
     one.add_argument("--out", type=Path, required=True)
@@ -82,6 +84,8 @@ def main(arguments: list[str], open_studio: OpenStudio = _open_blender) -> int:
     try:
         if options.command == "check":
             return _check(options, open_maker)
+        if options.command == "device":
+            return _device(options)
         if options.command == "preview":
             return _preview(options, open_maker)
         settings = WorkerSettings(
@@ -103,6 +107,17 @@ def main(arguments: list[str], open_studio: OpenStudio = _open_blender) -> int:
 def _check(options: argparse.Namespace, open_maker: MakerFactory) -> int:
     with _output_in(options.logs / "check.log"):
         open_maker(_read_header())
+    return 0
+
+
+def _device(options: argparse.Namespace) -> int:
+    with _output_in(options.logs / "check.log"):
+        try:
+            # It loads Blender, as above.
+            from worker.devices import choose_device  # noqa: PLC0415
+        except ImportError as error:
+            raise EnvironmentMissingError(f"Blender does not load: {error}; try farm doctor") from error
+        choose_device(options.device)
     return 0
 
 
@@ -128,7 +143,7 @@ def _read_header() -> DatasetHeader:
 
 @contextmanager
 def _output_in(log_file: Path) -> Iterator[None]:
-    log_file.parent.mkdir(parents=True, exist_ok=True)
+    prepare_log(log_file.parent, log_file.name)
     errors = os.dup(2)
     send_output_to(log_file)
     try:

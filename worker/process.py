@@ -8,12 +8,15 @@ from pathlib import Path
 from typing import Any
 
 from celery import signals
+from celery.worker import state
 
+from farm.errors import DestinationError, UnfitWorkerError
 from farm.ledger.port import Ledger
 from farm.ledger.redis import RedisLedger
 from farm.local.tied import die_with_parent
 from farm.queue.broker import connect
 from farm.queue.settings import QUEUE, make_app
+from farm.storage import open_storage
 from worker.runner import JobRunner, MakerFactory
 from worker.tasks import register_tasks
 
@@ -52,18 +55,26 @@ def serve(settings: WorkerSettings, open_maker: MakerFactory) -> int:
 
     Raises:
         BrokerError: if Redis is not there.
-        OSError: if the log folder can't be written.
+        DestinationError: if the store can't be read, or the log folder not be made.
+        FarmError: what made this worker unfit, once it has given its job back.
     """
     connect(settings.broker_url).close()
-    log_file = settings.log_folder / f"{settings.name}.log"
-    settings.log_folder.mkdir(parents=True, exist_ok=True)
+    open_storage(settings.store).is_empty()  # it may be empty or not there yet, but must be readable
+    log_file = prepare_log(settings.log_folder, f"{settings.name}.log")
     logging.basicConfig(level=logging.INFO, format=_LOG_FORMAT)
     app = make_app(settings.broker_url)
     app.conf.update(
         worker_max_tasks_per_child=settings.tasks_per_child,
         worker_max_memory_per_child=settings.memory_per_child_kib,
     )
-    register_tasks(app, JobRunner(settings.store, open_maker, _LedgersOfProcess(settings.broker_url)))
+    faults: list[UnfitWorkerError] = []
+
+    def take_out(fault: UnfitWorkerError) -> None:
+        # Celery looks at this between two messages: none is taken after the one that is about to be given back.
+        state.should_stop = fault.code
+        faults.append(fault)
+
+    register_tasks(app, JobRunner(settings.store, open_maker, _LedgersOfProcess(settings.broker_url)), take_out)
 
     main_process = os.getpid()
 
@@ -84,6 +95,8 @@ def serve(settings: WorkerSettings, open_maker: MakerFactory) -> int:
         without_mingle=True,
     )
     worker.start()
+    if faults:
+        raise faults[0].as_fault()
     return int(worker.exitcode or 0)
 
 
@@ -102,6 +115,25 @@ class _LedgersOfProcess:
         if key not in self._ledgers:
             self._ledgers[key] = RedisLedger(self._client, dataset, spec_sha256)
         return self._ledgers[key]
+
+
+def prepare_log(folder: Path, name: str) -> Path:
+    """Make a folder for logs.
+
+    Returns:
+        The log file in it, which can be written.
+
+    Raises:
+        DestinationError: if it can't be.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / name).open("ab").close()
+    except OSError as error:
+        raise DestinationError(
+            f"{folder}: can't write logs: {error.strerror}; name another folder by --logs"
+        ) from error
+    return folder / name
 
 
 def send_output_to(log_file: Path) -> None:

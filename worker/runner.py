@@ -8,7 +8,18 @@ from celery.exceptions import SoftTimeLimitExceeded
 
 from farm.completion import is_done
 from farm.dataset import Dataset, open_for_message
-from farm.errors import FarmError, PermanentError, RenderError, RetryableError
+from farm.errors import (
+    AssetError,
+    DatasetMissingError,
+    EnvironmentMissingError,
+    FarmError,
+    PermanentError,
+    RenderError,
+    RetryableError,
+    StaleMessageError,
+    TemplateError,
+    UnfitWorkerError,
+)
 from farm.header import DatasetHeader
 from farm.job import Job, JobMessage
 from farm.layout import FileRole
@@ -28,11 +39,15 @@ MAX_TRIES = 3
 MAX_STARTS = 6
 """A job is begun so often at most, as one that kills its process can't be counted at its end."""
 
+MAX_ABSENCES = 6
+"""So many workers in a row may end since their store lacks a dataset; then it is gone, and its jobs fail."""
+
 BACKOFF_S = (5.0, 30.0)
 """Pauses before the second and third try."""
 
 _MARGIN_S = 30.0
 _REASON_LENGTH = 500
+_FAULTS_OF_THE_MACHINE = (AssetError, EnvironmentMissingError, TemplateError)
 
 
 class TryLaterError(RetryableError):
@@ -74,19 +89,27 @@ class JobRunner:
         Raises:
             TryLaterError: when the message is to be sent again.
             PermanentError: the job failed for good; the ledger has the reason.
+            UnfitWorkerError: this worker can't do the job, but another may; the message must go back to the queue.
             BrokerError: if the ledger can't be reached.
         """
         message = JobMessage.decode(payload)
         ledger = self._open_ledger(message.dataset, message.spec_sha256)
-        attempt = _claim(ledger, message.job_id)
+        start = _claim(ledger, message.job_id)
         try:
-            return self._run_claimed(message, ledger, attempt)
+            return self._run_claimed(message, ledger, start)
+        except StaleMessageError as error:
+            # Its dataset was replaced by another of the same name; whoever replaced it has submitted that one.
+            return f"dropped: {error}"
+        except UnfitWorkerError:
+            ledger.give_back(message.job_id, this_process())
+            raise
         except RetryableError as error:
-            if attempt >= MAX_TRIES:
-                reason = f"{error} (tried {attempt} times)"
+            troubles = ledger.count_trouble(message.job_id)
+            if troubles >= MAX_TRIES:
+                reason = f"{error} (tried {troubles} times)"
                 _record_failure(ledger, message.job_id, reason)
                 raise PermanentError(f"{message.task_id}: {reason}") from error
-            delay_s = BACKOFF_S[attempt - 1]
+            delay_s = BACKOFF_S[troubles - 1]
             # The claim stays, free for the taking, so that a coordinator knows the job is on its way.
             ledger.postpone(message.job_id, this_process(), delay_s + _MARGIN_S)
             raise TryLaterError(f"{message.task_id}: {error}", delay_s) from error
@@ -96,21 +119,35 @@ class JobRunner:
         finally:
             ledger.release(message.job_id, this_process())
 
-    def _run_claimed(self, message: JobMessage, ledger: Ledger, attempt: int) -> str:
+    def _run_claimed(self, message: JobMessage, ledger: Ledger, start: int) -> str:
         job = message.job
-        dataset = open_for_message(self._store, message)
+        dataset = self._open_dataset(message, ledger)
         if is_done(dataset, job):
             return f"{message.task_id} is done already"
-        if attempt > MAX_STARTS:
-            raise PermanentError(f"its process died in each of {MAX_STARTS} attempts; see the worker's log")
+        if start > MAX_STARTS:
+            raise PermanentError(
+                f"its process died, or met the time limit, in each of {MAX_STARTS} attempts; see the worker's log"
+            )
         with Heartbeat(ledger, job.id, this_process()):
             manifest = upload(self._make(dataset, job), job, dataset)
-        ledger.record_done(job.id, job.category, manifest.files[FileRole.IMAGE].path)
+        ledger.record_done(job.id, manifest.files[FileRole.IMAGE].path)
         return f"{message.task_id} done in {sum(manifest.timings_s.values()):.1f} s"
 
-    def _make(self, dataset: Dataset, job: Job) -> MadeImage:
+    def _open_dataset(self, message: JobMessage, ledger: Ledger) -> Dataset:
         try:
-            return self._maker_for(dataset.header).make(job, dataset.header)
+            return open_for_message(self._store, message)
+        except DatasetMissingError as error:
+            if ledger.count_absence() > MAX_ABSENCES:
+                raise PermanentError(f"{error}; {MAX_ABSENCES} other workers lacked it, too") from error
+            raise UnfitWorkerError(f"{error}; or give this worker the right --store", error.exit_code) from error
+
+    def _make(self, dataset: Dataset, job: Job) -> MadeImage:
+        maker = self._maker_for(dataset.header)
+        try:
+            return maker.make(job, dataset.header)
+        except _FAULTS_OF_THE_MACHINE as error:
+            # Textures and HDRIs are looked up when a scene first shows them.
+            raise UnfitWorkerError(str(error), error.exit_code) from error
         except FarmError:
             raise
         except SoftTimeLimitExceeded as error:
@@ -124,8 +161,21 @@ class JobRunner:
         fingerprint = header.spec_sha256
         if self._maker is None or self._maker[0] != fingerprint:
             self._maker = None  # two open templates at once would need twice the memory
-            self._maker = (fingerprint, self._open_maker(header))
+            self._maker = (fingerprint, self._opened(header))
         return self._maker[1]
+
+    def _opened(self, header: DatasetHeader) -> ImageMaker:
+        try:
+            return self._open_maker(header)
+        except FarmError as error:
+            raise UnfitWorkerError(str(error), error.exit_code) from error
+        except SoftTimeLimitExceeded as error:
+            raise RenderError("opening the template took longer than the time limit") from error
+        except Exception as error:
+            # Blender's libraries, the driver, the memory: nothing of it is the job's doing.
+            log.exception("nothing can be rendered here")
+            reason = f"can't open Blender: {type(error).__name__}: {error}"
+            raise UnfitWorkerError(reason, EnvironmentMissingError.exit_code) from error
 
 
 def _claim(ledger: Ledger, job_id: str) -> int:

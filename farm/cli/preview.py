@@ -1,5 +1,6 @@
 """`farm preview`: one picture, now, without queue or dataset."""
 
+import os
 from pathlib import Path
 from typing import Annotated
 
@@ -34,12 +35,16 @@ def preview(
         raise DestinationError(f"{out}: a preview is a PNG; let its name end in .png")
     if not out.parent.is_dir():
         raise DestinationError(f"{out}: there is no folder {out.parent}; make it first")
+    if not os.access(out.parent, os.W_OK):
+        raise DestinationError(f"{out}: can't be written; check the rights of {out.parent}")
+    mask = out.with_name(f"{out.stem}-mask.png")
+    if taken := next((path for path in (out, mask) if path.is_dir()), None):
+        raise DestinationError(f"{taken}: is a folder; name a file by --out")
     description = options.describe(quotas={str(category): index + 1})
     header = make_header(description.spec, description.inputs, InstalledAssets())
     require_blender()
     bake_for(header, assets, console())
     job = Job(category=category, index=index)
-    mask = out.with_name(f"{out.stem}-mask.png")
     arguments = ["preview", "--job", job.id, "--out", str(out), "--mask", str(mask)]
     arguments += ["--device", device, "--threads", str(threads)]
     if assets is not None:

@@ -10,13 +10,12 @@ from farm.catalogue import make_header
 from farm.cli.baking import bake_for
 from farm.cli.display import ProgressDisplay, console
 from farm.cli.options import Assets, DatasetOptions, Device, DeviceChoice, Logs, Out, log_folder, takes_dataset_options
-from farm.cli.worker_program import ask_worker, require_blender
-from farm.collect import write_index
-from farm.dataset import Destination, find_dataset, open_dataset, parse_destination
+from farm.cli.worker_program import ask_worker, check_device, require_blender
+from farm.dataset import find_dataset, open_dataset, parse_destination
 from farm.errors import IncompleteError
 from farm.layout import REPORT_FILE
 from farm.local.run import LocalRun, run_locally
-from farm.report import write_report
+from farm.report import write_overview
 
 
 @takes_dataset_options
@@ -38,6 +37,7 @@ def run(
     require_blender()
     find_dataset(destination, header)  # a conflict is told before the minutes that drawing surfaces may take
     screen = console()
+    check_device(device, log_folder(logs))
     bake_for(header, assets, screen)
     if description.inputs.template is not None:
         ask_worker(["check"], header, log_folder(logs))
@@ -54,16 +54,10 @@ def run(
         except IncompleteError:
             # What is there is worth a look, too.
             screen.print(f"the workers' logs are in {how.logs}", markup=False)
-            _collect(destination)
+            write_overview(open_dataset(destination))
             raise
         except (KeyboardInterrupt, SystemExit):
             screen.print("stopped; repeat the command to make what is missing")
             raise
-    _collect(destination)
+    write_overview(open_dataset(destination))
     typer.echo(f"{progress.done} images in {progress.location}; look at {progress.location}/{REPORT_FILE}")
-
-
-def _collect(destination: Destination) -> None:
-    dataset = open_dataset(destination)
-    write_index(dataset)
-    write_report(dataset)

@@ -7,13 +7,12 @@ import typer
 from farm.asset_source import InstalledAssets
 from farm.catalogue import make_header
 from farm.cli.connection import coordinator_of
-from farm.cli.display import ProgressDisplay, console
+from farm.cli.display import console
 from farm.cli.options import Broker, DatasetOptions, Logs, Out, log_folder, takes_dataset_options
+from farm.cli.status import watch_to_the_end
 from farm.cli.worker_program import ask_worker, blender_is_installed
-from farm.collect import write_index
 from farm.dataset import create_dataset, parse_destination
 from farm.queue.broker import broker_url, connect
-from farm.report import write_report
 
 
 @takes_dataset_options
@@ -39,7 +38,4 @@ def submit(
         count = coordinator.submit_missing(lambda so_far: status.update(f"queueing: {so_far}"))
     typer.echo(f"{count} of {dataset.header.spec.total} images queued for {dataset.storage.location}")
     if wait:
-        with ProgressDisplay(screen) as display:
-            coordinator.watch(display.show)
-        write_index(dataset)
-        write_report(dataset)
+        watch_to_the_end(dataset, coordinator)

@@ -10,9 +10,10 @@ from assets.surfaces.catalogue import SURFACES
 from farm.cli.baking import bake
 from farm.cli.display import console
 from farm.cli.options import Assets, Broker, Device, DeviceChoice, Logs, log_folder
-from farm.cli.worker_program import become_worker, require_blender
+from farm.cli.worker_program import become_worker, check_device, require_blender
 from farm.queue.broker import broker_url, connect
 from farm.queue.settings import MEMORY_PER_CHILD_KIB, TASKS_PER_CHILD
+from farm.storage import open_storage
 
 
 def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
@@ -35,8 +36,11 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
     require_blender()
     url = broker_url(broker)
     connect(url).close()
+    store = store if "://" in store else str(Path(store).expanduser().resolve())
+    open_storage(store).is_empty()  # it may be empty or not there yet, but must be readable
+    check_device(device, log_folder(logs))
     bake(SURFACES, assets, console())
-    arguments = ["serve", "--store", store if "://" in store else str(Path(store).expanduser().resolve())]
+    arguments = ["serve", "--store", store]
     arguments += ["--name", name or f"worker-{os.getpid()}", "--device", device, "--threads", str(threads)]
     arguments += ["--concurrency", str(concurrency), "--tasks-per-child", str(tasks_per_child)]
     arguments += ["--memory-per-child-kib", str(memory_per_child_mib * 1024), "--logs", str(log_folder(logs))]

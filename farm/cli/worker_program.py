@@ -7,23 +7,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from farm.errors import (
-    AssetError,
-    EnvironmentMissingError,
-    FarmError,
-    MessageError,
-    RenderError,
-    SceneError,
-    TemplateError,
-)
+from farm.errors import EnvironmentMissingError, RenderError, error_of
 from farm.header import DatasetHeader
 from farm.local.workers import WORKER_COMMAND
 from farm.queue.broker import BROKER_VARIABLE
-
-_BY_EXIT_CODE: dict[int, type[FarmError]] = {
-    error.exit_code: error
-    for error in (AssetError, EnvironmentMissingError, MessageError, RenderError, SceneError, TemplateError)
-}
 
 
 def blender_is_installed() -> bool:
@@ -50,21 +37,29 @@ def become_worker(arguments: Sequence[str], broker_url: str) -> None:
     os.execve(command[0], command, environment)  # noqa: S606 - no shell is wanted
 
 
-def ask_worker(arguments: Sequence[str], header: DatasetHeader, logs: Path) -> None:
-    """Run one of the worker's commands on a header, to its end.
+def check_device(device: str, logs: Path) -> None:
+    """Make sure that Blender loads here and has the device; in a process of its own.
+
+    Raises:
+        EnvironmentMissingError: if not.
+        DestinationError: if the log folder can't be written.
+    """
+    ask_worker(["device", "--device", device], None, logs)
+
+
+def ask_worker(arguments: Sequence[str], header: DatasetHeader | None, logs: Path) -> None:
+    """Run one of the worker's commands, on a header if it takes one, to its end.
 
     Raises:
         FarmError: of the kind of the worker's exit code, with its message.
     """
     result = subprocess.run(  # noqa: S603 - our own program and arguments
         [*WORKER_COMMAND, *arguments, "--logs", str(logs)],
-        input=header.model_dump_json().encode(),
+        input=b"" if header is None else header.model_dump_json().encode(),
         stderr=subprocess.PIPE,
         check=False,
     )
     if result.returncode != 0:
         message = result.stderr.decode(errors="replace").strip() or f"it ended with code {result.returncode}"
-        kind = _BY_EXIT_CODE.get(result.returncode)
-        if kind is None:
-            raise RenderError(f"the worker's program failed; its log is in {logs}: {message.splitlines()[-1]}")
-        raise kind(message)
+        defect = RenderError(f"the worker's program failed; its log is in {logs}: {message.splitlines()[-1]}")
+        raise error_of(result.returncode, message) or defect

@@ -1,22 +1,22 @@
-"""Who holds a claim: a process, by host and number. A dead process of this host loses its claims at once."""
+"""Who holds a claim: a process, by machine and number. A dead process of this machine loses its claims at once."""
 
 import os
-import socket
 from collections.abc import Mapping
 from pathlib import Path
 
 from farm.ledger.port import Ledger
+from farm.machine import machine_name
 
 
 def this_process() -> str:
     """The owner's name of the calling process."""
-    return f"{socket.gethostname()}:{os.getpid()}"
+    return f"{machine_name()}:{os.getpid()}"
 
 
 def is_gone(owner: str) -> bool:
-    """Whether the owner is a process of this host that has ended. Of other hosts nothing can be said: False."""
-    host, _, number = owner.rpartition(":")
-    if host != socket.gethostname() or not number.isdecimal():
+    """Whether the owner is a process of this machine that has ended. Of others nothing can be said: False."""
+    machine, _, number = owner.rpartition(":")
+    if machine != machine_name() or not number.isdecimal():
         return False
     return not _lives(int(number))
 

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
-from farm.category import Category
 from farm.model import Model
 
 CLAIM_S = 60.0
@@ -25,12 +24,10 @@ class Activity(Model):
     Attributes:
         images_per_hour: over the recent completions; None before the first two.
         last_picture: path of the newest picture below the dataset's folder.
-        done: pictures made since the ledger began, by category.
     """
 
     images_per_hour: float | None
     last_picture: str | None
-    done: Mapping[Category, int]
 
 
 class Ledger(Protocol):
@@ -40,7 +37,7 @@ class Ledger(Protocol):
         """Claim a job for `ttl_s` seconds.
 
         Returns:
-            Which attempt at the job this is, from 1, or None if another owner has it.
+            Which start of the job this is, from 1, or None if another owner has it.
         """
         ...
 
@@ -52,6 +49,18 @@ class Ledger(Protocol):
         """Give a claim up, if it is the owner's."""
         ...
 
+    def give_back(self, job_id: str, owner: str) -> None:
+        """Give a claim up, if it is the owner's, as if the job had not been started."""
+        ...
+
+    def count_trouble(self, job_id: str) -> int:
+        """Count a failure that may pass; returns how many there were."""
+        ...
+
+    def count_absence(self) -> int:
+        """Count a worker whose store lacks the dataset; returns how many since a job was last done, or forgiven."""
+        ...
+
     def postpone(self, job_id: str, owner: str, delay_s: float) -> None:
         """Turn the owner's claim into one that anyone may take over, and that lapses after `delay_s` seconds."""
         ...
@@ -60,8 +69,8 @@ class Ledger(Protocol):
         """The live claims: job id to owner."""
         ...
 
-    def record_done(self, job_id: str, category: Category, picture: str) -> None:
-        """Count a finished job, and forget its attempts and failure."""
+    def record_done(self, job_id: str, picture: str) -> None:
+        """Note a finished job and its picture, and forget its starts, troubles and failure."""
         ...
 
     def record_failure(self, job_id: str, reason: str) -> None:
@@ -73,7 +82,7 @@ class Ledger(Protocol):
         ...
 
     def forget_failures(self) -> None:
-        """Give every failed job a fresh set of attempts."""
+        """Forget every failure, and all that was counted of the failed jobs."""
         ...
 
     def activity(self) -> Activity:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from farm.coordinator import Coordinator
+from farm.coordinator import LOST_AFTER_S, Coordinator
 from farm.dataset import Destination, create_dataset
 from farm.header import DatasetHeader
 from farm.ledger.redis import RedisLedger
@@ -36,7 +36,7 @@ class LocalRun:
     assets: Path | None
     logs: Path
     worker_command: Sequence[str] = WORKER_COMMAND
-    lost_after_s: float = 10.0
+    lost_after_s: float = LOST_AFTER_S
 
 
 def run_locally(
@@ -51,6 +51,7 @@ def run_locally(
         ConflictError: if the place holds something else.
         DestinationError: if it can't be written.
         EnvironmentMissingError: if this machine lacks what is needed.
+        FarmError: another fault of this machine, which its workers found.
         IncompleteError: if images failed for good.
     """
     with private_redis() as url:

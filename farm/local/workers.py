@@ -10,7 +10,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from farm.errors import EnvironmentMissingError
+from farm.errors import DestinationError, EnvironmentMissingError, error_of
 from farm.local.processes import stop
 from farm.local.tied import tied
 from farm.queue.broker import BROKER_VARIABLE
@@ -69,11 +69,17 @@ class LocalWorkers:
         self._options = options
         self._command = command
         self._running: list[_Running] = []
-        self.restarts = 0
 
     def __enter__(self) -> Self:
         """Start them."""
-        self._options.logs.mkdir(parents=True, exist_ok=True)
+        try:
+            self._options.logs.mkdir(parents=True, exist_ok=True)
+            for name in self._names:
+                self.log_of(name).open("ab").close()
+        except OSError as error:
+            raise DestinationError(
+                f"{self._options.logs}: can't write logs: {error.strerror}; name another folder by --logs"
+            ) from error
         try:
             for name in self._names:
                 self._running.append(_Running(name, self._start(name), time.monotonic()))
@@ -111,12 +117,16 @@ class LocalWorkers:
         """Restart the dead.
 
         Raises:
+            FarmError: that with which a worker ended itself, as another would do the same on this machine.
             EnvironmentMissingError: if a worker keeps ending soon after its start.
         """
         for worker in self._running:
             code = worker.process.poll()
             if code is None:
                 continue
+            fault = error_of(code, f"{self._last_line(worker.name)}; the worker's log is {self.log_of(worker.name)}")
+            if fault is not None:
+                raise fault
             soon = time.monotonic() - worker.started_s < _SOON_S
             # A signal is somebody's doing, an exit its own.
             worker.soon_deaths = worker.soon_deaths + 1 if soon and code >= 0 else 0
@@ -127,7 +137,6 @@ class LocalWorkers:
                 )
             stop([worker.process], grace_s=0.0)
             worker.process, worker.started_s = self._start(worker.name), time.monotonic()
-            self.restarts += 1
 
     def _last_line(self, name: str) -> str:
         lines = self.log_of(name).read_text(errors="replace").strip().splitlines()

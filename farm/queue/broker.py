@@ -1,7 +1,6 @@
 """The broker's address, and a direct line to it."""
 
 import os
-from urllib.parse import urlsplit, urlunsplit
 
 import redis
 from redis.backoff import NoBackoff
@@ -24,7 +23,7 @@ def broker_url(given: str | None) -> str:
         BrokerError: if it is not the address of a Redis.
     """
     url = given or os.environ.get(BROKER_VARIABLE) or DEFAULT_BROKER_URL
-    if urlsplit(url).scheme not in _KINDS:
+    if url.partition("://")[0] not in _KINDS:
         raise BrokerError(
             f"'{masked(url)}' is no Redis address; write redis://HOST:PORT/NUMBER, or redis+socket:///PATH for a socket"
         )
@@ -32,14 +31,16 @@ def broker_url(given: str | None) -> str:
 
 
 def masked(url: str) -> str:
-    """The address without its password, for messages."""
-    try:
-        parts = urlsplit(url)
-        if parts.password is None:
-            return url
-    except ValueError:
-        return "(unreadable address)"
-    return urlunsplit(parts._replace(netloc=f"{parts.username or ''}:***@{parts.netloc.rpartition('@')[2]}"))
+    """The address without what may be a password, for messages: all before the last `@`, and the query.
+
+    It is not parsed, as a password may hold any sign, and an address that can't be parsed must not be shown whole.
+    """
+    kind, separator, rest = url.partition("://")
+    if not separator:
+        return "(no address)"
+    _, at, place = rest.rpartition("@")
+    shown = place.partition("?")[0].partition("#")[0]
+    return f"{kind}://***@{shown}" if at else f"{kind}://{shown}"
 
 
 def connect(url: str) -> "redis.Redis":
@@ -59,7 +60,12 @@ def connect(url: str) -> "redis.Redis":
         client = redis.Redis.from_url(
             address, decode_responses=True, socket_connect_timeout=_CONNECT_S, socket_timeout=_ANSWER_S
         )
-    except (redis.RedisError, OSError, ValueError) as error:
+    except ValueError:
+        # The parser's own words may quote a part of the password.
+        raise BrokerError(
+            f"no Redis at {masked(url)}: not a readable address; percent-encode signs like / # ? @ in a password"
+        ) from None
+    except (redis.RedisError, OSError) as error:
         raise BrokerError(
             f"no Redis at {masked(url)}: {_one_line(error)}; start one, or name it with --broker or {BROKER_VARIABLE}"
         ) from error

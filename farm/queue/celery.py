@@ -8,7 +8,7 @@ import redis
 from kombu.exceptions import OperationalError
 
 from farm.errors import BrokerError
-from farm.job import JobMessage
+from farm.job import JobMessage, queue_key
 from farm.queue.settings import QUEUE, TASK_NAME
 
 _PAGE = 500
@@ -57,13 +57,14 @@ class CeleryQueue:
         except redis.RedisError as error:
             raise BrokerError(f"can't look at the queue: {error}") from error
 
-    def queued(self, dataset: str) -> set[str]:
+    def queued(self, dataset: str, spec_sha256: str) -> set[str]:
         """See `JobQueue.queued`. Messages enter on the left, so reading from there misses none that stays."""
+        asked = queue_key(dataset, spec_sha256)
         found: set[str] = set()
         start = 0
         try:
             while page := cast(list[str], self._client.lrange(QUEUE, start, start + _PAGE - 1)):
-                found.update(job_id for name, job_id in map(_names, page) if name == dataset)
+                found.update(job_id for key, job_id in map(_names, page) if key == asked)
                 start += _PAGE
         except redis.RedisError as error:
             raise BrokerError(f"can't look at the queue: {error}") from error
@@ -73,7 +74,7 @@ class CeleryQueue:
 def _names(envelope: str) -> tuple[str, str]:
     # The task's id is in the envelope's headers, so the body need not be decoded. Foreign messages are passed over.
     try:
-        dataset, _, job_id = str(json.loads(envelope)["headers"]["id"]).partition(":")
+        key, _, job_id = str(json.loads(envelope)["headers"]["id"]).rpartition(":")
     except (ValueError, TypeError, KeyError):
         return "", ""
-    return dataset, job_id
+    return key, job_id

@@ -22,6 +22,7 @@ class MemoryQueue:
         """See `JobQueue.length`."""
         return len(self.messages)
 
-    def queued(self, dataset: str) -> set[str]:
+    def queued(self, dataset: str, spec_sha256: str) -> set[str]:
         """See `JobQueue.queued`."""
-        return {message.job_id for message in self.messages if message.dataset == dataset}
+        asked = (dataset, spec_sha256)
+        return {message.job_id for message in self.messages if (message.dataset, message.spec_sha256) == asked}

@@ -17,6 +17,6 @@ class JobQueue(Protocol):
         """Messages that wait, of all datasets."""
         ...
 
-    def queued(self, dataset: str) -> set[str]:
-        """The ids of the dataset's jobs that wait."""
+    def queued(self, dataset: str, spec_sha256: str) -> set[str]:
+        """The ids of the jobs that wait, of the dataset with this name and fingerprint."""
         ...

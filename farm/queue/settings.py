@@ -30,6 +30,8 @@ def make_app(broker_url: str) -> Any:
         # A message is given back when its worker dies, and a worker holds no more than it works on.
         task_acks_late=True,
         task_reject_on_worker_lost=True,
+        # The same at the hard limit; the ledger bounds how often a job is begun.
+        task_acks_on_failure_or_timeout=False,
         worker_prefetch_multiplier=1,
         task_soft_time_limit=SOFT_LIMIT_S,
         task_time_limit=HARD_LIMIT_S,

@@ -1,6 +1,7 @@
 """The command line: exit codes, one clear line, and nothing left behind by a refused command."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import pytest
 import redis
 
 from farm.category import Category
-from farm.cli import main
+from farm.cli import main, worker_program
 from farm.collect import write_index
 from farm.dataset import Dataset
 from farm.errors import (
@@ -20,13 +21,22 @@ from farm.errors import (
     BrokerError,
     ConflictError,
     DestinationError,
+    EnvironmentMissingError,
+    FarmError,
+    IncompleteError,
+    PermanentError,
+    RetryableError,
     SpecError,
     TemplateError,
     VerificationError,
 )
+from farm.header import DatasetHeader
+from farm.layout import INDEX_FILE, REPORT_FILE
+from farm.ledger.redis import RedisLedger
 from tests.stand_in import StandInMaker
 from worker.upload import upload
 
+submit_command = sys.modules["farm.cli.submit"]  # the package's own `submit` is the command
 USAGE = 2
 NO_REDIS = "redis://127.0.0.1:1/0"
 
@@ -198,7 +208,7 @@ def test_no_redis(farm: Farm, tmp_path: Path, command: str) -> None:
 def test_password_is_not_shown(farm: Farm) -> None:
     """An address is told without its password."""
     result = farm("submit", "--images", "1", "--out", "data", "--broker", "redis://:hush@127.0.0.1:1/0")
-    assert_refused(result, BrokerError.exit_code, ":***@127.0.0.1:1")
+    assert_refused(result, BrokerError.exit_code, "redis://***@127.0.0.1:1")
     assert "hush" not in result.stderr
 
 
@@ -229,6 +239,26 @@ def test_place_of_another_dataset(farm: Farm, redis_url: str, dataset: Dataset, 
     result = farm(command, "--quota", "far=1", "--out", dataset.storage.location, *broker)
     assert_refused(result, ConflictError.exit_code, "holds another dataset", "spec.quotas", "another --out")
     assert dataset.storage.files() == before
+
+
+@pytest.mark.blender
+@pytest.mark.redis
+@pytest.mark.skipif(any(Path("/dev").glob("kfd")), reason="needs a machine without an AMD GPU")
+@pytest.mark.parametrize("command", ["run", "worker"])
+def test_device_that_is_not_there(farm: Farm, tmp_path: Path, redis_url: str, command: str) -> None:
+    """A device that this machine lacks is refused before surfaces are drawn or a job is taken."""
+    options = {"run": ["--images", "1", "--out", "data"], "worker": ["--store", ".", "--broker", redis_url]}[command]
+    result = farm(command, *options, "--device", "hip", "--logs", "logs")
+    assert_refused(result, EnvironmentMissingError.exit_code, "--device hip")
+    assert not (tmp_path / "data").exists()
+    assert list(tmp_path.rglob("*.png")) == []
+
+
+@pytest.mark.redis
+def test_worker_whose_store_is_a_file(farm: Farm, tmp_path: Path, redis_url: str) -> None:
+    """A store that can't be read is refused before a job is taken."""
+    (tmp_path / "file").write_text("")
+    assert_refused(farm("worker", "--store", "file", "--broker", redis_url), DestinationError.exit_code, "file")
 
 
 @pytest.mark.parametrize("command", ["status", "verify", "report"])
@@ -306,6 +336,45 @@ def test_verify_finds(farm: Farm, made: Dataset) -> None:
 
 
 @pytest.mark.redis
+def test_status_names_the_last_picture(farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
+    """Of a finished dataset, too, the newest picture is told by a path that can be opened from anywhere."""
+    ledger = RedisLedger(redis_client, made.name, made.header.spec_sha256)
+    ledger.record_done("far-000001", "far/images/far-000001.png")
+    result = farm("status", made.storage.location, "--broker", redis_url)
+    line = next(line for line in result.stdout.splitlines() if line.startswith("last "))
+    assert Path(line.split()[1]).is_absolute()
+    assert Path(line.split()[1]).is_file()
+
+
+@pytest.mark.redis
+def test_watch_and_submit_leave_index_and_report(
+    farm: Farm, made: Dataset, redis_url: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whoever waits for the end of a dataset finds its index and page, as after `farm run`."""
+    monkeypatch.setattr(submit_command, "make_header", lambda *_: made.header)
+    commands = [("watch", made.storage.location), ("submit", "--images", "1", "--out", made.storage.location, "--wait")]
+    for arguments in commands:
+        result = farm(*arguments, "--broker", redis_url)
+        assert result.returncode == 0, result.stderr
+        for name in (INDEX_FILE, REPORT_FILE):
+            assert made.storage.read(name)
+            made.storage.remove(name)
+
+
+@pytest.mark.redis
+def test_watch_of_a_failure_leaves_index_and_report(
+    farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis"
+) -> None:
+    """What could be made is listed though the rest failed."""
+    made.storage.remove("far/manifests/far-000001.json")
+    RedisLedger(redis_client, made.name, made.header.spec_sha256).record_failure("far-000001", "no scene passed")
+    result = farm("watch", made.storage.location, "--broker", redis_url)
+    assert result.returncode == IncompleteError.exit_code
+    assert len(made.storage.read(INDEX_FILE).splitlines()) == 3
+    assert made.storage.read(REPORT_FILE)
+
+
+@pytest.mark.redis
 def test_watch_ends_with_the_dataset(farm: Farm, made: Dataset, redis_url: str) -> None:
     """Watching a finished dataset ends at once."""
     result = farm("watch", made.storage.location, "--broker", redis_url)
@@ -319,6 +388,47 @@ def test_preview_that_cannot_be_written(farm: Farm, tmp_path: Path, out: str) ->
     result = farm("preview", "--category", "far", "--out", out)
     assert_refused(result, DestinationError.exit_code, out)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_preview_over_a_folder(farm: Farm, tmp_path: Path) -> None:
+    """A picture or mask that would replace a folder is refused before it is made."""
+    (tmp_path / "preview-mask.png").mkdir()
+    result = farm("preview", "--category", "far")
+    assert_refused(result, DestinationError.exit_code, "preview-mask.png", "is a folder")
+
+
+def test_preview_in_a_folder_without_rights(farm: Farm, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder that can't be written is refused before the picture is made."""
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    assert_refused(farm("preview", "--category", "far"), DestinationError.exit_code, "can't be written")
+
+
+KINDS = [
+    kind
+    for kind in (*RetryableError.__subclasses__(), *PermanentError.__subclasses__())
+    if kind.exit_code != FarmError.exit_code
+]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_worker_program_keeps_its_kind_of_error(
+    kind: type[FarmError], header: DatasetHeader, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each of the farm's errors crosses from the worker's program to the command line, with its code and words."""
+    program = [sys.executable, "-c", f"import sys; sys.stderr.write('why'); sys.exit({kind.exit_code})"]
+    monkeypatch.setattr(worker_program, "WORKER_COMMAND", program)
+    with pytest.raises(kind, match="why") as refused:
+        worker_program.ask_worker([], header, tmp_path)
+    assert type(refused.value) is kind
+
+
+@pytest.mark.parametrize("command", ["check", "preview"])
+def test_worker_program_without_a_place_for_logs(command: str, header: DatasetHeader, tmp_path: Path) -> None:
+    """A log folder that can't be made is one clear line, not a traceback."""
+    (tmp_path / "file").write_text("")
+    options = ["--job", "far-000000", "--out", "x.png"] if command == "preview" else []
+    with pytest.raises(DestinationError, match=r"^\S*file/logs: can't write logs[^\n]*$"):
+        worker_program.ask_worker([command, *options], header, tmp_path / "file/logs")
 
 
 def test_assets_to_check(farm: Farm) -> None:

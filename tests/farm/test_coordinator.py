@@ -2,6 +2,7 @@
 
 import itertools
 import os
+import shutil
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -55,13 +56,27 @@ def bench(dataset: Dataset, tmp_path: Path) -> Bench:
 def test_submits_all(bench: Bench) -> None:
     """The first submission queues the whole plan."""
     assert bench.coordinator.submit_missing() == 4
-    assert bench.queue.queued("cables") == {job.id for job in bench.dataset.header.spec.jobs()}
+    assert bench.queue.queued("cables", bench.dataset.header.spec_sha256) == {
+        job.id for job in bench.dataset.header.spec.jobs()
+    }
 
 
 def test_submits_nothing_twice(bench: Bench) -> None:
     """Jobs that wait already are not queued again."""
     bench.coordinator.submit_missing()
     assert bench.coordinator.submit_missing() == 0
+
+
+def test_jobs_of_a_former_dataset_do_not_count(bench: Bench, tmp_path: Path) -> None:
+    """A dataset that takes the place of a removed one of its name is queued whole, and made."""
+    bench.coordinator.submit_missing()
+    shutil.rmtree(tmp_path / "store/cables")
+    fresh = Bench(create_dataset(Destination(str(tmp_path / "store"), "cables"), stand_in_header(seed=5)), "")
+    fresh.queue, fresh.runner = bench.queue, bench.runner
+    fresh.coordinator = Coordinator(fresh.dataset, bench.ledger, bench.queue, poll_s=0.0, lost_after_s=0.0)
+    assert fresh.coordinator.submit_missing() == 4
+    assert fresh.finish().done == 4
+    assert bench.ledger.failures() == {}
 
 
 def test_leaves_claimed_jobs(bench: Bench) -> None:
@@ -84,7 +99,7 @@ def test_submits_only_what_is_missing(bench: Bench) -> None:
     bench.dataset.storage.remove("far/masks/far-000001.png")
     fresh = Coordinator(bench.dataset, MemoryLedger(), queue := MemoryQueue())
     assert fresh.submit_missing() == 1
-    assert queue.queued("cables") == {"far-000001"}
+    assert queue.queued("cables", bench.dataset.header.spec_sha256) == {"far-000001"}
 
 
 def test_truncated_picture_is_missing(bench: Bench, tmp_path: Path) -> None:
@@ -202,7 +217,7 @@ def test_large_plan_is_submitted_whole(tmp_path: Path) -> None:
     dataset = create_dataset(Destination(str(tmp_path), "large"), header)
     queue = MemoryQueue()
     assert Coordinator(dataset, MemoryLedger(), queue).submit_missing() == 25_000
-    assert len(queue.queued("large")) == 25_000
+    assert len(queue.queued("large", header.spec_sha256)) == 25_000
 
 
 def test_done_job_of_another_description_does_not_count(tmp_path: Path, dataset: Dataset) -> None:

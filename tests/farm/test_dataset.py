@@ -96,6 +96,13 @@ def test_bad_names(out: str, tmp_path: object, monkeypatch: pytest.MonkeyPatch) 
         parse_destination(out)
 
 
+@pytest.mark.parametrize("out", ["s3://bucket", "s3://bucket/", "s3://", "s3:///cables", "memory://cables"])
+def test_url_without_a_folder(out: str) -> None:
+    """A URL that ends with its bucket has no place for a dataset, and never becomes a local folder."""
+    with pytest.raises(DestinationError, match="names no folder"):
+        parse_destination(out)
+
+
 def test_destination_of_a_url() -> None:
     """A URL is split at its last part."""
     assert parse_destination("s3://bucket/data/cables/") == Destination("s3://bucket/data", "cables")

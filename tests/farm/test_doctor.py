@@ -24,6 +24,28 @@ def test_every_lack_has_a_remedy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert not next(check for check in checks if check.name == "built-in surfaces").ok
 
 
+@pytest.mark.parametrize(
+    ("device", "backend"), [("nvidia0", "optix or cuda"), ("kfd", "hip"), ("dri/renderD128", "oneapi"), (None, "CPU")]
+)
+def test_gpu(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, device: str | None, backend: str) -> None:
+    """The devices of the kernel tell which backends are worth a try."""
+    monkeypatch.setattr(doctor, "_DEVICES", tmp_path)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    if device is not None:
+        (tmp_path / device).parent.mkdir(exist_ok=True)
+        (tmp_path / device).touch()
+    assert backend in doctor._gpu().detail
+
+
+def test_eevee_needs_a_driver(monkeypatch: pytest.MonkeyPatch) -> None:
+    """EGL without a driver below it is lacking, and the package is named."""
+    monkeypatch.setattr("ctypes.CDLL", lambda _: None)
+    monkeypatch.setattr(doctor, "_DRIVERS", ("nowhere/*.so",))
+    assert doctor._egl().remedy.endswith("libgl1-mesa-dri")
+    monkeypatch.setattr(doctor, "_DRIVERS", ("etc/passwd",))
+    assert doctor._egl().ok
+
+
 def test_missing_libraries_are_named_with_their_packages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A library that the loader does not find is told with Debian's package."""
     ldd = tmp_path / "ldd"

@@ -3,12 +3,12 @@
 import time
 
 import pytest
+import redis
 
-from farm.category import Category
 from farm.ledger.memory import MemoryLedger
 from farm.ledger.owner import is_gone, live_claims, this_process
 from farm.ledger.port import RETRY_OWNER, Ledger, images_per_hour
-from farm.ledger.redis import RedisLedger
+from farm.ledger.redis import KEEP_S, RedisLedger
 
 
 @pytest.fixture(params=["memory", pytest.param("redis", marks=pytest.mark.redis)])
@@ -92,11 +92,56 @@ def test_postponed_job_survives_the_release(ledger: Ledger) -> None:
     assert "far-000001" in ledger.claims()
 
 
-def test_done_is_counted(ledger: Ledger) -> None:
-    """A finished job counts for its category and leaves its picture's path."""
-    ledger.record_done("far-000001", Category.FAR, "far/images/far-000001.png")
+def test_start_that_is_given_back(ledger: Ledger) -> None:
+    """What an unfit worker gives back was never started; what another holds is not touched."""
+    ledger.claim("far-000001", "a:1")
+    ledger.give_back("far-000001", "b:1")
+    assert "far-000001" in ledger.claims()
+    ledger.give_back("far-000001", "a:1")
+    assert ledger.claims() == {}
+    assert ledger.claim("far-000001", "b:1") == 1
+
+
+def test_troubles_are_counted_apart(ledger: Ledger) -> None:
+    """Failures that may pass are counted by job, and forgotten with the job's failure or its end."""
+    ledger.claim("far-000001", "a:1")
+    assert [ledger.count_trouble("far-000001") for _ in range(2)] == [1, 2]
+    assert ledger.count_trouble("far-000002") == 1
+    ledger.record_done("far-000001", "picture")
+    ledger.record_failure("far-000002", "bad luck")
+    ledger.forget_failures()
+    assert ledger.count_trouble("far-000001") == ledger.count_trouble("far-000002") == 1
+
+
+def test_absences(ledger: Ledger) -> None:
+    """Workers that lack the dataset are counted until one has it, or all is submitted again."""
+    assert [ledger.count_absence() for _ in range(2)] == [1, 2]
+    ledger.record_done("far-000001", "picture")
+    assert ledger.count_absence() == 1
+    ledger.forget_failures()
+    assert ledger.count_absence() == 1
+
+
+@pytest.mark.redis
+def test_nothing_stays_for_ever(redis_client: "redis.Redis") -> None:
+    """Every key of a ledger lapses."""
+    ledger = RedisLedger(redis_client, "cables", "0" * 64)
+    ledger.claim("far-000001", "a:1")
+    ledger.count_trouble("far-000001")
+    ledger.count_absence()
+    ledger.record_failure("far-000001", "bad luck")
+    ledger.record_done("far-000002", "picture")
+    ledger.count_absence()
+    keys = redis_client.keys()
+    assert isinstance(keys, list)
+    assert len(keys) == 8
+    assert all(0 < int(str(redis_client.ttl(key))) <= KEEP_S for key in keys)
+
+
+def test_newest_picture(ledger: Ledger) -> None:
+    """A finished job leaves its picture's path."""
+    ledger.record_done("far-000001", "far/images/far-000001.png")
     activity = ledger.activity()
-    assert activity.done == {Category.FAR: 1}
     assert activity.last_picture == "far/images/far-000001.png"
 
 
@@ -104,7 +149,7 @@ def test_done_forgets_attempts_and_failure(ledger: Ledger) -> None:
     """A job that succeeded after all is no failure, and would begin anew."""
     ledger.claim("far-000001", "a:1")
     ledger.record_failure("far-000001", "bad luck")
-    ledger.record_done("far-000001", Category.FAR, "picture")
+    ledger.record_done("far-000001", "picture")
     assert ledger.failures() == {}
     assert ledger.claim("far-000001", "a:1") == 1
 

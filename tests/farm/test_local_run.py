@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from farm.dataset import Dataset, Destination, open_dataset
-from farm.errors import EnvironmentMissingError, IncompleteError
+from farm.errors import DestinationError, EnvironmentMissingError, IncompleteError
 from farm.header import DatasetHeader
 from farm.layout import FileRole, file_path
 from farm.local.run import LocalRun, run_locally
@@ -86,7 +86,7 @@ def assert_whole(destination: Destination, made: Progress, logs: Path) -> Datase
     assert verify(dataset).findings == ()
     finished = [line for log in logs.glob("*.log") for line in log.read_text().splitlines() if " done in " in line]
     names = [word for line in finished for word in line.split() if word.startswith("cables:")]
-    assert sorted(names) == sorted(f"cables:{job.id}" for job in dataset.header.spec.jobs())
+    assert sorted(names) == sorted(dataset.message(job).task_id for job in dataset.header.spec.jobs())
     return dataset
 
 
@@ -177,6 +177,26 @@ def test_worker_that_does_not_start(destination: Destination, header: DatasetHea
     broken = replace(how, worker_command=[sys.executable, "-c", "raise SystemExit('no such library')"])
     with pytest.raises(EnvironmentMissingError, match="no such library"):
         run_locally(destination, header, broken)
+
+
+def test_unfit_worker_ends_the_run(
+    destination: Destination, header: DatasetHeader, how: LocalRun, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What this machine lacks ends the run at once, as the error that it is, and no job has failed."""
+    monkeypatch.setenv("STAND_IN_UNFIT", "--device optix: no such device")
+    with pytest.raises(EnvironmentMissingError, match=r"optix: no such device; .*log"):
+        run_locally(destination, header, how)
+    monkeypatch.delenv("STAND_IN_UNFIT")
+    assert run_locally(destination, header, how).done == 4
+
+
+def test_logs_that_cannot_be_written(
+    destination: Destination, header: DatasetHeader, how: LocalRun, tmp_path: Path
+) -> None:
+    """A log folder that can't be made is told as such."""
+    (tmp_path / "file").write_text("")
+    with pytest.raises(DestinationError, match="file/logs: can't write logs"):
+        run_locally(destination, header, replace(how, logs=tmp_path / "file/logs"))
 
 
 @pytest.fixture

@@ -2,6 +2,7 @@
 
 import base64
 import json
+import re
 import socket
 
 import pytest
@@ -15,6 +16,7 @@ from farm.queue.celery import CeleryQueue
 from farm.queue.memory import MemoryQueue
 from farm.queue.port import JobQueue
 from farm.queue.settings import HARD_LIMIT_S, QUEUE, SOFT_LIMIT_S, TASK_NAME, VISIBILITY_S, make_app
+from tests.stand_in import SHA
 
 
 @pytest.fixture(params=["memory", pytest.param("celery", marks=pytest.mark.redis)])
@@ -35,19 +37,20 @@ def test_submitted_jobs_wait(queue: JobQueue, dataset: Dataset) -> None:
     """What was submitted is seen, more than a page of it too."""
     assert queue.submit(messages(dataset, 1100)) == 1100
     assert queue.length() == 1100
-    assert queue.queued("cables") == {f"far-{number:06d}" for number in range(1100)}
+    assert queue.queued("cables", dataset.header.spec_sha256) == {f"far-{number:06d}" for number in range(1100)}
 
 
 def test_other_datasets_are_not_seen(queue: JobQueue, dataset: Dataset) -> None:
     """A dataset sees its own jobs only."""
     queue.submit(messages(dataset, 1))
-    assert queue.queued("wires") == set()
+    assert queue.queued("wires", dataset.header.spec_sha256) == set()
+    assert queue.queued("cables", "f" * 64) == set()
 
 
 def test_empty_queue(queue: JobQueue) -> None:
     """Nothing waits in an empty queue."""
     assert queue.length() == 0
-    assert queue.queued("cables") == set()
+    assert queue.queued("cables", SHA) == set()
 
 
 @pytest.mark.redis
@@ -59,7 +62,7 @@ def test_message_on_the_wire(redis_url: str, redis_client: "redis.Redis", datase
     envelope = json.loads(page[0])
     assert envelope["content-type"] == "application/json"
     assert envelope["headers"]["task"] == TASK_NAME
-    assert envelope["headers"]["id"] == "cables:far-000000"
+    assert envelope["headers"]["id"] == f"cables:{dataset.header.spec_sha256[:12]}:far-000000"
     _, keywords, _ = json.loads(base64.b64decode(envelope["body"]))
     assert keywords == {"message": messages(dataset, 1)[0].encode()}
     assert dataset.storage.location not in page[0]
@@ -69,7 +72,7 @@ def test_message_on_the_wire(redis_url: str, redis_client: "redis.Redis", datase
 def test_foreign_messages_are_passed_over(redis_url: str, redis_client: "redis.Redis") -> None:
     """Looking at the queue survives whatever lies in it."""
     redis_client.lpush(QUEUE, "no json", "[]", '{"headers": {}}', '{"headers": {"id": 3}}')
-    assert CeleryQueue(make_app(redis_url), redis_client).queued("cables") == set()
+    assert CeleryQueue(make_app(redis_url), redis_client).queued("cables", SHA) == set()
 
 
 def test_only_json_is_accepted() -> None:
@@ -85,8 +88,14 @@ def test_limits_are_in_order() -> None:
 @pytest.mark.parametrize(
     ("url", "shown"),
     [
-        ("redis://:hush@host:1/0", "redis://:***@host:1/0"),
-        ("redis://me:hush@host/0", "redis://me:***@host/0"),
+        ("redis://:hush@host:1/0", "redis://***@host:1/0"),
+        ("redis://me:hush@host/0", "redis://***@host/0"),
+        ("redis://:pa/ss@host/0", "redis://***@host/0"),
+        ("redis://:hu#sh@host", "redis://***@host"),
+        ("redis://:hu@sh@host", "redis://***@host"),
+        ("redis://host/0?password=hush", "redis://host/0"),
+        ("redis://:s@[bad/0", "redis://***@[bad/0"),
+        ("hush", "(no address)"),
         ("redis://host/0", "redis://host/0"),
         ("redis+socket:///tmp/redis.sock", "redis+socket:///tmp/redis.sock"),
     ],
@@ -110,6 +119,26 @@ def test_no_redis_there(url: str) -> None:
     """A Redis that can't be reached is one line with its address."""
     with pytest.raises(BrokerError, match="no Redis at") as refused:
         connect(url)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    "url",
+    [
+        "redis://:hu/sh@127.0.0.1:1/0",
+        "redis://:hu#sh@127.0.0.1:1",
+        "redis://:hu?sh@127.0.0.1:1",
+        "redis://127.0.0.1:1/0?password=hush",
+        "redis://127.0.0.1:1/0?password=hush&socket_timeout=hush",
+        "redis://:hush@[bad/0",
+        "hush",
+    ],
+)
+def test_no_part_of_a_password_is_told(url: str) -> None:
+    """However odd the address, the refusal is the farm's own, in one line that keeps the secret."""
+    with pytest.raises(BrokerError) as refused:
+        connect(broker_url(url))
+    assert not re.search("hu|sh", str(refused.value).replace("should", ""))
     assert "\n" not in str(refused.value)
 
 

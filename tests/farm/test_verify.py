@@ -2,6 +2,8 @@
 
 import hashlib
 import os
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +13,7 @@ from farm.dataset import Dataset
 from farm.job import Job
 from farm.layout import FileRole, file_path, manifest_path
 from farm.manifest import FileRecord, Manifest
+from farm.storage import LocalStorage
 from farm.verify import Fault, verify
 from tests.stand_in import StandInMaker
 from worker.upload import encode_png, upload
@@ -76,6 +79,46 @@ def test_altered(made: Dataset, path: str) -> None:
     content[-20] ^= 1
     made.storage.write(path, bytes(content))
     assert found(made) == [(Fault.ALTERED, path)]
+
+
+class GrowingStorage(LocalStorage):
+    """Another process acts at the first look at one file."""
+
+    def __init__(self, root: Path, watched: str, act: Callable[[], None]) -> None:
+        super().__init__(root)
+        self._watched = watched
+        self._act: Callable[[], None] | None = act
+
+    def read(self, path: str) -> bytes:
+        """See `Storage.read`."""
+        if path == self._watched and self._act is not None:
+            act, self._act = self._act, None
+            act()
+        return super().read(path)
+
+
+def test_job_that_is_made_meanwhile(dataset: Dataset, made: Dataset) -> None:
+    """A picture that is made between the listing and the look at its manifest is neither missing nor an error."""
+    kept = {path: made.storage.read(path) for path in made.storage.files() if JOB.id in path}
+    for path in kept:
+        made.storage.remove(path)
+
+    def make() -> None:
+        for path, content in kept.items():
+            dataset.storage.write(path, content)
+
+    storage = GrowingStorage(Path(made.storage.location), manifest_path(JOB), make)
+    assert verify(replace(made, storage=storage)).clean
+
+
+def test_job_that_is_made_anew_meanwhile(made: Dataset) -> None:
+    """A file that vanishes during the look is looked for again, and then reported, not raised."""
+    content = made.storage.read(IMAGE)
+    made.storage.remove(IMAGE)
+    back = GrowingStorage(Path(made.storage.location), MASK, lambda: made.storage.write(IMAGE, content))
+    assert verify(replace(made, storage=back)).clean
+    gone = GrowingStorage(Path(made.storage.location), MASK, lambda: made.storage.remove(MASK))
+    assert found(replace(made, storage=gone)) == [(Fault.MISSING, MASK)]
 
 
 def test_longer(made: Dataset) -> None:

@@ -12,10 +12,12 @@ import redis
 
 from farm.completion import Completion
 from farm.dataset import Dataset
+from farm.errors import DatasetMissingError, EnvironmentMissingError
 from farm.job import Job
 from farm.ledger.redis import RedisLedger
 from farm.queue.celery import CeleryQueue
 from farm.queue.settings import QUEUE, TASK_NAME, make_app
+from worker.runner import MAX_STARTS
 
 pytestmark = pytest.mark.redis
 
@@ -44,7 +46,11 @@ def worker(
     command = [*worker_command, "serve", "--store", str(tmp_path / "store"), "--name", "test"]
     process = subprocess.Popen(
         [*command, "--logs", str(tmp_path / "logs")],
-        env={**os.environ, "FARM_BROKER_URL": redis_url, "STAND_IN_FAILS": "far-000001=passing"},
+        env={
+            **os.environ,
+            "FARM_BROKER_URL": redis_url,
+            "STAND_IN_FAILS": "far-000001=passing close_concentrated_light-000000=hang",
+        },
         stdout=subprocess.DEVNULL,
         stderr=(tmp_path / "main.log").open("wb"),
     )
@@ -70,7 +76,7 @@ def test_message_becomes_a_picture(
     queue.submit([dataset.message(JOB)])
     wait_until_done(dataset, 1)
     give_up_s = time.monotonic() + PATIENCE_S
-    while ledger.claims() or not ledger.activity().done:
+    while ledger.claims() or not ledger.activity().last_picture:
         assert time.monotonic() < give_up_s
         time.sleep(0.05)
     assert queue.length() == 0
@@ -113,6 +119,77 @@ def test_stops_when_told(worker: "subprocess.Popen[bytes]", queue: CeleryQueue, 
     wait_until_done(dataset, 1)
     worker.send_signal(signal.SIGTERM)
     assert worker.wait(PATIENCE_S) == 0
+
+
+def serve(command: list[str], store: Path, redis_url: str, **environment: str) -> "subprocess.CompletedProcess[str]":
+    """A worker that ends by itself."""
+    return subprocess.run(
+        [*command, "serve", "--store", str(store), "--name", "unfit", "--logs", str(store.parent / "logs")],
+        env={**os.environ, "FARM_BROKER_URL": redis_url, **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=PATIENCE_S,
+    )
+
+
+def test_unfit_worker_takes_itself_out(
+    worker_command: list[str], tmp_path: Path, redis_url: str, queue: CeleryQueue, dataset: Dataset, ledger: RedisLedger
+) -> None:
+    """A worker that can't open its maker gives its job back and ends, with the reason and its code."""
+    queue.submit([dataset.message(JOB)])
+    result = serve(worker_command, tmp_path / "store", redis_url, STAND_IN_UNFIT="--device optix: no such device")
+    assert result.returncode == EnvironmentMissingError.exit_code
+    assert result.stderr.splitlines()[-1] == "--device optix: no such device"
+    assert queue.queued(dataset.name, dataset.header.spec_sha256) == {JOB.id}
+    assert ledger.failures() == ledger.claims() == {}
+
+
+def test_worker_with_a_wrong_store_takes_itself_out(
+    worker_command: list[str], tmp_path: Path, redis_url: str, queue: CeleryQueue, dataset: Dataset, ledger: RedisLedger
+) -> None:
+    """A worker whose store lacks the dataset leaves all of its jobs to others."""
+    queue.submit([dataset.message(job) for job in dataset.header.spec.jobs()])
+    result = serve(worker_command, tmp_path / "elsewhere", redis_url)
+    assert result.returncode == DatasetMissingError.exit_code
+    assert "elsewhere" in result.stderr.splitlines()[-1]
+    assert len(queue.queued(dataset.name, dataset.header.spec_sha256)) == 4
+    assert ledger.failures() == {}
+
+
+@pytest.mark.usefixtures("worker")
+def test_job_that_meets_the_hard_limit(
+    redis_url: str, dataset: Dataset, queue: CeleryQueue, ledger: RedisLedger
+) -> None:
+    """A job that is killed at the hard limit comes back, but not for ever, and holds nobody up."""
+    hanging = dataset.message(Job.from_id("close_concentrated_light-000000"))
+    limits = {"soft_time_limit": 0.3, "time_limit": 0.6}
+    make_app(redis_url).send_task(TASK_NAME, kwargs={"message": hanging.encode()}, queue=QUEUE, **limits)
+    queue.submit([dataset.message(JOB)])
+    give_up_s = time.monotonic() + PATIENCE_S
+    while hanging.job_id not in ledger.failures():
+        assert time.monotonic() < give_up_s
+        time.sleep(0.1)
+    assert f"in each of {MAX_STARTS} attempts" in ledger.failures()[hanging.job_id]
+    wait_until_done(dataset, 1)
+
+
+@pytest.mark.parametrize("option", ["--logs", "--store"])
+def test_folder_that_cannot_be_used(worker_command: list[str], tmp_path: Path, redis_url: str, option: str) -> None:
+    """A worker that can't write logs or read its store says so in one line before it takes a job."""
+    (tmp_path / "file").write_text("")
+    folders = {"--logs": str(tmp_path / "logs"), "--store": str(tmp_path), option: str(tmp_path / "file/below")}
+    result = subprocess.run(
+        [*worker_command, "serve", "--name", "test", *(word for pair in folders.items() for word in pair)],
+        env={**os.environ, "FARM_BROKER_URL": redis_url},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=PATIENCE_S,
+    )
+    assert result.returncode == 6
+    assert len(result.stderr.splitlines()) == 1
+    assert "file/below" in result.stderr
 
 
 def test_no_redis(worker_command: list[str], tmp_path: Path) -> None:

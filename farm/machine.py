@@ -1,0 +1,23 @@
+"""What tells this machine from all others: process numbers mean nothing elsewhere."""
+
+import functools
+import socket
+from contextlib import suppress
+from pathlib import Path
+
+_MACHINE_ID = Path("/etc/machine-id")
+_PROCESSES = Path("/proc/self/ns/pid")
+
+
+@functools.cache
+def machine_name() -> str:
+    """Host name, machine id and pid namespace, joined by `-`; what can't be read is left out.
+
+    Two machines may bear one host name, and containers may share it without seeing each other's processes.
+    """
+    parts = [socket.gethostname()]
+    with suppress(OSError):
+        parts.append(_MACHINE_ID.read_text().strip()[:12])
+    with suppress(OSError):
+        parts.append(str(_PROCESSES.stat().st_ino))
+    return "-".join(part for part in parts if part)

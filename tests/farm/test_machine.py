@@ -1,0 +1,37 @@
+"""Machines are told apart."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from farm import machine
+from farm.ledger.owner import is_gone, this_process
+from farm.machine import machine_name
+
+
+@pytest.fixture(autouse=True)
+def fresh() -> Iterator[None]:
+    """A machine keeps its name; here it changes."""
+    machine_name.cache_clear()
+    yield
+    machine_name.cache_clear()
+
+
+@pytest.mark.parametrize("what", ["_MACHINE_ID", "_PROCESSES"])
+def test_namesakes_are_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, what: str) -> None:
+    """One host name with another machine id, or another pid namespace, is another machine: its dead are unknown."""
+    dead = f"{this_process().rpartition(':')[0]}:{2**22 + 1}"
+    assert is_gone(dead)
+    (tmp_path / "other").write_text("0123456789abcdef\n")
+    monkeypatch.setattr(machine, what, tmp_path / "other")
+    machine_name.cache_clear()
+    assert not is_gone(dead)
+
+
+def test_name_of_last_resort(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where nothing can be read, the host name remains."""
+    monkeypatch.setattr(machine, "_MACHINE_ID", tmp_path / "none")
+    monkeypatch.setattr(machine, "_PROCESSES", tmp_path / "none")
+    monkeypatch.setattr("socket.gethostname", lambda: "here")
+    assert machine_name() == "here"
