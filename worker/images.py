@@ -1,6 +1,7 @@
 """The images that a process holds: each loaded once, the least used let go when there are too many."""
 
 from collections import OrderedDict
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -12,13 +13,21 @@ from farm.errors import AssetError
 Key = tuple[str, bool, bool, bool]
 
 
+@dataclass(frozen=True, slots=True)
+class _Loaded:
+    """An image and its size, noted once: asking Blender for it later decodes the file again."""
+
+    image: Any
+    bytes: int
+
+
 class ImageShelf:
     """Blender images by file, up to a number of bytes in all."""
 
     def __init__(self, capacity_bytes: int = 2**30) -> None:
         """Start empty."""
         self._capacity_bytes = capacity_bytes
-        self._loaded: OrderedDict[Key, Any] = OrderedDict()
+        self._loaded: OrderedDict[Key, _Loaded] = OrderedDict()
         self._constants: dict[str, Any] = {}
 
     def load(self, path: Path, *, colour: bool = False, invert: bool = False, flip_green: bool = False) -> Any:
@@ -36,15 +45,15 @@ class ImageShelf:
         key = (str(path), colour, invert, flip_green)
         if key in self._loaded:
             self._loaded.move_to_end(key)
-            return self._loaded[key]
+            return self._loaded[key].image
         image = self._read(path, colour=colour)
         if invert or flip_green:
             _alter(image, invert=invert, flip_green=flip_green)
-        self._loaded[key] = image
+        self._loaded[key] = _Loaded(image, _bytes(image))
         # A picture needs five images at most; those stay, however large.
-        while len(self._loaded) > _IN_USE and sum(map(_bytes, self._loaded.values())) > self._capacity_bytes:
+        while len(self._loaded) > _IN_USE and sum(each.bytes for each in self._loaded.values()) > self._capacity_bytes:
             _, oldest = self._loaded.popitem(last=False)
-            bpy.data.images.remove(oldest)
+            bpy.data.images.remove(oldest.image)
         return image
 
     def constant(self, value: float, *, colour: bool = False) -> Any:
