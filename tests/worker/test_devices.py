@@ -22,7 +22,9 @@ def test_the_cpu_can_always_be_chosen() -> None:
     assert choose_device("cpu") == "cpu"
 
 
-@pytest.mark.skipif(any([*Path("/dev").glob("nvidia[0-9]"), *Path("/dev").glob("kfd")]), reason="needs a machine without a GPU")
+@pytest.mark.skipif(
+    any([*Path("/dev").glob("nvidia[0-9]"), *Path("/dev").glob("kfd")]), reason="needs a machine without a GPU"
+)
 def test_auto_falls_back_to_the_cpu() -> None:
     """On a machine without a GPU."""
     assert choose_device("auto") == "cpu"
