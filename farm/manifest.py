@@ -32,7 +32,8 @@ class SettleFigures(Model):
     """What was measured on the settled cables.
 
     Attributes:
-        frames: frames of the cloth's clock until the end of the fall.
+        fall_s: how long the cables fell and settled, in true time.
+        steps: time steps of the rod solver, or frames of the cloth.
         length_error: worst cable, |L/L0 - 1|.
         cable_penetration: worst depth of one cable in another, over the radius, at the 99.9th percentile and at most.
         floor_penetration: the same against the floor.
@@ -46,7 +47,8 @@ class SettleFigures(Model):
             Negative where it is pressed in.
     """
 
-    frames: int
+    fall_s: float
+    steps: int
     length_error: float
     cable_penetration: float
     cable_penetration_max: float

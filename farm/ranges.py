@@ -31,6 +31,9 @@ Length = Annotated[float, Field(ge=-10, le=10)]
 Positive = Annotated[float, Field(gt=0, le=1e5)]
 NotNegative = Annotated[float, Field(ge=0, le=1e5)]
 Level = Annotated[int, Field(ge=0, le=255)]
+Modulus = Annotated[float, Field(ge=1e5, le=1e10)]
+Density = Annotated[float, Field(ge=100, le=20_000)]
+FrictionCoefficient = Annotated[float, Field(ge=0, le=2)]
 CableCount = Annotated[int, Field(ge=1, le=8)]
 
 Bend = Annotated[float, Field(ge=-15, le=15)]
@@ -41,6 +44,9 @@ FractionRange = Annotated[tuple[Fraction, Fraction], AfterValidator(_in_order)]
 LengthRange = Annotated[tuple[Length, Length], AfterValidator(_in_order)]
 PositiveRange = Annotated[tuple[Positive, Positive], AfterValidator(_in_order)]
 NotNegativeRange = Annotated[tuple[NotNegative, NotNegative], AfterValidator(_in_order)]
+ModulusRange = Annotated[tuple[Modulus, Modulus], AfterValidator(_in_order)]
+DensityRange = Annotated[tuple[Density, Density], AfterValidator(_in_order)]
+FrictionRange = Annotated[tuple[FrictionCoefficient, FrictionCoefficient], AfterValidator(_in_order)]
 LevelRange = Annotated[tuple[Level, Level], AfterValidator(_counts_in_order)]
 CableCountRange = Annotated[tuple[CableCount, CableCount], AfterValidator(_counts_in_order)]
 
@@ -59,7 +65,10 @@ class FloorRanges(Model):
 
 
 class WindRanges(Model):
-    """The wind field: where it stands, how it points and how hard it blows, in the fall's units."""
+    """The wind field: where it stands, how it points and how hard it blows, in the cloth's units.
+
+    `speed_per_strength_m_s`, for the rod solver, and the gusts are ours: at full strength a light breeze of 2.5 m/s.
+    """
 
     bearing_deg: Range = (0.0, 360.0)
     distance: NotNegativeRange = (5.0, 8.0)
@@ -67,6 +76,9 @@ class WindRanges(Model):
     tilt_deg: Range = (60.0, 120.0)
     strength: NotNegativeRange = (0.0, 10.0)
     flow_per_strength: NotNegative = 0.2
+    speed_per_strength_m_s: NotNegative = 0.25
+    gust_share: FractionRange = (0.0, 0.3)
+    gust_period_s: PositiveRange = (0.02, 0.2)
 
 
 class PlacementRanges(Model):
@@ -89,12 +101,21 @@ class PlacementRanges(Model):
 
 
 class CableRanges(Model):
-    """How many cables, how thick (ours: one value), how long (ours), how heavy, and their surface."""
+    """How many cables, how thick (ours: one value), how long (ours), how heavy and stiff, and their surface.
+
+    `vertex_mass` is the published setting of the cloth. Young's modulus (drawn evenly in its logarithm), density and
+    friction are ours: soft silicone leads to stiff sheathed wire. Modulus and density are those of a full round
+    section of the cable's diameter with the cable's bending stiffness and weight.
+    """
 
     count: CableCountRange = (1, 8)
     diameter_m: Annotated[float, Field(ge=0.0005, le=0.02)] = 0.002
     length_m: Annotated[float, Field(ge=0.05, le=2.0)] = 0.40
     vertex_mass: PositiveRange = (0.3, 0.5)
+    youngs_modulus_pa: ModulusRange = (1e6, 3e7)
+    density_kg_m3: DensityRange = (1200.0, 2500.0)
+    friction_floor: FrictionRange = (0.3, 0.6)
+    friction_cable: FrictionRange = (0.2, 0.5)
     colour: LevelRange = (0, 255)
     dirt_position: FractionRange = (0.65, 0.89)
     dirt_offset: Range = (-500.0, 500.0)

@@ -34,6 +34,8 @@ class Cable(Model):
     Attributes:
         rotation_deg: mean bearing of the cable, counted from the x axis.
         bends_per_m: its natural curvature in 1/m at equally spaced points from end to end; all 0 is straight.
+        youngs_modulus_pa: bending stiffness over the second moment of area of a full round section.
+        density_kg_m3: mass over volume.
     """
 
     diameter_m: Annotated[float, Field(gt=0)]
@@ -43,11 +45,33 @@ class Cable(Model):
     start_height_m: Annotated[float, Field(ge=0)]
     rotation_deg: float
     bends_per_m: Annotated[tuple[float, ...], Field(min_length=2)]
+    youngs_modulus_pa: Annotated[float, Field(gt=0)]
+    density_kg_m3: Annotated[float, Field(gt=0)]
     material: CableMaterial
 
 
+class Gust(Model):
+    """One swing of the wind's speed: `share` of the mean, as a sine of the given period and phase."""
+
+    share: Annotated[float, Field(ge=0, le=1)]
+    period_s: Annotated[float, Field(gt=0)]
+    phase_deg: float
+
+
+class Friction(Model):
+    """Coulomb's coefficients, for a cable on the floor and on another cable."""
+
+    floor: Annotated[float, Field(ge=0)]
+    cable: Annotated[float, Field(ge=0)]
+
+
 class Wind(Model):
-    """The wind field, in the fall's own units."""
+    """The wind that pushes the cables while they fall.
+
+    The bearing is where it comes from, as seen from the cables; a tilt of 90 degrees blows level, less blows down.
+    Distance, height, strength and flow are those of a wind field in the cloth's own units; `speed_m_s` and `gusts`
+    are what the rod solver takes.
+    """
 
     bearing_deg: float
     distance: float
@@ -55,6 +79,8 @@ class Wind(Model):
     tilt_deg: float
     strength: float
     flow: float
+    speed_m_s: Annotated[float, Field(ge=0)]
+    gusts: tuple[Gust, ...]
 
 
 class Floor(Model):
@@ -118,6 +144,7 @@ class Scene(Model):
     attempt: Annotated[int, Field(ge=0)]
     cables: Annotated[tuple[Cable, ...], Field(min_length=1)]
     vertex_mass: Annotated[float, Field(gt=0)]
+    friction: Friction
     wind: Wind
     floor: Floor | None
     lamp: Annotated[PointLamp | AreaLamp, Field(discriminator="kind")] | None

@@ -11,6 +11,7 @@ from pydantic import Field, ValidationError, model_validator
 
 from farm.category import Category
 from farm.errors import SpecError
+from farm.fall import Fall, Simulator
 from farm.job import Job
 from farm.model import Model
 from farm.quotas import split_total
@@ -34,15 +35,6 @@ class Quality(StrEnum):
     REFERENCE = "reference"
 
 
-class Fall(Model):
-    """How the cloth falls. More quality steps cost time in proportion."""
-
-    max_frames: Annotated[int, Field(ge=10, le=2000)] = 250
-    quality: Annotated[int, Field(ge=1, le=80)] = 10
-    collision_quality: Annotated[int, Field(ge=1, le=20)] = 8
-    max_attempts: Annotated[int, Field(ge=1, le=50)] = 8
-
-
 class DatasetSpec(Model):
     """A dataset: how many images of which category, from which seed, made how.
 
@@ -56,6 +48,7 @@ class DatasetSpec(Model):
     engine: Engine = Engine.CYCLES
     quality: Quality = Quality.STANDARD
     close_distributed_hdri: str | None = None
+    simulator: Simulator = Simulator.CLOTH
     fall: Fall = Fall()
     ranges: Ranges = Ranges()
 

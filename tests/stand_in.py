@@ -20,7 +20,7 @@ from farm.errors import AssetError, EnvironmentMissingError, RenderError, SceneE
 from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
 from farm.job import Job
 from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
-from farm.scene import Cable, CableMaterial, Camera, Floor, HdriWorld, PointLamp, Scene, Wind
+from farm.scene import Cable, CableMaterial, Camera, Floor, Friction, HdriWorld, PointLamp, Scene, Wind
 from farm.seeds import Stage, generator
 from farm.spec import parse_spec
 from worker.command import main
@@ -66,6 +66,8 @@ def stand_in_scene(job: Job) -> Scene:
         start_height_m=0.004,
         rotation_deg=0.0,
         bends_per_m=(0.0, 0.0),
+        youngs_modulus_pa=1e7,
+        density_kg_m3=1500.0,
         material=material,
     )
     far = job.category in {Category.FAR, Category.FAR_ALIGNED}
@@ -76,7 +78,10 @@ def stand_in_scene(job: Job) -> Scene:
         attempt=0,
         cables=(cable,),
         vertex_mass=0.4,
-        wind=Wind(bearing_deg=0.0, distance=5.0, height=1.0, tilt_deg=90.0, strength=1.0, flow=0.2),
+        friction=Friction(floor=0.4, cable=0.3),
+        wind=Wind(
+            bearing_deg=0.0, distance=5.0, height=1.0, tilt_deg=90.0, strength=1.0, flow=0.2, speed_m_s=0.2, gusts=()
+        ),
         floor=None if far else Floor(texture="oak", offset_x=0.0, offset_y=0.0, rotation_deg=0.0, scale=1.0),
         lamp=lamp if lit_by_lamp else None,
         hdri_world=None if lit_by_lamp else world,

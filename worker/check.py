@@ -41,7 +41,8 @@ def measure(shapes: CableShapes) -> SettleFigures:
     speeds = np.concatenate(shapes.speeds_m_s) * 1000
     all_depths, all_floor_depths = np.concatenate(depths), np.concatenate(floor_depths)
     return SettleFigures(
-        frames=shapes.frames,
+        fall_s=shapes.fall_s,
+        steps=shapes.steps,
         length_error=_length_error(shapes),
         cable_penetration=float(np.percentile(all_depths, 99.9)),
         cable_penetration_max=float(all_depths.max()),

@@ -15,6 +15,8 @@ from farm.scene import (
     CableMaterial,
     Camera,
     Floor,
+    Friction,
+    Gust,
     HdriWorld,
     PointLamp,
     Rgb,
@@ -22,6 +24,9 @@ from farm.scene import (
     Wind,
 )
 from farm.seeds import Stage, generator
+
+GUSTS = 3
+"""Swings that are laid over the wind's mean speed."""
 
 Streams = Callable[[Stage], np.random.Generator]
 
@@ -34,6 +39,14 @@ class _Placement:
     y_m: float
     rotation_deg: float
     bends_per_m: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Substance:
+    """What one cable is made of."""
+
+    youngs_modulus_pa: float
+    density_kg_m3: float
 
 
 def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
@@ -49,11 +62,17 @@ def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
     count_and_mass = streams(Stage.CABLES)
     count = _level(count_and_mass, ranges.cable.count)
     vertex_mass = _uniform(count_and_mass, ranges.cable.vertex_mass)
+    friction = Friction(
+        floor=_uniform(count_and_mass, ranges.cable.friction_floor),
+        cable=_uniform(count_and_mass, ranges.cable.friction_cable),
+    )
+    substances = [_draw_substance(ranges.cable, count_and_mass) for _ in range(count)]
     lamp = _draw_lamp(ranges.lamp, streams(Stage.LIGHT)) if traits.light is Light.CONCENTRATED else None
     return Scene(
         attempt=attempt,
-        cables=_draw_cables(ranges, traits.disposition, count, streams),
+        cables=_draw_cables(ranges, traits.disposition, substances, streams),
         vertex_mass=vertex_mass,
+        friction=friction,
         wind=_draw_wind(ranges.wind, streams(Stage.WIND)),
         floor=_draw_floor(ranges.floor, header, streams(Stage.FLOOR))
         if traits.background is Background.FLOOR
@@ -77,9 +96,19 @@ def _rgb(rng: np.random.Generator, bounds: tuple[int, int]) -> Rgb:
     return (_level(rng, bounds), _level(rng, bounds), _level(rng, bounds))
 
 
-def _draw_cables(ranges: Ranges, disposition: Disposition, count: int, streams: Streams) -> tuple[Cable, ...]:
+def _draw_substance(ranges: CableRanges, rng: np.random.Generator) -> _Substance:
+    low, high = ranges.youngs_modulus_pa
+    return _Substance(
+        youngs_modulus_pa=float(np.clip(np.exp(rng.uniform(np.log(low), np.log(high))), low, high)),
+        density_kg_m3=_uniform(rng, ranges.density_kg_m3),
+    )
+
+
+def _draw_cables(
+    ranges: Ranges, disposition: Disposition, substances: list[_Substance], streams: Streams
+) -> tuple[Cable, ...]:
     place = _PLACERS[disposition]
-    placements = place(ranges.placement, count, streams(Stage.PLACEMENT))
+    placements = place(ranges.placement, len(substances), streams(Stage.PLACEMENT))
     material_rng = streams(Stage.CABLE_MATERIAL)
     start, spacing = ranges.placement.drop_height_m, ranges.placement.spacing_m
     return tuple(
@@ -91,9 +120,11 @@ def _draw_cables(ranges: Ranges, disposition: Disposition, count: int, streams: 
             start_height_m=start + spacing * level,
             rotation_deg=placement.rotation_deg,
             bends_per_m=placement.bends_per_m,
+            youngs_modulus_pa=substance.youngs_modulus_pa,
+            density_kg_m3=substance.density_kg_m3,
             material=_draw_material(ranges.cable, material_rng),
         )
-        for level, placement in enumerate(placements)
+        for level, (placement, substance) in enumerate(zip(placements, substances, strict=True))
     )
 
 
@@ -155,6 +186,16 @@ def _draw_wind(ranges: WindRanges, rng: np.random.Generator) -> Wind:
         tilt_deg=_uniform(rng, ranges.tilt_deg),
         strength=strength,
         flow=strength * ranges.flow_per_strength,
+        speed_m_s=strength * ranges.speed_per_strength_m_s,
+        gusts=tuple(_draw_gust(ranges, rng) for _ in range(GUSTS)),
+    )
+
+
+def _draw_gust(ranges: WindRanges, rng: np.random.Generator) -> Gust:
+    return Gust(
+        share=_uniform(rng, ranges.gust_share),
+        period_s=_uniform(rng, ranges.gust_period_s),
+        phase_deg=float(rng.uniform(0.0, 360.0)),
     )
 
 

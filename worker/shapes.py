@@ -19,7 +19,8 @@ class CableShapes:
         lengths_m: (cables,), length of each at rest.
         speeds_m_s: per cable (N,), speed of each node when the shape was captured.
         start_order: the cables from the lowest start to the highest.
-        frames: frames of the fall.
+        fall_s: true seconds from the start to the capture.
+        steps: time steps of the rod solver, or frames of the cloth.
     """
 
     nodes_m: tuple[Points, ...]
@@ -27,7 +28,8 @@ class CableShapes:
     lengths_m: NDArray[np.float64]
     speeds_m_s: tuple[NDArray[np.float64], ...]
     start_order: tuple[int, ...]
-    frames: int
+    fall_s: float
+    steps: int
 
 
 def smooth(nodes: Points, samples_per_span: int) -> Points:

@@ -27,7 +27,7 @@ from worker.randomize import draw_scene
 from worker.realize import realize
 from worker.render import configure, render_picture
 from worker.shapes import CableShapes, smooth
-from worker.simulate import drop_cables
+from worker.simulate import let_fall
 
 CURVE_SAMPLES = 5
 """Points of the rendered curve per segment of the fall: one a millimetre for a 2 mm cable."""
@@ -116,7 +116,7 @@ class Studio:
                 scene = draw_scene(header, job, attempt)
             try:
                 with _timed(timings, "simulate"):
-                    shapes = drop_cables(scene, header.spec.fall)
+                    shapes = let_fall(scene, header.spec.simulator, header.spec.fall)
             except SceneError as error:
                 rejected.append(RejectedAttempt(attempt=attempt, reason=str(error)))
                 continue

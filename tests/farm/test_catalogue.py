@@ -104,10 +104,10 @@ def test_flags_override_the_file(tmp_path: Path) -> None:
 def test_ranges_from_a_file(tmp_path: Path) -> None:
     """Every range can be set in its own table."""
     file = tmp_path / "cables.toml"
-    file.write_text("images = 3\n[ranges.cable]\ncount = [2, 3]\n[fall]\nquality = 5")
+    file.write_text("images = 3\n[ranges.cable]\ncount = [2, 3]\n[fall.cloth]\nquality = 5")
     spec = describe(file, {}, {}).spec
     assert spec.ranges.cable.count == (2, 3)
-    assert spec.fall.quality == 5
+    assert spec.fall.cloth.quality == 5
 
 
 def test_hdri_over_the_floor_must_be_there(template: Path) -> None:

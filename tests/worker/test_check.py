@@ -26,7 +26,8 @@ def shapes(*nodes: Points, order: tuple[int, ...] | None = None, speed: float = 
         lengths_m=np.full(len(nodes), 0.2),
         speeds_m_s=tuple(np.full(len(each), speed) for each in nodes),
         start_order=order or tuple(range(len(nodes))),
-        frames=50,
+        fall_s=0.5,
+        steps=50,
     )
 
 

@@ -136,7 +136,7 @@ def test_settled_scenes_are_at_rest_whole_and_apart(studio: Studio) -> None:
 def test_a_job_whose_scenes_all_fail_ends_in_a_scene_error(baked: Path) -> None:
     """Cables dropped so high that they can't land within the frames allowed; every attempt is tried and told."""
     header = small_header(
-        fall={"max_frames": 10, "max_attempts": 2},
+        fall={"max_attempts": 2, "cloth": {"max_frames": 10}},
         ranges={"placement": {"drop_height_m": 0.2}},
     )
     studio = open_studio(header, device="cpu", threads=0, assets=baked)

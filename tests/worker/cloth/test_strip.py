@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from worker.cloth.strip import centreline, zigzag, zigzag_faces
 from worker.shapes import Points
-from worker.strip import centreline, zigzag, zigzag_faces
 
 
 def straight(nodes: int) -> Points:

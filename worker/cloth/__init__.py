@@ -1,0 +1,1 @@
+"""Blender's cloth as a simulator of cables."""
