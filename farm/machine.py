@@ -1,6 +1,7 @@
 """What tells this machine from all others: process numbers mean nothing elsewhere."""
 
 import functools
+import os
 import socket
 from contextlib import suppress
 from pathlib import Path
@@ -21,3 +22,9 @@ def machine_name() -> str:
     with suppress(OSError):
         parts.append(str(_PROCESSES.stat().st_ino))
     return "-".join(part for part in parts if part)
+
+
+def cache_folder() -> Path:
+    """Where this user keeps what can be made again: `cable-farm` below XDG_CACHE_HOME or ~/.cache."""
+    cache = os.environ.get("XDG_CACHE_HOME")
+    return (Path(cache) if cache else Path.home() / ".cache") / "cable-farm"

@@ -29,22 +29,24 @@ class RejectedAttempt(Model):
 
 
 class SettleFigures(Model):
-    """What was measured on the settled cables.
+    """What was measured on the settled cables, on the smooth centrelines that are rendered.
 
     Attributes:
         fall_s: how long the cables fell and settled, in true time.
         steps: time steps of the rod solver, or frames of the cloth.
         length_error: worst cable, |L/L0 - 1|.
-        cable_penetration: worst depth of one cable in another, over the radius, at the 99.9th percentile and at most.
-        floor_penetration: the same against the floor.
+        cable_penetration: depth of a cable in another, or in itself farther along than four radii, over the smaller
+            radius; the 99.9th percentile of all places.
         cable_penetration_max: deepest single place.
+        floor_penetration: depth of a cable in the floor over its radius; the 99.9th percentile of all places.
         floor_penetration_max: deepest single place.
-        pass_throughs: crossings whose order flipped between start and rest.
-        self_crossings: places where a cable crosses itself.
+        pass_throughs: crossings of two cables whose order flipped between start and rest.
+        floor_pass_throughs: cables whose centreline is anywhere below the floor.
+        self_crossings: places where a cable crosses itself, seen from above.
         speed_rms_mm_s: root mean square speed of the nodes at the end, in true time.
         speed_max_mm_s: fastest node at the end.
-        support_gap: smallest clearance of a cable to the floor or another cable, over its radius; the worst cable's.
-            Negative where it is pressed in.
+        support_gap: smallest clearance of a cable to the floor, or to another cable within half a radius, over its radius;
+            the worst cable's. Negative where it is pressed in.
     """
 
     fall_s: float
@@ -55,6 +57,7 @@ class SettleFigures(Model):
     floor_penetration: float
     floor_penetration_max: float
     pass_throughs: int
+    floor_pass_throughs: int
     self_crossings: int
     speed_rms_mm_s: float
     speed_max_mm_s: float

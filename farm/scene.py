@@ -68,7 +68,7 @@ class Friction(Model):
 class Wind(Model):
     """The wind that pushes the cables while they fall.
 
-    The bearing is where it comes from, as seen from the cables; a tilt of 90 degrees blows level, less blows down.
+    The bearing is where it comes from, as seen from the cables; a tilt of 90 degrees blows level, less blows up.
     Distance, height, strength and flow are those of a wind field in the cloth's own units; `speed_m_s` and `gusts`
     are what the rod solver takes.
     """

@@ -48,25 +48,24 @@ def tangents(curve: Points) -> Points:
 
 
 def bent_rod(length_m: float, bends_per_m: tuple[float, ...], nodes: int) -> NDArray[np.float64]:
-    """A plane curve of given length and curvature, its middle at the origin and its mean bearing along x.
+    """A plane polyline of given length and curvature, its middle at the origin and its mean bearing along x.
 
     Args:
-        length_m: arc length.
+        length_m: of the polyline.
         bends_per_m: curvature at equally spaced points from end to end, interpolated smoothly between them.
-        nodes: how many points to return, >= 2, equally spaced along the curve.
+        nodes: how many points to return, >= 2, all at the same distance from the next.
 
     Returns:
         (nodes, 2) coordinates in metres.
     """
     knots = np.linspace(0.0, length_m, len(bends_per_m))
     curvature = CubicSpline(knots, bends_per_m, bc_type="natural")
-    fine = np.linspace(0.0, length_m, 32 * (nodes - 1) + 1)
-    bearing = curvature.antiderivative()(fine)
-    step = length_m / (len(fine) - 1)
-    velocity = np.stack([np.cos(bearing), np.sin(bearing)], axis=1)
-    curve = np.concatenate([np.zeros((1, 2)), np.cumsum(step * 0.5 * (velocity[1:] + velocity[:-1]), axis=0)])
+    step = length_m / (nodes - 1)
+    bearing = curvature.antiderivative()(step * (np.arange(nodes - 1) + 0.5))
+    edges = step * np.stack([np.cos(bearing), np.sin(bearing)], axis=1)
+    curve = np.concatenate([np.zeros((1, 2)), np.cumsum(edges, axis=0)])
     chord = curve[-1] - curve[0]
     turn = -np.arctan2(chord[1], chord[0])
     rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
     level: NDArray[np.float64] = (curve - curve[len(curve) // 2]) @ rotation.T
-    return level[::32]
+    return level

@@ -13,11 +13,12 @@ class Rod:
     """One round, inextensible, elastic rod.
 
     Attributes:
-        nodes_m: (N, 3), N >= 3: where it starts. All segments have the length of the first.
+        nodes_m: (N, 3), N >= 4: where it starts. All segments have the length of the first.
         radius_m: of its section.
         youngs_modulus_pa: its bending stiffness is E pi r^4 / 4.
         density_kg_m3: its mass per length is rho pi r^2.
-        natural_curvature_per_m: (N,) 1/m about the vertical axis, anticlockwise from above along the rod; None: straight.
+        natural_curvature_per_m: (N,) about the vertical axis, anticlockwise as seen from above along the rod, as
+            tan(theta) / l at each node, theta the angle between its segments and l their length; None: straight.
         pinned: (N,) which nodes are held where they start; None: none.
     """
 
@@ -31,14 +32,50 @@ class Rod:
     @property
     def bending_stiffness_n_m2(self) -> float:
         """EI."""
-        return self.youngs_modulus_pa * np.pi * self.radius_m**4 / 4
+        return float(self.youngs_modulus_pa * np.pi * self.radius_m**4 / 4)
 
     @property
     def mass_per_length_kg_m(self) -> float:
-        """Rho A."""
-        return self.density_kg_m3 * np.pi * self.radius_m**2
+        """Density times section."""
+        return float(self.density_kg_m3 * np.pi * self.radius_m**2)
 
     @property
     def segment_length_m(self) -> float:
         """Rest length of each segment."""
         return float(np.linalg.norm(self.nodes_m[1] - self.nodes_m[0]))
+
+
+@dataclass(frozen=True, slots=True)
+class Breeze:
+    """A wind, the same everywhere, that dies down.
+
+    Attributes:
+        velocity_m_s: (3,) mean velocity of the air.
+        gusts: (K, 3): share of the mean, angular frequency in rad/s and phase in rad of each swing.
+        until_s: when it begins to die down; it is calm 0.1 s later.
+    """
+
+    velocity_m_s: Array
+    gusts: Array
+    until_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What acts on the rods.
+
+    Attributes:
+        gravity_m_s2: (x, y, z).
+        floor: whether there is one, at z = 0.
+        friction_floor: Coulomb's coefficient of a rod on the floor.
+        friction_rods: the same between rods.
+        damping_s: bending stress is E (strain + damping_s * strain rate): Kelvin and Voigt's internal damping.
+        breeze: the wind, or None for still air without drag.
+    """
+
+    gravity_m_s2: tuple[float, float, float] = (0.0, 0.0, -9.81)
+    floor: bool = True
+    friction_floor: float = 0.4
+    friction_rods: float = 0.3
+    damping_s: float = 0.0
+    breeze: Breeze | None = None

@@ -1,0 +1,182 @@
+"""Which segments may come into contact: a grid over the floor's plane, and a list that lasts several steps."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from worker.rod.arrays import Bodies, Integers
+from worker.rod.compiled import compiled
+from worker.rod.model import Array
+
+NEIGHBOUR_RADII = 6.0
+"""Segments of one rod nearer to each other along it than so many radii never count as touching."""
+
+
+class Candidates(NamedTuple):
+    """Pairs of segments, in ascending order of (one, other), with what is remembered of each.
+
+    Attributes:
+        one: (pairs,) first node of a segment.
+        other: (pairs,) first node of another, > one.
+        normal: (pairs, 3) unit vector from the other to the one when last seen; 0 if never.
+        impulse: (pairs, 3) N s on the one in the last step.
+        built_at: (3, nodes) where the nodes were when the list was made.
+    """
+
+    one: Integers
+    other: Integers
+    normal: Array
+    impulse: Array
+    built_at: Array
+
+
+@compiled
+def closest(x: Array, i: int, j: int, out: Array) -> None:
+    """Where segments i and j are closest (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
+
+    Args:
+        x: (3, nodes).
+        i: first node of one segment.
+        j: first node of the other.
+        out: (2,) receives the fractions along them, in [0, 1].
+    """
+    d1x, d1y, d1z = x[0, i + 1] - x[0, i], x[1, i + 1] - x[1, i], x[2, i + 1] - x[2, i]
+    d2x, d2y, d2z = x[0, j + 1] - x[0, j], x[1, j + 1] - x[1, j], x[2, j + 1] - x[2, j]
+    rx, ry, rz = x[0, i] - x[0, j], x[1, i] - x[1, j], x[2, i] - x[2, j]
+    a = d1x * d1x + d1y * d1y + d1z * d1z
+    e = d2x * d2x + d2y * d2y + d2z * d2z
+    f = d2x * rx + d2y * ry + d2z * rz
+    c = d1x * rx + d1y * ry + d1z * rz
+    b = d1x * d2x + d1y * d2y + d1z * d2z
+    denominator = a * e - b * b
+    s = 0.0
+    if denominator > 1e-9 * a * e:
+        s = min(max((b * f - c * e) / denominator, 0.0), 1.0)
+    t = (b * s + f) / e
+    if t < 0.0:
+        t = 0.0
+        s = min(max(-c / a, 0.0), 1.0)
+    elif t > 1.0:
+        t = 1.0
+        s = min(max((b - c) / a, 0.0), 1.0)
+    out[0] = s
+    out[1] = t
+
+
+@compiled
+def _distance(x: Array, i: int, j: int, out: Array) -> float:
+    closest(x, i, j, out)
+    total = 0.0
+    for c in range(3):
+        p = x[c, i] + out[0] * (x[c, i + 1] - x[c, i])
+        q = x[c, j] + out[1] * (x[c, j + 1] - x[c, j])
+        total += (p - q) * (p - q)
+    return float(np.sqrt(total))
+
+
+@compiled
+def _cells(bodies: Bodies, x: Array, size: float) -> tuple[Integers, Integers, Integers, int]:
+    """Sort segments into square cells: the cell of each node's segment, where cells start, their segments, columns."""
+    nodes = len(bodies.owner)
+    left, bottom = x[0].min(), x[1].min()
+    # Rods that lie far apart would ask for more cells than there are segments; bigger ones serve as well.
+    width, depth = x[0].max() - left, x[1].max() - bottom
+    edge = max(size, np.sqrt(width * depth / (4.0 * nodes)), max(width, depth) / (4.0 * nodes))
+    columns = int(depth / edge) + 1
+    cell = np.empty(nodes, np.int64)
+    starts = np.zeros((int(width / edge) + 1) * columns + 1, np.int64)
+    for i in range(nodes):
+        cell[i] = int((x[0, i] - left) / edge) * columns + int((x[1, i] - bottom) / edge)
+        starts[cell[i] + 1] += 1
+    starts = np.cumsum(starts)
+    fill = starts.copy()
+    members = np.empty(nodes, np.int64)
+    for i in range(nodes):
+        members[fill[cell[i]]] = i
+        fill[cell[i]] += 1
+    return cell, starts, members, columns
+
+
+@compiled
+def _are_neighbours(bodies: Bodies, i: int, j: int) -> bool:
+    rod = bodies.owner[i]
+    if rod != bodies.owner[j]:
+        return False
+    between = (abs(i - j) - 1) * bodies.length[rod]
+    return between < NEIGHBOUR_RADII * bodies.radius[rod] or abs(i - j) < 2
+
+
+@compiled
+def find_candidates(bodies: Bodies, x: Array, margin: float, before: Candidates) -> Candidates:
+    """All pairs of segments with surfaces nearer than `margin`, in m; what `before` remembers of them is kept."""
+    nodes = len(bodies.owner)
+    size = bodies.length.max() + 2 * bodies.radius.max() + margin
+    cell, starts, members, columns = _cells(bodies, x, size)
+    rows = (len(starts) - 1) // columns
+    capacity = 8 * nodes
+    keys = np.empty(capacity, np.int64)
+    count = 0
+    fractions = np.empty(2)
+    for i in range(nodes - 1):
+        if bodies.owner[i + 1] != bodies.owner[i]:
+            continue
+        row, column = cell[i] // columns, cell[i] % columns
+        for neighbour_row in range(max(0, row - 1), min(rows, row + 2)):
+            for neighbour_column in range(max(0, column - 1), min(columns, column + 2)):
+                there = neighbour_row * columns + neighbour_column
+                for k in range(starts[there], starts[there + 1]):
+                    j = members[k]
+                    if j <= i or j + 1 == nodes or bodies.owner[j + 1] != bodies.owner[j]:
+                        continue
+                    if _are_neighbours(bodies, i, j):
+                        continue
+                    near = bodies.radius[bodies.owner[i]] + bodies.radius[bodies.owner[j]] + margin
+                    if min(x[2, i], x[2, i + 1]) - max(x[2, j], x[2, j + 1]) > near:
+                        continue
+                    if min(x[2, j], x[2, j + 1]) - max(x[2, i], x[2, i + 1]) > near:
+                        continue
+                    if _distance(x, i, j, fractions) >= near:
+                        continue
+                    if count == capacity:
+                        capacity *= 2
+                        longer = np.empty(capacity, np.int64)
+                        longer[:count] = keys
+                        keys = longer
+                    keys[count] = i * nodes + j
+                    count += 1
+    keys = np.sort(keys[:count])
+    normal, impulse = np.zeros((count, 3)), np.zeros((count, 3))
+    one, other = np.empty(count, np.int64), np.empty(count, np.int64)
+    k = 0
+    for pair in range(count):
+        one[pair], other[pair] = keys[pair] // nodes, keys[pair] % nodes
+        while k < len(before.one) and before.one[k] * nodes + before.other[k] < keys[pair]:
+            k += 1
+        if k < len(before.one) and before.one[k] * nodes + before.other[k] == keys[pair]:
+            normal[pair] = before.normal[k]
+            impulse[pair] = before.impulse[k]
+    return Candidates(one, other, normal, impulse, x.copy())
+
+
+@compiled
+def drift(x: Array, built_at: Array) -> float:
+    """Twice the farthest that a node has moved against the common motion of all since the list was made, m."""
+    nodes = x.shape[1]
+    mean = np.zeros(3)
+    for c in range(3):
+        for i in range(nodes):
+            mean[c] += x[c, i] - built_at[c, i]
+        mean[c] /= nodes
+    worst = 0.0
+    for i in range(nodes):
+        dx = x[0, i] - built_at[0, i] - mean[0]
+        dy = x[1, i] - built_at[1, i] - mean[1]
+        dz = x[2, i] - built_at[2, i] - mean[2]
+        worst = max(worst, dx * dx + dy * dy + dz * dz)
+    return float(2 * np.sqrt(worst))
+
+
+def no_candidates(x: Array) -> Candidates:
+    """An empty list."""
+    none = np.zeros(0, np.int64)
+    return Candidates(none, none, np.zeros((0, 3)), np.zeros((0, 3)), x.copy())

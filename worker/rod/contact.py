@@ -1,0 +1,310 @@
+"""Contact: where rods touch, and the impulses that keep them apart and rub.
+
+A contact acts on the smooth curves through the nodes, not on the chords: a point of a segment is moved by the mean of
+the two parabolas at its ends (a Catmull-Rom curve), so that its weights act on four nodes.
+
+Impulses are found by projected Gauss-Seidel iteration in fixed order. The velocity that an impulse causes is that of the
+implicit operator, bending and all, so that it says how soft a rod is there. As the operator is the same in x, y and z,
+a contact's own block is a multiple of the unit matrix and the projection on Coulomb's cone is exact.
+
+Contacts are speculative: a pair that would meet within the step is stopped at the touch, whatever its speed, so that
+nothing tunnels. A pair remembers which side it was on; a curve that got to the wrong side is pushed back.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from worker.rod.arrays import Bodies, Integers, Motion
+from worker.rod.bending import Operator
+from worker.rod.broad_phase import Candidates, closest
+from worker.rod.compiled import compiled
+from worker.rod.model import Array
+
+DEPENETRATION_SHARE = 0.2
+"""Of a penetration that is undone in a step."""
+
+
+class Contacts(NamedTuple):
+    """The touching pairs of one step; only the first `count` are meant.
+
+    Attributes:
+        pair: number of the candidate pair.
+        base: (2, n) first of the four nodes on either side.
+        weights: (2, n, 4) of these nodes.
+        normal: (n, 3) unit vector from the second side to the first.
+        approach: (n,) relative speed along the normal that must not be undercut, m/s.
+        compliance: (n,) relative velocity per impulse, 1/kg.
+        low: (2, n) first node that responds.
+        width: (2, n) how many do.
+        column: (2, n, max) their velocity per impulse, 1/kg.
+    """
+
+    pair: Integers
+    base: Integers
+    weights: Array
+    normal: Array
+    approach: Array
+    compliance: Array
+    low: Integers
+    width: Integers
+    column: Array
+
+
+def room_for(pairs: int, operator: Operator) -> Contacts:
+    """Arrays for so many contacts."""
+    return _room_for(pairs, operator.response.shape[1] + 3)
+
+
+@compiled
+def _room_for(pairs: int, widest: int) -> Contacts:
+    return Contacts(
+        np.empty(pairs, np.int64),
+        np.empty((2, pairs), np.int64),
+        np.empty((2, pairs, 4)),
+        np.empty((pairs, 3)),
+        np.empty(pairs),
+        np.empty(pairs),
+        np.empty((2, pairs), np.int64),
+        np.empty((2, pairs), np.int64),
+        np.empty((2, pairs, widest)),
+    )
+
+
+@compiled
+def _weigh(bodies: Bodies, i: int, t: float, weights: Array) -> int:
+    """Weights of four nodes that give the curve's point at fraction t of segment i; returns the first node."""
+    rod = bodies.owner[i]
+    first, end = bodies.first[rod], bodies.first[rod + 1]
+    base = min(max(i - 1, first), end - 4)
+    weights[:] = 0.0
+    k = i - base
+    weights[k] = 1 - t
+    weights[k + 1] = t
+    bulge = -0.5 * t * (1 - t)
+    if i > first:
+        weights[k - 1] += bulge * (1 - t)
+        weights[k] -= 2 * bulge * (1 - t)
+        weights[k + 1] += bulge * (1 - t)
+    if i + 2 < end:
+        weights[k] += bulge * t
+        weights[k + 1] -= 2 * bulge * t
+        weights[k + 2] += bulge * t
+    return base
+
+
+@compiled
+def _respond(bodies: Bodies, operator: Operator, contacts: Contacts, side: int, n: int) -> float:
+    """Fill in the column of one side of a contact; returns its compliance."""
+    base, weights, column = contacts.base[side, n], contacts.weights[side, n], contacts.column[side, n]
+    rod = bodies.owner[base]
+    reach = operator.reach[rod]
+    centre = (operator.response.shape[1] - 1) // 2
+    low = max(bodies.first[rod], base - reach)
+    high = min(bodies.first[rod + 1], base + 4 + reach)
+    contacts.low[side, n] = low
+    contacts.width[side, n] = high - low
+    column[: high - low] = 0.0
+    for k in range(4):
+        node, weight = base + k, weights[k]
+        if weight != 0.0:
+            for j in range(max(low, node - reach), min(high, node + reach + 1)):
+                column[j - low] += weight * operator.response[node, j - node + centre]
+    total = 0.0
+    for k in range(4):
+        total += weights[k] * column[base + k - low]
+    return total
+
+
+@compiled
+def gather_contacts(
+    bodies: Bodies, operator: Operator, x: Array, candidates: Candidates, margin: float, contacts: Contacts
+) -> int:
+    """Fill in the contacts of this step: all candidates with surfaces nearer than `margin`; returns their number."""
+    fractions = np.empty(2)
+    count = 0
+    depenetration = 0.0
+    for pair in range(len(candidates.one)):
+        i, j = candidates.one[pair], candidates.other[pair]
+        closest(x, i, j, fractions)
+        s, t = fractions[0], fractions[1]
+        # A point between two segments belongs to the one that starts there.
+        if (s == 1.0 and bodies.first[bodies.owner[i] + 1] != i + 2) or (
+            t == 1.0 and bodies.first[bodies.owner[j] + 1] != j + 2
+        ):
+            candidates.impulse[pair] = 0.0
+            continue
+        base_i = _weigh(bodies, i, s, contacts.weights[0, count])
+        base_j = _weigh(bodies, j, t, contacts.weights[1, count])
+        normal = contacts.normal[count]
+        squared = 0.0
+        for c in range(3):
+            offset = 0.0
+            for k in range(4):
+                offset += contacts.weights[0, count, k] * x[c, base_i + k]
+                offset -= contacts.weights[1, count, k] * x[c, base_j + k]
+            normal[c] = offset
+            squared += offset * offset
+        distance = np.sqrt(squared)
+        one, other = bodies.radius[bodies.owner[i]], bodies.radius[bodies.owner[j]]
+        memory = candidates.normal[pair]
+        if distance < 1e-6 * (one + other):
+            if memory[0] == 0.0 and memory[1] == 0.0 and memory[2] == 0.0:
+                memory[2] = -1.0
+            normal[:] = memory
+        else:
+            side = normal[0] * memory[0] + normal[1] * memory[1] + normal[2] * memory[2]
+            if side < 0.0 and distance < one + other:
+                distance = -distance
+            for c in range(3):
+                normal[c] /= distance
+        gap = distance - one - other
+        if gap > margin:
+            candidates.impulse[pair] = 0.0
+            memory[:] = normal
+            continue
+        memory[:] = normal
+        contacts.pair[count] = pair
+        contacts.base[0, count] = base_i
+        contacts.base[1, count] = base_j
+        contacts.compliance[count] = _respond(bodies, operator, contacts, 0, count)
+        contacts.compliance[count] += _respond(bodies, operator, contacts, 1, count)
+        if contacts.compliance[count] <= 0.0:
+            continue
+        contacts.approach[count] = allowed_approach(gap, operator.step, min(one, other))
+        count += 1
+    return count
+
+
+@compiled
+def allowed_approach(gap: float, step: float, radius: float) -> float:
+    """Least relative speed along the normal, m/s: to close a gap just so, or to undo a penetration gently."""
+    if gap > 0.0:
+        return -gap / step
+    return min(-DEPENETRATION_SHARE * gap / step, np.sqrt(9.81 * radius))
+
+
+@compiled
+def _push(contacts: Contacts, side: int, n: int, sign: float, impulse: Array, v: Array) -> None:
+    low, width = contacts.low[side, n], contacts.width[side, n]
+    column = contacts.column[side, n]
+    for c in range(3):
+        p = sign * impulse[c]
+        if p != 0.0:
+            for j in range(width):
+                v[c, low + j] += p * column[j]
+
+
+@compiled
+def warm_start(contacts: Contacts, count: int, candidates: Candidates, v: Array) -> None:
+    """Begin with the impulses of the step before."""
+    for n in range(count):
+        impulse = candidates.impulse[contacts.pair[n]]
+        normal = contacts.normal[n]
+        along = impulse[0] * normal[0] + impulse[1] * normal[1] + impulse[2] * normal[2]
+        if along < 0.0:
+            impulse[:] = 0.0
+        _push(contacts, 0, n, 1.0, impulse, v)
+        _push(contacts, 1, n, -1.0, impulse, v)
+
+
+@compiled
+def project_on_cone(impulse: Array, normal: Array, friction: float) -> None:
+    """Nearest admissible impulse in Coulomb's sense: pushing, and rubbing no harder than `friction` times that."""
+    along = impulse[0] * normal[0] + impulse[1] * normal[1] + impulse[2] * normal[2]
+    if along <= 0.0:
+        impulse[:] = 0.0
+        return
+    tx, ty, tz = impulse[0] - along * normal[0], impulse[1] - along * normal[1], impulse[2] - along * normal[2]
+    rubbing = np.sqrt(tx * tx + ty * ty + tz * tz)
+    if rubbing > friction * along:
+        shrink = friction * along / rubbing
+        tx, ty, tz = shrink * tx, shrink * ty, shrink * tz
+    impulse[0] = along * normal[0] + tx
+    impulse[1] = along * normal[1] + ty
+    impulse[2] = along * normal[2] + tz
+
+
+@compiled
+def sweep_contacts(
+    contacts: Contacts, count: int, candidates: Candidates, friction: float, backward: bool, v: Array
+) -> float:
+    """One pass over all contacts between rods; returns the largest change of a relative velocity, m/s."""
+    worst = 0.0
+    change, wanted = np.empty(3), np.empty(3)
+    for step in range(count):
+        n = count - 1 - step if backward else step
+        normal, impulse = contacts.normal[n], candidates.impulse[contacts.pair[n]]
+        base_i, base_j = contacts.base[0, n], contacts.base[1, n]
+        for c in range(3):
+            u = 0.0
+            for k in range(4):
+                u += contacts.weights[0, n, k] * v[c, base_i + k] - contacts.weights[1, n, k] * v[c, base_j + k]
+            wanted[c] = u
+        for c in range(3):
+            wanted[c] = impulse[c] - (wanted[c] - contacts.approach[n] * normal[c]) / contacts.compliance[n]
+        project_on_cone(wanted, normal, friction)
+        moved = 0.0
+        for c in range(3):
+            change[c] = wanted[c] - impulse[c]
+            impulse[c] = wanted[c]
+            moved = max(moved, abs(change[c]))
+        if moved > 0.0:
+            _push(contacts, 0, n, 1.0, change, v)
+            _push(contacts, 1, n, -1.0, change, v)
+            worst = max(worst, moved * contacts.compliance[n])
+    return worst
+
+
+@compiled
+def floor_warm_start(bodies: Bodies, operator: Operator, motion: Motion, touching: Integers, v: Array) -> None:
+    """Begin with the floor's impulses of the step before, where it is still near."""
+    for i in touching:
+        floor_push(bodies, operator, i, motion.floor_impulse[:, i], v)
+
+
+@compiled
+def floor_push(bodies: Bodies, operator: Operator, node: int, impulse: Array, v: Array) -> None:
+    """Add what an impulse on a node does to the velocities of its rod."""
+    rod = bodies.owner[node]
+    reach = operator.reach[rod]
+    centre = (operator.response.shape[1] - 1) // 2
+    low, high = max(bodies.first[rod], node - reach), min(bodies.first[rod + 1], node + reach + 1)
+    shift = centre - node
+    for c in range(3):
+        p = impulse[c]
+        if p != 0.0:
+            for j in range(low, high):
+                v[c, j] += p * operator.response[node, j + shift]
+
+
+@compiled
+def sweep_floor(
+    bodies: Bodies, operator: Operator, motion: Motion, touching: Integers, friction: float, backward: bool, v: Array
+) -> float:
+    """One pass over all nodes near the floor; returns the largest change of a velocity, m/s."""
+    worst = 0.0
+    centre = (operator.response.shape[1] - 1) // 2
+    change, wanted = np.empty(3), np.empty(3)
+    up = np.zeros(3)
+    up[2] = 1.0
+    for step in range(len(touching)):
+        node = touching[len(touching) - 1 - step] if backward else touching[step]
+        compliance = operator.response[node, centre]
+        radius = bodies.radius[bodies.owner[node]]
+        gap = motion.x[2, node] - radius
+        approach = allowed_approach(gap, operator.step, radius)
+        impulse = motion.floor_impulse[:, node]
+        for c in range(3):
+            wanted[c] = impulse[c] - v[c, node] / compliance
+        wanted[2] += approach / compliance
+        project_on_cone(wanted, up, friction)
+        moved = 0.0
+        for c in range(3):
+            change[c] = wanted[c] - impulse[c]
+            impulse[c] = wanted[c]
+            moved = max(moved, abs(change[c]))
+        if moved > 0.0:
+            floor_push(bodies, operator, node, change, v)
+            worst = max(worst, moved * compliance)
+    return worst

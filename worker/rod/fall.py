@@ -1,0 +1,102 @@
+"""The fall of a drawn scene's cables as rods, until they rest."""
+
+import numpy as np
+
+from farm.errors import SceneError
+from farm.fall import RodFall
+from farm.scene import Cable, Scene, Wind
+from worker.rod.model import Array, Breeze, Rod, Surroundings
+from worker.rod.simulation import DivergedError, RodSimulation
+from worker.shapes import CableShapes, bent_rod
+
+INTERNAL_DAMPING_S = 0.003
+"""Time constant of the cables' internal damping: a loss factor of 0.1 to 0.4 at the 5 to 20 Hz at which bridges swing."""
+
+REST_RMS_M_S = 0.5e-3
+REST_FASTEST_M_S = 2.5e-3
+"""Half of what gate 4 asks for."""
+
+REST_S = 0.02
+"""How long the cables must have been that slow."""
+
+
+def drop_cables(scene: Scene, fall: RodFall) -> CableShapes:
+    """Let the cables of `scene` fall.
+
+    Raises:
+        SceneError: if the solver diverges.
+    """
+    simulation = RodSimulation(rods_of(scene, fall), surroundings_of(scene), steps_per_s=fall.steps_per_s)
+    try:
+        simulation.settle(
+            rms_m_s=REST_RMS_M_S, fastest_m_s=REST_FASTEST_M_S, quiet_s=REST_S, max_time_s=fall.max_time_s
+        )
+    except DivergedError as error:
+        raise SceneError(f"the rod solver diverged {error}") from error
+    cables = range(len(scene.cables))
+    return CableShapes(
+        nodes_m=tuple(simulation.nodes_m(k) for k in cables),
+        radii_m=np.array([cable.diameter_m / 2 for cable in scene.cables]),
+        lengths_m=np.array([cable.length_m for cable in scene.cables]),
+        speeds_m_s=tuple(np.linalg.norm(simulation.velocities_m_s(k), axis=1) for k in cables),
+        start_order=tuple(int(k) for k in np.argsort([cable.start_height_m for cable in scene.cables], kind="stable")),
+        fall_s=simulation.time_s,
+        steps=simulation.steps,
+    )
+
+
+def rods_of(scene: Scene, fall: RodFall) -> list[Rod]:
+    """The scene's cables where they start, without stress."""
+    return [_rod(cable, fall.segment_radii) for cable in scene.cables]
+
+
+def surroundings_of(scene: Scene) -> Surroundings:
+    """The scene's floor, friction and wind; still air if its speed is 0."""
+    highest = max(cable.start_height_m for cable in scene.cables)
+    return Surroundings(
+        friction_floor=scene.friction.floor,
+        friction_rods=scene.friction.cable,
+        damping_s=INTERNAL_DAMPING_S,
+        breeze=_breeze(scene.wind, landing_s=float(np.sqrt(2 * highest / 9.81))) if scene.wind.speed_m_s > 0 else None,
+    )
+
+
+def _rod(cable: Cable, segment_radii: float) -> Rod:
+    radius = cable.diameter_m / 2
+    segments = int(np.clip(round(cable.length_m / (segment_radii * radius)), 8, 2000))
+    level = bent_rod(cable.length_m, cable.bends_per_m, segments + 1)
+    turn = np.radians(cable.rotation_deg)
+    cosine, sine = np.cos(turn), np.sin(turn)
+    nodes = np.empty((len(level), 3))
+    nodes[:, 0] = cable.x_m + cosine * level[:, 0] - sine * level[:, 1]
+    nodes[:, 1] = cable.y_m + sine * level[:, 0] + cosine * level[:, 1]
+    nodes[:, 2] = radius + cable.start_height_m
+    return Rod(
+        nodes_m=nodes,
+        radius_m=radius,
+        youngs_modulus_pa=cable.youngs_modulus_pa,
+        density_kg_m3=cable.density_kg_m3,
+        natural_curvature_per_m=curvature_at_rest(nodes),
+    )
+
+
+def curvature_at_rest(nodes: Array) -> Array:
+    """The natural curvature, (N,) 1/m, at which level nodes (N, 3) at equal distances are without stress."""
+    edges = np.diff(nodes[:, :2], axis=0)
+    cross = edges[:-1, 0] * edges[1:, 1] - edges[:-1, 1] * edges[1:, 0]
+    dot = np.einsum("ij,ij->i", edges[:-1], edges[1:])
+    curvature = np.zeros(len(nodes))
+    curvature[1:-1] = cross / dot / np.linalg.norm(edges[0])
+    return curvature
+
+
+def _breeze(wind: Wind, landing_s: float) -> Breeze:
+    """The wind blows until the highest cable has fallen: it pushes the cables while they fall, and they come to rest."""
+    bearing, tilt = np.radians(wind.bearing_deg), np.radians(wind.tilt_deg)
+    direction = np.array([-np.sin(tilt) * np.cos(bearing), -np.sin(tilt) * np.sin(bearing), np.cos(tilt)])
+    gusts = [(gust.share, 2 * np.pi / gust.period_s, np.radians(gust.phase_deg)) for gust in wind.gusts]
+    return Breeze(
+        velocity_m_s=wind.speed_m_s * direction,
+        gusts=np.array(gusts, dtype=np.float64).reshape(-1, 3),
+        until_s=landing_s,
+    )

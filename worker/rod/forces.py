@@ -1,0 +1,77 @@
+"""Forces that are known at the start of a step: gravity, bending, natural curvature, tension, wind."""
+
+import numpy as np
+
+from worker.rod.arrays import Bodies, Motion
+from worker.rod.compiled import compiled
+from worker.rod.model import Array
+
+AIR_DENSITY_KG_M3 = 1.2
+DRAG_COEFFICIENT = 1.1
+"""Of a long cylinder across the flow, Reynolds numbers from 1e2 to 1e5 (Hoerner 1965, "Fluid-Dynamic Drag", ch. 3)."""
+
+
+@compiled
+def add_gravity(bodies: Bodies, gravity: Array, force: Array) -> None:
+    """Weight of each node, N, added to `force` (3, nodes)."""
+    for i in range(len(bodies.mass)):
+        for c in range(3):
+            force[c, i] += bodies.mass[i] * gravity[c]
+
+
+@compiled
+def add_elastic(bodies: Bodies, motion: Motion, rod: int, force: Array) -> None:
+    """Bending about the natural shape, and tension."""
+    first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
+    x = motion.x
+    stiff = bodies.stiffness[rod] / length**3
+    for i in range(first + 1, end - 1):
+        for c in range(3):
+            bend = stiff * (x[c, i - 1] - 2 * x[c, i] + x[c, i + 1])
+            force[c, i - 1] -= bend
+            force[c, i] += 2 * bend
+            force[c, i + 1] -= bend
+        # The energy of natural curvature k about z is -EI k / l^2 (e1 x e2)_z with the two edges at the node.
+        turn = bodies.stiffness[rod] * bodies.curvature[i] / length**2
+        if turn != 0.0:
+            e1x, e1y = x[0, i] - x[0, i - 1], x[1, i] - x[1, i - 1]
+            e2x, e2y = x[0, i + 1] - x[0, i], x[1, i + 1] - x[1, i]
+            force[0, i - 1] -= turn * e2y
+            force[1, i - 1] += turn * e2x
+            force[0, i + 1] -= turn * e1y
+            force[1, i + 1] += turn * e1x
+            force[0, i] += turn * (e1y + e2y)
+            force[1, i] -= turn * (e1x + e2x)
+    for i in range(first, end - 1):
+        if motion.tension[i] != 0.0:
+            dx, dy, dz = x[0, i + 1] - x[0, i], x[1, i + 1] - x[1, i], x[2, i + 1] - x[2, i]
+            pull = motion.tension[i] / max(np.sqrt(dx * dx + dy * dy + dz * dz), 1e-3 * length)
+            force[0, i] += pull * dx
+            force[1, i] += pull * dy
+            force[2, i] += pull * dz
+            force[0, i + 1] -= pull * dx
+            force[1, i + 1] -= pull * dy
+            force[2, i + 1] -= pull * dz
+
+
+@compiled
+def add_wind(bodies: Bodies, motion: Motion, air: Array, force: Array) -> None:
+    """Drag on each segment from the air's velocity across it: rho/2 C d l |u| u, half to either node."""
+    x, v = motion.x, motion.v
+    for i in range(len(bodies.mass) - 1):
+        rod = bodies.owner[i]
+        if bodies.owner[i + 1] != rod:
+            continue
+        length = bodies.length[rod]
+        tx, ty, tz = (x[0, i + 1] - x[0, i]) / length, (x[1, i + 1] - x[1, i]) / length, (x[2, i + 1] - x[2, i]) / length
+        ux = air[0] - 0.5 * (v[0, i] + v[0, i + 1])
+        uy = air[1] - 0.5 * (v[1, i] + v[1, i + 1])
+        uz = air[2] - 0.5 * (v[2, i] + v[2, i + 1])
+        along = ux * tx + uy * ty + uz * tz
+        ux, uy, uz = ux - along * tx, uy - along * ty, uz - along * tz
+        speed = np.sqrt(ux * ux + uy * uy + uz * uz)
+        half = 0.5 * 0.5 * AIR_DENSITY_KG_M3 * DRAG_COEFFICIENT * 2 * bodies.radius[rod] * length * speed
+        for j in (i, i + 1):
+            force[0, j] += half * ux
+            force[1, j] += half * uy
+            force[2, j] += half * uz

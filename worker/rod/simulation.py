@@ -1,0 +1,187 @@
+"""A fall of rods, step by step or until they rest."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from worker.rod.arrays import flatten
+from worker.rod.bending import Operator, operator_for
+from worker.rod.broad_phase import find_candidates, no_candidates
+from worker.rod.model import Array, Rod, Surroundings
+from worker.rod.step import Outcome, Tally, World, advance
+
+MAX_HALVINGS = 8
+NEVER_RESTS = (0.0, 0.0, 1 << 62)
+
+
+class DivergedError(Exception):
+    """The rods' speeds are no longer numbers."""
+
+
+@dataclass(frozen=True, slots=True)
+class Energy:
+    """Energy of all rods together, J. Gravitational energy counts from the origin."""
+
+    kinetic: float
+    gravitational: float
+    bending: float
+
+    @property
+    def total(self) -> float:
+        """Their sum."""
+        return self.kinetic + self.gravitational + self.bending
+
+
+class RodSimulation:
+    """Rods that fall.
+
+    Attributes:
+        step_s: the greatest time step; it is halved as long as rods move too far against each other in one.
+    """
+
+    def __init__(self, rods: Sequence[Rod], surroundings: Surroundings, *, steps_per_s: float) -> None:
+        """Place the rods at rest where they start."""
+        self.step_s = 1.0 / steps_per_s
+        self._bodies, self._motion = flatten(rods)
+        self._damping = surroundings.damping_s
+        self._world = _world(surroundings)
+        self._operators: dict[int, Operator] = {}
+        self._halvings = 0
+        self._tally = Tally(counts=np.zeros(6, np.int64), time=np.zeros(1), quiet=np.zeros(1, np.int64))
+        skin = 2 * float(self._bodies.radius.max())
+        self._candidates = find_candidates(self._bodies, self._motion.x, skin, no_candidates(self._motion.x))
+
+    @property
+    def time_s(self) -> float:
+        """Since the start."""
+        return float(self._tally.time[0])
+
+    @property
+    def steps(self) -> int:
+        """Time steps made."""
+        return int(self._tally.counts[0])
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """What it took, for benchmarks."""
+        names = ("steps", "sweeps", "length_iterations", "lists", "contacts", "length_failures")
+        return dict(zip(names, self._tally.counts.tolist(), strict=True))
+
+    def nodes_m(self, rod: int) -> Array:
+        """(N, 3) where a rod's nodes are."""
+        return np.ascontiguousarray(self._motion.x[:, self._part(rod)].T)
+
+    def velocities_m_s(self, rod: int) -> Array:
+        """(N, 3) how fast they move."""
+        return np.ascontiguousarray(self._motion.v[:, self._part(rod)].T)
+
+    def floor_forces_n(self, rod: int) -> Array:
+        """(N, 3) of the floor on a rod's nodes, in the last step."""
+        force: Array = self._motion.floor_impulse[:, self._part(rod)].T / self._operator().step
+        return force
+
+    def contact_force_n(self, one: int, other: int) -> Array:
+        """(3,) of the rod `other` on the rod `one`, in the last step."""
+        owner = self._bodies.owner
+        pairs = self._candidates
+        forward = (owner[pairs.one] == one) & (owner[pairs.other] == other)
+        backward = (owner[pairs.one] == other) & (owner[pairs.other] == one)
+        impulse = pairs.impulse[forward].sum(axis=0) - pairs.impulse[backward].sum(axis=0)
+        force: Array = impulse / self._operator().step
+        return force
+
+    def set_velocities(self, rod: int, velocities_m_s: Array) -> None:
+        """Give a rod's nodes velocities, (N, 3); pinned ones stay."""
+        part = self._part(rod)
+        self._motion.v[:, part] = np.where(self._bodies.pinned[part], 0.0, velocities_m_s.T)
+
+    def energy(self) -> Energy:
+        """As it is now; stretching has none, as lengths are kept."""
+        bodies, x, v = self._bodies, self._motion.x, self._motion.v
+        bending = 0.0
+        for rod, (length, stiffness) in enumerate(zip(bodies.length, bodies.stiffness, strict=True)):
+            nodes, curvature = x[:, self._part(rod)], bodies.curvature[self._part(rod)][1:-1]
+            edges = np.diff(nodes, axis=1)
+            turn = edges[0, :-1] * edges[1, 1:] - edges[1, :-1] * edges[0, 1:]
+            bending += stiffness / (2 * length**3) * float(np.sum(np.diff(edges, axis=1) ** 2))
+            bending -= stiffness / length**2 * float(np.sum(curvature * turn))
+        return Energy(
+            kinetic=0.5 * float(np.sum(bodies.mass * v**2)),
+            gravitational=-float(np.sum(bodies.mass * (self._world.gravity @ x))),
+            bending=bending,
+        )
+
+    def advance(self, steps: int) -> None:
+        """Make so many steps of `step_s`, or of its halves where it had to be halved.
+
+        Raises:
+            DivergedError: if the state is no longer finite.
+        """
+        self._loop(steps, NEVER_RESTS, np.inf)
+
+    def settle(self, *, rms_m_s: float, fastest_m_s: float, quiet_s: float, max_time_s: float) -> bool:
+        """Go on until all nodes have been slow for `quiet_s`; returns whether that was reached by `max_time_s`.
+
+        Raises:
+            DivergedError: if the state is no longer finite.
+        """
+        quiet = max(1, round(quiet_s / self.step_s))
+        return self._loop(1 << 40, (rms_m_s, fastest_m_s, quiet), max_time_s) is Outcome.RESTED
+
+    def _loop(self, steps: int, rest: tuple[float, float, int], max_time_s: float) -> Outcome:
+        end = self.steps + steps
+        while self.steps < end and self.time_s < max_time_s:
+            operator = self._operator()
+            left = (max_time_s - self.time_s) / operator.step
+            code, self._candidates = advance(
+                self._bodies,
+                operator,
+                self._motion,
+                self._world,
+                self._candidates,
+                self._tally,
+                int(min(end - self.steps, np.ceil(left))) if np.isfinite(left) else end - self.steps,
+                rest,
+                self._halvings == 0,
+                self._halvings == MAX_HALVINGS,
+            )
+            match Outcome(code):
+                case Outcome.TOO_FAST:
+                    self._change_step(self._halvings + 1)
+                case Outcome.SLOW_ENOUGH:
+                    self._change_step(self._halvings - 1)
+                case Outcome.DIVERGED:
+                    raise DivergedError(f"after {self.time_s:.4g} s")
+                case Outcome.RESTED:
+                    return Outcome.RESTED
+        return Outcome.STEPS_DONE
+
+    def _change_step(self, halvings: int) -> None:
+        ratio = 2.0 ** (self._halvings - halvings)
+        self._motion.floor_impulse[:] *= ratio
+        self._candidates.impulse[:] *= ratio
+        self._halvings = halvings
+
+    def _operator(self) -> Operator:
+        if self._halvings not in self._operators:
+            step = self.step_s / 2**self._halvings
+            self._operators[self._halvings] = operator_for(self._bodies, step, self._damping)
+        return self._operators[self._halvings]
+
+    def _part(self, rod: int) -> slice:
+        return slice(int(self._bodies.first[rod]), int(self._bodies.first[rod + 1]))
+
+
+def _world(surroundings: Surroundings) -> World:
+    breeze = surroundings.breeze
+    return World(
+        gravity=np.array(surroundings.gravity_m_s2, dtype=np.float64),
+        floor=surroundings.floor,
+        friction_floor=float(surroundings.friction_floor),
+        friction_rods=float(surroundings.friction_rods),
+        air=np.zeros(3) if breeze is None else np.array(breeze.velocity_m_s, dtype=np.float64),
+        gusts=np.zeros((0, 3)) if breeze is None else np.array(breeze.gusts, dtype=np.float64).reshape(-1, 3),
+        calm_from=0.0 if breeze is None else float(breeze.until_s),
+        drag=breeze is not None,
+    )
