@@ -45,8 +45,8 @@ class SettleFigures(Model):
         self_crossings: places where a cable crosses itself, seen from above.
         speed_rms_mm_s: root mean square speed of the nodes at the end, in true time.
         speed_max_mm_s: fastest node at the end.
-        support_gap: smallest clearance of a cable to the floor, or to another cable within half a radius, over its radius;
-            the worst cable's. Negative where it is pressed in.
+        support_gap: smallest clearance of a cable to the floor, or to another cable within half a radius, over its
+            radius; the worst cable's. Negative where it is pressed in.
     """
 
     fall_s: float

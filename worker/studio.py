@@ -17,8 +17,9 @@ from farm.header import DatasetHeader, FileRef
 from farm.job import Job
 from farm.manifest import RejectedAttempt, SettleFigures
 from farm.scene import Scene
-from worker.check import find_fault, measure
+from worker.check import find_fault
 from worker.devices import choose_device
+from worker.gates import measure
 from worker.images import ImageShelf
 from worker.label import View, label_cables
 from worker.library import AssetLibrary, checked

@@ -25,6 +25,10 @@ DEPENETRATION_SHARE = 0.2
 """Of a penetration that is undone in a step."""
 
 
+IGNORED_CHANGE_M_S = 2e-5
+"""A sweep leaves an impulse as it is if the change would alter its velocity by less."""
+
+
 class Contacts(NamedTuple):
     """The touching pairs of one step; only the first `count` are meant.
 
@@ -247,9 +251,10 @@ def sweep_contacts(
         moved = 0.0
         for c in range(3):
             change[c] = wanted[c] - impulse[c]
-            impulse[c] = wanted[c]
             moved = max(moved, abs(change[c]))
-        if moved > 0.0:
+        if moved * contacts.compliance[n] > IGNORED_CHANGE_M_S:
+            for c in range(3):
+                impulse[c] = wanted[c]
             _push(contacts, 0, n, 1.0, change, v)
             _push(contacts, 1, n, -1.0, change, v)
             worst = max(worst, moved * contacts.compliance[n])
@@ -302,9 +307,10 @@ def sweep_floor(
         moved = 0.0
         for c in range(3):
             change[c] = wanted[c] - impulse[c]
-            impulse[c] = wanted[c]
             moved = max(moved, abs(change[c]))
-        if moved > 0.0:
+        if moved * compliance > IGNORED_CHANGE_M_S:
+            for c in range(3):
+                impulse[c] = wanted[c]
             floor_push(bodies, operator, node, change, v)
             worst = max(worst, moved * compliance)
     return worst

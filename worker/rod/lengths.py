@@ -18,11 +18,13 @@ from worker.rod.bending import Operator
 from worker.rod.compiled import compiled
 from worker.rod.model import Array
 
-TOLERANCE = 1e-8
+TOLERANCE = 1e-7
 """Of a segment's strain."""
 
 MAX_ITERATIONS = 12
 BAND = 9
+ROW = 2 * BAND
+"""Numbers kept for each row of the upper half: the band, and zeros."""
 
 
 @compiled
@@ -49,13 +51,11 @@ def _assemble(bodies: Bodies, operator: Operator, rod: int, direction: Array, up
     for i in range(first, end):
         row = 4 * (i - first)
         for c in range(3):
-            for k in range(BAND):
-                upper[row + c, k] = 0.0
+            upper[row + c] = 0.0
             upper[row + c, 0] = bands[0, i]
             upper[row + c, 4] = bands[1, i]
             upper[row + c, 8] = bands[2, i]
-        for k in range(BAND):
-            upper[row + 3, k] = 0.0
+        upper[row + 3] = 0.0
         if i == first or (pinned[i - 1] and pinned[i]):
             upper[row + 3, 0] = -1.0
             continue
@@ -73,10 +73,10 @@ def _solve_banded(upper: Array, right: Array, size: int) -> None:
         inverse = 1.0 / upper[j, 0]
         for a in range(1, min(BAND, size - j)):
             factor = upper[j, a] * inverse
-            if factor != 0.0:
-                for b in range(a, BAND):
-                    upper[j + a, b - a] -= factor * upper[j, b]
-                right[j + a] -= factor * right[j]
+            # Of fixed length, so that it becomes one vector operation; the columns beyond the band hold zeros.
+            for b in range(BAND - 1):
+                upper[j + a, b] -= factor * upper[j, a + b]
+            right[j + a] -= factor * right[j]
     for j in range(size - 1, -1, -1):
         total = right[j]
         for a in range(1, min(BAND, size - j)):
@@ -93,7 +93,7 @@ def restore_lengths(bodies: Bodies, operator: Operator, motion: Motion, rod: int
         operator: of this time step.
         motion: `x` and `tension` are changed.
         rod: which.
-        work: scratch of at least (BAND + 6) * 4 * nodes of the rod.
+        work: scratch of at least (ROW + 6) * 4 * nodes of the rod.
 
     Returns:
         Newton iterations; MAX_ITERATIONS + 1 if they did not converge.
@@ -106,7 +106,7 @@ def restore_lengths(bodies: Bodies, operator: Operator, motion: Motion, rod: int
     offset += bodies.first[-1]
     right = work[offset : offset + size]
     offset += size
-    upper = work[offset : offset + BAND * size].reshape(size, BAND)
+    upper = work[offset : offset + ROW * size].reshape(size, ROW)
     x, tension = motion.x, motion.tension
     scale = 1.0 / (operator.step * operator.step)
     for iteration in range(MAX_ITERATIONS):

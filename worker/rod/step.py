@@ -22,11 +22,11 @@ from worker.rod.contact import (
     warm_start,
 )
 from worker.rod.forces import add_elastic, add_gravity, add_wind
-from worker.rod.lengths import BAND, MAX_ITERATIONS, restore_lengths
+from worker.rod.lengths import ROW, MAX_ITERATIONS, restore_lengths
 from worker.rod.model import Array
 
 MAX_SWEEPS = 40
-SWEEP_TOLERANCE_M_S = 1e-4
+SWEEP_TOLERANCE_M_S = 3e-4
 """Sweeps end when none changes a velocity by more: a tenth of the speed at which a scene counts as resting."""
 
 MARGIN_RADII = 2.0
@@ -223,7 +223,7 @@ def advance(
     touching = np.empty(nodes, np.int64)
     free = np.empty((3, nodes))
     start = np.empty((3, nodes))
-    work = np.empty((BAND + 10) * 4 * nodes)
+    work = np.empty((ROW + 10) * 4 * nodes)
     contacts = _room_for(len(candidates.one) + 1, operator.response.shape[1] + 3)
     skin = MARGIN_RADII * largest
     for _ in range(steps):
