@@ -127,7 +127,6 @@ def gather_contacts(
     """Fill in the contacts of this step: all candidates with surfaces nearer than `margin`; returns their number."""
     fractions = np.empty(2)
     count = 0
-    depenetration = 0.0
     for pair in range(len(candidates.one)):
         i, j = candidates.one[pair], candidates.other[pair]
         closest(x, i, j, fractions)
@@ -137,6 +136,7 @@ def gather_contacts(
             t == 1.0 and bodies.first[bodies.owner[j] + 1] != j + 2
         ):
             candidates.impulse[pair] = 0.0
+            candidates.normal[pair] = 0.0
             continue
         base_i = _weigh(bodies, i, s, contacts.weights[0, count])
         base_j = _weigh(bodies, j, t, contacts.weights[1, count])
@@ -168,6 +168,9 @@ def gather_contacts(
             memory[:] = normal
             continue
         memory[:] = normal
+        push = candidates.impulse[pair]
+        if push[0] * normal[0] + push[1] * normal[1] + push[2] * normal[2] < 0.0:
+            push[:] = 0.0
         contacts.pair[count] = pair
         contacts.base[0, count] = base_i
         contacts.base[1, count] = base_j
@@ -197,19 +200,6 @@ def _push(contacts: Contacts, side: int, n: int, sign: float, impulse: Array, v:
         if p != 0.0:
             for j in range(width):
                 v[c, low + j] += p * column[j]
-
-
-@compiled
-def warm_start(contacts: Contacts, count: int, candidates: Candidates, v: Array) -> None:
-    """Begin with the impulses of the step before."""
-    for n in range(count):
-        impulse = candidates.impulse[contacts.pair[n]]
-        normal = contacts.normal[n]
-        along = impulse[0] * normal[0] + impulse[1] * normal[1] + impulse[2] * normal[2]
-        if along < 0.0:
-            impulse[:] = 0.0
-        _push(contacts, 0, n, 1.0, impulse, v)
-        _push(contacts, 1, n, -1.0, impulse, v)
 
 
 @compiled
@@ -259,13 +249,6 @@ def sweep_contacts(
             _push(contacts, 1, n, -1.0, change, v)
             worst = max(worst, moved * contacts.compliance[n])
     return worst
-
-
-@compiled
-def floor_warm_start(bodies: Bodies, operator: Operator, motion: Motion, touching: Integers, v: Array) -> None:
-    """Begin with the floor's impulses of the step before, where it is still near."""
-    for i in touching:
-        floor_push(bodies, operator, i, motion.floor_impulse[:, i], v)
 
 
 @compiled

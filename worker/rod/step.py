@@ -15,11 +15,9 @@ from worker.rod.compiled import compiled
 from worker.rod.contact import (
     Contacts,
     _room_for,
-    floor_warm_start,
     gather_contacts,
     sweep_contacts,
     sweep_floor,
-    warm_start,
 )
 from worker.rod.forces import add_elastic, add_gravity, add_wind
 from worker.rod.lengths import ROW, MAX_ITERATIONS, restore_lengths
@@ -110,8 +108,8 @@ def _near_floor(bodies: Bodies, motion: Motion, step: float, touching: Integers)
 
 
 @compiled
-def _free_velocity(bodies: Bodies, operator: Operator, motion: Motion, world: World, time: float, free: Array) -> None:
-    """Velocities at the end of the step if there were no contact and no change of tension."""
+def _momentum(bodies: Bodies, operator: Operator, motion: Motion, world: World, time: float, momentum: Array) -> None:
+    """The right-hand side M v + h f of the implicit solve, without contact."""
     force = np.zeros(motion.x.shape)
     add_gravity(bodies, world.gravity, force)
     for rod in range(len(bodies.length)):
@@ -122,16 +120,41 @@ def _free_velocity(bodies: Bodies, operator: Operator, motion: Motion, world: Wo
         add_wind(bodies, motion, air, force)
     for c in range(3):
         for i in range(len(bodies.mass)):
-            if bodies.pinned[i]:
-                free[c, i] = 0.0
-            else:
-                free[c, i] = bodies.mass[i] * motion.v[c, i] + operator.step * force[c, i]
-    for rod in range(len(bodies.length)):
-        solve(bodies, operator.factors, rod, free)
+            momentum[c, i] = bodies.mass[i] * motion.v[c, i] + operator.step * force[c, i]
 
 
 @compiled
-def _touch(
+def _velocities(
+    bodies: Bodies,
+    operator: Operator,
+    motion: Motion,
+    momentum: Array,
+    candidates: Candidates,
+    contacts: Contacts,
+    count: int,
+    touching: Integers,
+    v: Array,
+) -> None:
+    """A v = momentum + the impulses of the floor and between rods."""
+    v[:] = momentum
+    for i in touching:
+        for c in range(3):
+            v[c, i] += motion.floor_impulse[c, i]
+    for n in range(count):
+        push = candidates.impulse[contacts.pair[n]]
+        for k in range(4):
+            for c in range(3):
+                v[c, contacts.base[0, n] + k] += contacts.weights[0, n, k] * push[c]
+                v[c, contacts.base[1, n] + k] -= contacts.weights[1, n, k] * push[c]
+    for i in range(len(bodies.mass)):
+        if bodies.pinned[i]:
+            v[:, i] = 0.0
+    for rod in range(len(bodies.length)):
+        solve(bodies, operator.factors, rod, v)
+
+
+@compiled
+def _find_impulses(
     bodies: Bodies,
     operator: Operator,
     motion: Motion,
@@ -142,38 +165,14 @@ def _touch(
     touching: Integers,
     v: Array,
 ) -> int:
-    """Find the impulses of all contacts and add what they do to `v`; returns how many sweeps it took."""
-    if count == 0 and len(touching) == 0:
-        return 0
-    free = v.copy()
-    floor_warm_start(bodies, operator, motion, touching, v)
-    warm_start(contacts, count, candidates, v)
-    sweeps = 0
+    """Sweep over the contacts until their impulses hardly change; returns how many sweeps it took."""
     for sweep in range(MAX_SWEEPS):
         backward = sweep % 2 == 1
-        sweeps += 1
         worst = sweep_contacts(contacts, count, candidates, world.friction_rods, backward, v)
         worst = max(worst, sweep_floor(bodies, operator, motion, touching, world.friction_floor, backward, v))
         if worst < SWEEP_TOLERANCE_M_S:
-            break
-    # The tabulated responses end where they are small; here the impulses act in full.
-    impulse = np.zeros(v.shape)
-    for i in touching:
-        for c in range(3):
-            impulse[c, i] += motion.floor_impulse[c, i]
-    for n in range(count):
-        push = candidates.impulse[contacts.pair[n]]
-        for k in range(4):
-            for c in range(3):
-                impulse[c, contacts.base[0, n] + k] += contacts.weights[0, n, k] * push[c]
-                impulse[c, contacts.base[1, n] + k] -= contacts.weights[1, n, k] * push[c]
-    for i in range(len(bodies.mass)):
-        if bodies.pinned[i]:
-            impulse[:, i] = 0.0
-    for rod in range(len(bodies.length)):
-        solve(bodies, operator.factors, rod, impulse)
-    v[:] = free + impulse
-    return sweeps
+            return sweep + 1
+    return MAX_SWEEPS
 
 
 @compiled
@@ -221,7 +220,8 @@ def advance(
     nodes = len(bodies.mass)
     smallest, largest = bodies.radius.min(), bodies.radius.max()
     touching = np.empty(nodes, np.int64)
-    free = np.empty((3, nodes))
+    momentum = np.empty((3, nodes))
+    v = np.empty((3, nodes))
     start = np.empty((3, nodes))
     work = np.empty((ROW + 10) * 4 * nodes)
     contacts = _room_for(len(candidates.one) + 1, operator.response.shape[1] + 3)
@@ -238,17 +238,21 @@ def advance(
             return Outcome.TOO_FAST.value, candidates
         if not coarsest and (len(candidates.one) == 0 or 2.2 * relative < MOVE_RADII * smallest):
             return Outcome.SLOW_ENOUGH.value, candidates
-        _free_velocity(bodies, operator, motion, world, tally.time[0] + h, free)
+        _momentum(bodies, operator, motion, world, tally.time[0] + h, momentum)
         count = gather_contacts(bodies, operator, motion.x, candidates, near, contacts)
-        floor = _near_floor(bodies, motion, h, touching) if world.floor else 0
-        tally.counts[1] += _touch(
-            bodies, operator, motion, world, candidates, contacts, count, touching[:floor], free
-        )
+        floor = touching[: _near_floor(bodies, motion, h, touching) if world.floor else 0]
+        _velocities(bodies, operator, motion, momentum, candidates, contacts, count, floor, v)
+        if count > 0 or len(floor) > 0:
+            tally.counts[1] += _find_impulses(
+                bodies, operator, motion, world, candidates, contacts, count, floor, v
+            )
+            # The sweeps' responses end where they are small; here the impulses act in full.
+            _velocities(bodies, operator, motion, momentum, candidates, contacts, count, floor, v)
         tally.counts[4] += count
         for c in range(3):
             for i in range(nodes):
                 start[c, i] = motion.x[c, i]
-                motion.x[c, i] += h * free[c, i]
+                motion.x[c, i] += h * v[c, i]
         for rod in range(len(bodies.length)):
             iterations = restore_lengths(bodies, operator, motion, rod, work)
             tally.counts[2] += iterations
