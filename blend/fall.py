@@ -25,12 +25,13 @@ def add_fall(scene: Any) -> None:
     """Fill the scene of the fall."""
     scene.gravity = (0.0, 0.0, -9.81)
     scene.frame_start, scene.frame_end = 1, 250
-    _add_floor(scene)
-    _add_cables(scene)
-    _add_wind(scene)
+    add_floor(scene)
+    add_cables(scene)
+    add_wind(scene)
 
 
-def _add_floor(scene: Any) -> None:
+def add_floor(scene: Any) -> Any:
+    """Add the rigid floor at z = 0 and return it."""
     edge = FLOOR_HALF_EDGE
     mesh = bpy.data.meshes.new(names.FALL_FLOOR)
     mesh.from_pydata([(-edge, -edge, 0), (edge, -edge, 0), (edge, edge, 0), (-edge, edge, 0)], [], [(0, 1, 2, 3)])
@@ -40,9 +41,11 @@ def _add_floor(scene: Any) -> None:
     floor.collision.cloth_friction = 30.0
     floor.collision.damping = 0.1
     floor.field.seed = _FIELD_SEED
+    return floor
 
 
-def _add_cables(scene: Any) -> None:
+def add_cables(scene: Any) -> Any:
+    """Add the object of the strips, one triangle as yet, and return it."""
     mesh = bpy.data.meshes.new(names.FALL_CABLES)
     mesh.from_pydata([(0, -0.04, 1), (0.5, 0.04, 1), (1.0, -0.04, 1)], [], [(0, 1, 2)])
     cables = bpy.data.objects.new(names.FALL_CABLES, mesh)
@@ -63,9 +66,11 @@ def _add_cables(scene: Any) -> None:
     collision.use_self_collision = True
     collision.self_distance_min = SELF_DISTANCE
     collision.self_friction = 30.0
+    return cables
 
 
-def _add_wind(scene: Any) -> None:
+def add_wind(scene: Any) -> Any:
+    """Add the wind, still, and return it."""
     wind = bpy.data.objects.new(names.FALL_WIND, None)
     scene.collection.objects.link(wind)
     layer = scene.view_layers[0]
@@ -74,3 +79,4 @@ def _add_wind(scene: Any) -> None:
     wind.field.type = "WIND"
     wind.field.strength = 0.0
     wind.field.seed = _FIELD_SEED
+    return wind

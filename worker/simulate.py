@@ -3,6 +3,7 @@
 from farm.fall import Fall, Simulator
 from farm.scene import Scene
 from worker.cloth.joined import drop_cables as drop_as_joined_cloth
+from worker.cloth.published import drop_cables as drop_as_published_cloth
 from worker.shapes import CableShapes
 
 
@@ -15,5 +16,7 @@ def let_fall(scene: Scene, simulator: Simulator, fall: Fall) -> CableShapes:
     match simulator:
         case Simulator.CLOTH:
             return drop_as_joined_cloth(scene, fall.cloth)
-        case Simulator.ROD | Simulator.CLOTH_PUBLISHED:
+        case Simulator.CLOTH_PUBLISHED:
+            return drop_as_published_cloth(scene, fall.cloth)
+        case Simulator.ROD:
             raise NotImplementedError(simulator)

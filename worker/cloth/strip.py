@@ -37,3 +37,17 @@ def centreline(vertices: NDArray[np.float64]) -> Points:
     middle[0] = 2 * middle[1] - middle[2]
     middle[-1] = 2 * middle[-2] - middle[-3]
     return middle
+
+
+def ladder(path: Points, width: float) -> Points:
+    """Two corners (2 N, 3) for each node of a level path (N, 3): `width` apart, one after the other."""
+    direction = np.gradient(path[:, :2], axis=0)
+    direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+    side = 0.5 * width * np.stack([-direction[:, 1], direction[:, 0], np.zeros(len(path))], axis=1)
+    corners: Points = np.stack([path - side, path + side], axis=1).reshape(-1, 3)
+    return corners
+
+
+def ladder_faces(nodes: int) -> list[tuple[int, int, int, int]]:
+    """Quads of a ladder of `nodes` rungs, all facing up."""
+    return [(2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1) for k in range(nodes - 1)]
