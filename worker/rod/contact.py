@@ -131,13 +131,6 @@ def gather_contacts(
         i, j = candidates.one[pair], candidates.other[pair]
         closest(x, i, j, fractions)
         s, t = fractions[0], fractions[1]
-        # A point between two segments belongs to the one that starts there.
-        if (s == 1.0 and bodies.first[bodies.owner[i] + 1] != i + 2) or (
-            t == 1.0 and bodies.first[bodies.owner[j] + 1] != j + 2
-        ):
-            candidates.impulse[pair] = 0.0
-            candidates.normal[pair] = 0.0
-            continue
         base_i = _weigh(bodies, i, s, contacts.weights[0, count])
         base_j = _weigh(bodies, j, t, contacts.weights[1, count])
         normal = contacts.normal[count]

@@ -23,6 +23,7 @@ from worker.rod.forces import add_elastic, add_gravity, add_wind
 from worker.rod.lengths import ROW, MAX_ITERATIONS, restore_lengths
 from worker.rod.model import Array
 
+REL = 0.05
 MAX_SWEEPS = 40
 SWEEP_TOLERANCE_M_S = 3e-4
 """Sweeps end when none changes a velocity by more: a tenth of the speed at which a scene counts as resting."""
@@ -30,7 +31,7 @@ SWEEP_TOLERANCE_M_S = 3e-4
 MARGIN_RADII = 2.0
 """Candidates are gathered so much wider than needed, so that the list lasts."""
 
-MOVE_RADII = 2.0
+MOVE_RADII = 1.0
 """How far nodes may move against each other in a step, in the least radius; faster ones get a finer step."""
 
 
@@ -163,6 +164,7 @@ def _find_impulses(
     contacts: Contacts,
     count: int,
     touching: Integers,
+    tolerance: float,
     v: Array,
 ) -> int:
     """Sweep over the contacts until their impulses hardly change; returns how many sweeps it took."""
@@ -170,7 +172,7 @@ def _find_impulses(
         backward = sweep % 2 == 1
         worst = sweep_contacts(contacts, count, candidates, world.friction_rods, backward, v)
         worst = max(worst, sweep_floor(bodies, operator, motion, touching, world.friction_floor, backward, v))
-        if worst < SWEEP_TOLERANCE_M_S:
+        if worst < tolerance:
             return sweep + 1
     return MAX_SWEEPS
 
@@ -226,6 +228,7 @@ def advance(
     work = np.empty((ROW + 10) * 4 * nodes)
     contacts = _room_for(len(candidates.one) + 1, operator.response.shape[1] + 3)
     skin = MARGIN_RADII * largest
+    rms, fastest = _speeds(motion.v)
     for _ in range(steps):
         relative = h * _fastest_against_mean(motion.v)
         # Both of a pair may move, and gravity adds to it within the step.
@@ -243,8 +246,9 @@ def advance(
         floor = touching[: _near_floor(bodies, motion, h, touching) if world.floor else 0]
         _velocities(bodies, operator, motion, momentum, candidates, contacts, count, floor, v)
         if count > 0 or len(floor) > 0:
+            tolerance = min(max(REL * rms, SWEEP_TOLERANCE_M_S), 0.02*smallest/h)
             tally.counts[1] += _find_impulses(
-                bodies, operator, motion, world, candidates, contacts, count, floor, v
+                bodies, operator, motion, world, candidates, contacts, count, floor, tolerance, v
             )
             # The sweeps' responses end where they are small; here the impulses act in full.
             _velocities(bodies, operator, motion, momentum, candidates, contacts, count, floor, v)
