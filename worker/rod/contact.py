@@ -214,15 +214,25 @@ def project_on_cone(impulse: Array, normal: Array, friction: float) -> None:
 
 @compiled
 def sweep_contacts(
-    contacts: Contacts, count: int, candidates: Candidates, friction: float, backward: bool, v: Array
+    bodies: Bodies,
+    contacts: Contacts,
+    count: int,
+    candidates: Candidates,
+    friction: float,
+    sweep: int,
+    stirred: Integers,
+    v: Array,
 ) -> float:
     """One pass over all contacts between rods; returns the largest change of a relative velocity, m/s."""
     worst = 0.0
     change, wanted = np.empty(3), np.empty(3)
     for step in range(count):
-        n = count - 1 - step if backward else step
-        normal, impulse = contacts.normal[n], candidates.impulse[contacts.pair[n]]
+        n = count - 1 - step if sweep % 2 == 1 else step
         base_i, base_j = contacts.base[0, n], contacts.base[1, n]
+        one, other = bodies.owner[base_i], bodies.owner[base_j]
+        if stirred[one] < sweep - 1 and stirred[other] < sweep - 1:
+            continue
+        normal, impulse = contacts.normal[n], candidates.impulse[contacts.pair[n]]
         for c in range(3):
             u = 0.0
             for k in range(4):
@@ -240,6 +250,8 @@ def sweep_contacts(
                 impulse[c] = wanted[c]
             _push(contacts, 0, n, 1.0, change, v)
             _push(contacts, 1, n, -1.0, change, v)
+            stirred[one] = sweep
+            stirred[other] = sweep
             worst = max(worst, moved * contacts.compliance[n])
     return worst
 
@@ -261,7 +273,14 @@ def floor_push(bodies: Bodies, operator: Operator, node: int, impulse: Array, v:
 
 @compiled
 def sweep_floor(
-    bodies: Bodies, operator: Operator, motion: Motion, touching: Integers, friction: float, backward: bool, v: Array
+    bodies: Bodies,
+    operator: Operator,
+    motion: Motion,
+    touching: Integers,
+    friction: float,
+    sweep: int,
+    stirred: Integers,
+    v: Array,
 ) -> float:
     """One pass over all nodes near the floor; returns the largest change of a velocity, m/s."""
     worst = 0.0
@@ -270,9 +289,12 @@ def sweep_floor(
     up = np.zeros(3)
     up[2] = 1.0
     for step in range(len(touching)):
-        node = touching[len(touching) - 1 - step] if backward else touching[step]
+        node = touching[len(touching) - 1 - step] if sweep % 2 == 1 else touching[step]
+        rod = bodies.owner[node]
+        if stirred[rod] < sweep - 1:
+            continue
         compliance = operator.response[node, centre]
-        radius = bodies.radius[bodies.owner[node]]
+        radius = bodies.radius[rod]
         gap = motion.x[2, node] - radius
         approach = allowed_approach(gap, operator.step, radius)
         impulse = motion.floor_impulse[:, node]
@@ -288,5 +310,6 @@ def sweep_floor(
             for c in range(3):
                 impulse[c] = wanted[c]
             floor_push(bodies, operator, node, change, v)
+            stirred[rod] = sweep
             worst = max(worst, moved * compliance)
     return worst

@@ -168,10 +168,10 @@ def _find_impulses(
     v: Array,
 ) -> int:
     """Sweep over the contacts until their impulses hardly change; returns how many sweeps it took."""
+    stirred = np.zeros(len(bodies.length), np.int64)
     for sweep in range(MAX_SWEEPS):
-        backward = sweep % 2 == 1
-        worst = sweep_contacts(contacts, count, candidates, world.friction_rods, backward, v)
-        worst = max(worst, sweep_floor(bodies, operator, motion, touching, world.friction_floor, backward, v))
+        worst = sweep_contacts(bodies, contacts, count, candidates, world.friction_rods, sweep, stirred, v)
+        worst = max(worst, sweep_floor(bodies, operator, motion, touching, world.friction_floor, sweep, stirred, v))
         if worst < tolerance:
             return sweep + 1
     return MAX_SWEEPS

@@ -1,0 +1,83 @@
+"""Coulomb friction: on a slope, and around a drum."""
+
+import numpy as np
+import pytest
+
+from tests.physics.rods import GRAVITY_M_S2, RADIUS_M, line, rod
+from worker.gates import Gate
+from worker.physics.closed_forms import incline_acceleration_m_s2
+from worker.rod.model import Surroundings
+from worker.rod.simulation import RodSimulation
+
+FRICTION = 0.4
+
+
+def on_slope(slope_rad: float, bearing_rad: float) -> RodSimulation:
+    """A rod on a floor that falls away along x."""
+    gravity = (GRAVITY_M_S2 * np.sin(slope_rad), 0.0, -GRAVITY_M_S2 * np.cos(slope_rad))
+    end = 0.2 * np.array([np.cos(bearing_rad), np.sin(bearing_rad), 0])
+    lying = rod(line((0, 0, RADIUS_M), end + [0, 0, RADIUS_M], 40))
+    surroundings = Surroundings(gravity_m_s2=gravity, friction_floor=FRICTION)
+    return RodSimulation([lying], surroundings, steps_per_s=1000)
+
+
+@pytest.mark.parametrize("bearing_deg", [0, 37, 90])
+@pytest.mark.parametrize("excess", [1.1, 1.5, 3.0])
+def test_a_rod_slips_on_a_slope_steeper_than_its_friction(excess: float, bearing_deg: float) -> None:
+    """With tan a > mu its speed is g (sin a - mu cos a) t, less what the sweeps leave open in one step's velocity."""
+    slope = float(np.arctan(excess * FRICTION))
+    simulation = on_slope(slope, np.radians(bearing_deg))
+    simulation.advance(200)
+    expected = 0.2 * incline_acceleration_m_s2(slope, FRICTION, GRAVITY_M_S2)
+    velocity = simulation.velocities_m_s(0).mean(axis=0)
+    assert velocity == pytest.approx([expected, 0, 0], abs=Gate.SPEED_RMS.value.target / 1000)
+
+
+@pytest.mark.parametrize("bearing_deg", [0, 37, 90])
+@pytest.mark.parametrize("share", [0.0, 0.5, 0.9])
+def test_a_rod_sticks_on_a_slope_flatter_than_its_friction(share: float, bearing_deg: float) -> None:
+    """With tan a < mu it creeps no faster than gate 4 lets a resting scene."""
+    simulation = on_slope(float(np.arctan(share * FRICTION)), np.radians(bearing_deg))
+    before = simulation.nodes_m(0)
+    simulation.advance(500)
+    moved = np.linalg.norm(simulation.nodes_m(0) - before, axis=1)
+    assert Gate.SPEED_RMS.on_target(float(moved.max()) / 0.5 * 1000)
+
+
+DRUM_RADIUS_M = 0.02
+ROPE_RADIUS_M = 0.0005
+SEGMENT_M = 5 * ROPE_RADIUS_M
+
+
+def rope_over_drum(pull_ratio: float, friction: float) -> RodSimulation:
+    """A limp rope over half a drum, its two hanging ends so long that their weights have the given ratio."""
+    reach = DRUM_RADIUS_M + ROPE_RADIUS_M
+    turns = round(np.pi * reach / SEGMENT_M)
+    # The corners lie outside the circle, so that the chords just touch it.
+    corner = reach / np.cos(np.pi / turns / 2)
+    angle = np.pi - np.pi * np.arange(turns + 1) / turns
+    over = np.stack([corner * np.cos(angle), np.zeros(turns + 1), 1 + corner * np.sin(angle)], axis=1)
+    segment = float(np.linalg.norm(over[1] - over[0]))
+    light, heavy = 20, round(20 * pull_ratio)
+    rise, fall = segment * np.arange(light, 0, -1), segment * np.arange(1, heavy + 1)
+    left = np.stack([np.full(light, -corner), np.zeros(light), 1 - rise], axis=1)
+    right = np.stack([np.full(heavy, corner), np.zeros(heavy), 1 - fall], axis=1)
+    rope = rod(np.concatenate([left, over, right]), radius_m=ROPE_RADIUS_M, modulus_pa=1e5)
+    drum = rod(line((0, -0.08, 1), (0, 0.08, 1), 4), radius_m=DRUM_RADIUS_M, pinned=range(5))
+    surroundings = Surroundings(floor=False, friction_rods=friction, damping_s=0.01)
+    return RodSimulation([rope, drum], surroundings, steps_per_s=2000)
+
+
+@pytest.mark.parametrize("friction", [0.2, 0.4])
+def test_a_rope_around_a_drum_holds_up_to_the_capstans_ratio(friction: float) -> None:
+    """T2 / T1 = e^(mu p) over half a turn: at three quarters of it the rope sticks, at five quarters it runs."""
+    critical = np.exp(friction * np.pi)
+    slips = []
+    for share in (0.75, 1.25):
+        simulation = rope_over_drum(share * critical, friction)
+        simulation.advance(200)
+        before = simulation.nodes_m(0)[-1, 2]
+        simulation.advance(400)
+        slips.append(before - simulation.nodes_m(0)[-1, 2])
+    assert slips[0] < 1
+    assert slips == [0, 0]
