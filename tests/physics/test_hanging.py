@@ -10,20 +10,26 @@ from worker.rod.model import Surroundings
 from worker.rod.simulation import RodSimulation
 
 LENGTH_M = 0.4
+CATENARY_SLENDERNESS = 1e5
 
 
 @pytest.mark.parametrize("segments", [40, 80])
-@pytest.mark.parametrize("span_m", [0.2, 0.3])
+@pytest.mark.parametrize("span_m", [0.3, 0.35])
 def test_a_rod_between_two_points_hangs_as_a_catenary(span_m: float, segments: int) -> None:
-    """Sag c (cosh(D / 2c) - 1) with L = 2c sinh(D / 2c); a chain of n links is off by the order of 1/n^2."""
+    """Sag c (cosh(D / 2c) - 1) with L = 2c sinh(D / 2c), off by 1/n^2 for n links and (L/c)^3 / G for the bending."""
     depth = np.sqrt(LENGTH_M**2 - span_m**2) / 2
     left = line((-span_m / 2, 0, 1), (0, 0, 1 - depth), segments // 2)
     right = line((0, 0, 1 - depth), (span_m / 2, 0, 1), segments // 2)
-    hung = rod(np.concatenate([left, right[1:]]), modulus_pa=modulus_pa(1e6, LENGTH_M), pinned=(0, -1))
-    simulation = RodSimulation([hung], Surroundings(floor=False, damping_s=1.0), steps_per_s=100)
-    assert simulation.settle(rms_m_s=1e-6, fastest_m_s=1e-5, quiet_s=0.05, max_time_s=60)
+    hung = rod(
+        np.concatenate([left, right[1:]]), modulus_pa=modulus_pa(CATENARY_SLENDERNESS, LENGTH_M), pinned=(0, -1)
+    )
+    # Internal damping this strong ends the swinging; it has no say in where the rod rests.
+    simulation = RodSimulation([hung], Surroundings(floor=False, damping_s=1.0), steps_per_s=500)
+    assert simulation.settle(rms_m_s=5e-5, fastest_m_s=1e-4, quiet_s=0.05, max_time_s=20)
     sag = 1 - float(simulation.nodes_m(0)[:, 2].min())
-    assert sag == pytest.approx(catenary(span_m, LENGTH_M).sag_m, rel=1 / segments**2)
+    reference = catenary(span_m, LENGTH_M)
+    bending = (LENGTH_M / reference.parameter_m) ** 3 / CATENARY_SLENDERNESS
+    assert sag == pytest.approx(reference.sag_m, rel=1 / segments**2 + bending)
 
 
 @pytest.mark.parametrize("steps_per_s", [500, 1000])

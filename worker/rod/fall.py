@@ -9,7 +9,7 @@ from worker.rod.model import Array, Breeze, Rod, Surroundings
 from worker.rod.simulation import DivergedError, RodSimulation
 from worker.shapes import CableShapes, bent_rod
 
-INTERNAL_DAMPING_S = 0.003
+INTERNAL_DAMPING_S = 0.01
 """Time constant of the cables' internal damping: a loss factor of 0.1 to 0.4 at the 5 to 20 Hz at which bridges swing."""
 
 REST_RMS_M_S = 0.5e-3
