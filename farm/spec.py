@@ -48,7 +48,7 @@ class DatasetSpec(Model):
     engine: Engine = Engine.CYCLES
     quality: Quality = Quality.STANDARD
     close_distributed_hdri: str | None = None
-    simulator: Simulator = Simulator.CLOTH
+    simulator: Simulator = Simulator.ROD
     fall: Fall = Fall()
     ranges: Ranges = Ranges()
 

@@ -4,6 +4,7 @@ from farm.fall import Fall, Simulator
 from farm.scene import Scene
 from worker.cloth.joined import drop_cables as drop_as_joined_cloth
 from worker.cloth.published import drop_cables as drop_as_published_cloth
+from worker.rod.fall import drop_cables as drop_as_rods
 from worker.shapes import CableShapes
 
 
@@ -19,4 +20,4 @@ def let_fall(scene: Scene, simulator: Simulator, fall: Fall) -> CableShapes:
         case Simulator.CLOTH_PUBLISHED:
             return drop_as_published_cloth(scene, fall.cloth)
         case Simulator.ROD:
-            raise NotImplementedError(simulator)
+            return drop_as_rods(scene, fall.rod)

@@ -21,7 +21,8 @@ IN_THE_AIR = Surroundings(floor=False)
 
 def line(start: Iterable[float], end: Iterable[float], segments: int) -> Array:
     """Nodes of a straight rod."""
-    return np.linspace(np.array(list(start), float), np.array(list(end), float), segments + 1)
+    nodes: Array = np.linspace(np.array(list(start), float), np.array(list(end), float), segments + 1)
+    return nodes
 
 
 def rod(

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tests.physics.rods import RADIUS_M, line, rod, weight_per_length_n_m
+from tests.physics.rods import GRAVITY_M_S2, RADIUS_M, line, rod, weight_per_length_n_m
 from worker.gates import Gate, crossing_error
 from worker.physics.ridge import RidgeCrossing, fit_lifted
 from worker.rod.model import Array, Rod, Surroundings
@@ -65,10 +65,11 @@ def test_a_rod_lifts_off_and_is_carried_as_the_beam(modulus: float, segment_radi
 
 
 def test_floor_and_ridge_together_carry_the_rod() -> None:
-    """The vertical forces sum to the weight; the mean acceleration is below a part of the speeds over the time."""
+    """The vertical forces sum to the weight, but for a change of speed within gate 4's bound over the averaged time."""
     nodes, reactions, reference = settled(STIFF_PA, 4)
     weight = reference.weight_per_length_n_m * float(np.linalg.norm(np.diff(nodes, axis=0), axis=1).sum())
-    assert float(reactions.sum()) == pytest.approx(weight, rel=Gate.RIDGE_REACTION.value.target)
+    change = 2 * Gate.SPEED_MAX.value.target / 1000 / (AVERAGED_STEPS / 1000) / GRAVITY_M_S2
+    assert float(reactions.sum()) == pytest.approx(weight, rel=change)
 
 
 def test_a_stiff_rod_bridges_where_a_soft_one_drapes() -> None:

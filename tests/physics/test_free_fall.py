@@ -13,7 +13,7 @@ from worker.shapes import bent_rod
 @pytest.mark.parametrize("steps_per_s", [100, 1000, 4000])
 @pytest.mark.parametrize("end", [(0.4, 0, 1), (0.2, 0.3, 1.1), (0, 0, 1.4)])
 def test_a_rod_falls_as_semi_implicit_euler_says(end: tuple[float, float, float], steps_per_s: int) -> None:
-    """g t^2 (1 + h/t) / 2 exactly, up to the rounding of so many steps, and without deformation."""
+    """It falls g t^2 (1 + h/t) / 2 exactly, up to the rounding of so many steps, and without deformation."""
     nodes = line((0, 0, 1), end, 80)
     simulation = RodSimulation([rod(nodes)], IN_THE_AIR, steps_per_s=steps_per_s)
     steps = round(0.3 * steps_per_s)

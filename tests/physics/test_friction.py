@@ -5,7 +5,7 @@ import pytest
 
 from tests.physics.rods import GRAVITY_M_S2, RADIUS_M, line, rod
 from worker.gates import Gate
-from worker.physics.closed_forms import incline_acceleration_m_s2
+from worker.physics.closed_forms import euler_fall_m, incline_acceleration_m_s2
 from worker.rod.model import Surroundings
 from worker.rod.simulation import RodSimulation
 
@@ -15,8 +15,8 @@ FRICTION = 0.4
 def on_slope(slope_rad: float, bearing_rad: float) -> RodSimulation:
     """A rod on a floor that falls away along x."""
     gravity = (GRAVITY_M_S2 * np.sin(slope_rad), 0.0, -GRAVITY_M_S2 * np.cos(slope_rad))
-    end = 0.2 * np.array([np.cos(bearing_rad), np.sin(bearing_rad), 0])
-    lying = rod(line((0, 0, RADIUS_M), end + [0, 0, RADIUS_M], 40))
+    end = (0.2 * np.cos(bearing_rad), 0.2 * np.sin(bearing_rad), RADIUS_M)
+    lying = rod(line((0, 0, RADIUS_M), end, 40))
     surroundings = Surroundings(gravity_m_s2=gravity, friction_floor=FRICTION)
     return RodSimulation([lying], surroundings, steps_per_s=1000)
 
@@ -24,13 +24,18 @@ def on_slope(slope_rad: float, bearing_rad: float) -> RodSimulation:
 @pytest.mark.parametrize("bearing_deg", [0, 37, 90])
 @pytest.mark.parametrize("excess", [1.1, 1.5, 3.0])
 def test_a_rod_slips_on_a_slope_steeper_than_its_friction(excess: float, bearing_deg: float) -> None:
-    """With tan a > mu its speed is g (sin a - mu cos a) t, less what the sweeps leave open in one step's velocity."""
+    """With tan a > mu it slides a t^2 (1 + h/t) / 2 with a = g (sin a - mu cos a), within 1 %, and stays on the floor.
+
+    The 1 % is for the first contact: until the floor carries the rod in full, friction is not the whole of mu N.
+    """
     slope = float(np.arctan(excess * FRICTION))
     simulation = on_slope(slope, np.radians(bearing_deg))
+    before = simulation.nodes_m(0)
     simulation.advance(200)
-    expected = 0.2 * incline_acceleration_m_s2(slope, FRICTION, GRAVITY_M_S2)
-    velocity = simulation.velocities_m_s(0).mean(axis=0)
-    assert velocity == pytest.approx([expected, 0, 0], abs=Gate.SPEED_RMS.value.target / 1000)
+    moved = simulation.nodes_m(0) - before
+    slide = euler_fall_m(0.2, 1e-3, incline_acceleration_m_s2(slope, FRICTION, GRAVITY_M_S2))
+    assert moved.mean(axis=0)[:2] == pytest.approx([slide, 0], abs=0.01 * slide)
+    assert Gate.FLOOR_PENETRATION.on_target(float(-moved[:, 2].min()) / RADIUS_M)
 
 
 @pytest.mark.parametrize("bearing_deg", [0, 37, 90])
@@ -70,9 +75,9 @@ def rope_over_drum(pull_ratio: float, friction: float) -> RodSimulation:
 
 
 def capstan_ratio(friction: float) -> float:
-    """At which the rope on the half drum is about to run: dT/dp = mu (T + w R sin p) + w R cos p, p from the light side.
+    """At which the rope on the half drum is about to run: dT/dp = mu (T + w R sin p) + w R cos p.
 
-    Without the weight on the drum, w R, this is e^(mu pi).
+    The angle p counts from the light side. Without the weight on the drum, w R, this is e^(mu pi).
     """
     weight_over_pull = (DRUM_RADIUS_M + ROPE_RADIUS_M) / (LIGHT_SEGMENTS * SEGMENT_M)
     grip = np.exp(friction * np.pi)

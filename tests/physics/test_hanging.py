@@ -20,9 +20,7 @@ def test_a_rod_between_two_points_hangs_as_a_catenary(span_m: float, segments: i
     depth = np.sqrt(LENGTH_M**2 - span_m**2) / 2
     left = line((-span_m / 2, 0, 1), (0, 0, 1 - depth), segments // 2)
     right = line((0, 0, 1 - depth), (span_m / 2, 0, 1), segments // 2)
-    hung = rod(
-        np.concatenate([left, right[1:]]), modulus_pa=modulus_pa(CATENARY_SLENDERNESS, LENGTH_M), pinned=(0, -1)
-    )
+    hung = rod(np.concatenate([left, right[1:]]), modulus_pa=modulus_pa(CATENARY_SLENDERNESS, LENGTH_M), pinned=(0, -1))
     # Internal damping this strong ends the swinging; it has no say in where the rod rests.
     simulation = RodSimulation([hung], Surroundings(floor=False, damping_s=1.0), steps_per_s=500)
     assert simulation.settle(rms_m_s=5e-5, fastest_m_s=1e-4, quiet_s=0.05, max_time_s=20)

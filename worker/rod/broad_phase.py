@@ -98,6 +98,20 @@ def _cells(bodies: Bodies, x: Array, size: float) -> tuple[Integers, Integers, I
 
 
 @compiled
+def _bounding_spheres(bodies: Bodies, x: Array) -> Array:
+    """(nodes, 4): middle of the segment that starts at each node, and the radius of a sphere around it."""
+    spheres = np.empty((x.shape[1], 4))
+    for i in range(x.shape[1]):
+        j = min(i + 1, x.shape[1] - 1)
+        squared = 0.0
+        for c in range(3):
+            spheres[i, c] = 0.5 * (x[c, i] + x[c, j])
+            squared += (x[c, i] - x[c, j]) ** 2
+        spheres[i, 3] = 0.5 * np.sqrt(squared) + bodies.radius[bodies.owner[i]]
+    return spheres
+
+
+@compiled
 def _are_neighbours(bodies: Bodies, i: int, j: int) -> bool:
     rod = bodies.owner[i]
     if rod != bodies.owner[j]:
@@ -113,6 +127,7 @@ def find_candidates(bodies: Bodies, x: Array, margin: float, before: Candidates)
     size = bodies.length.max() + 2 * bodies.radius.max() + margin
     cell, starts, members, columns = _cells(bodies, x, size)
     rows = (len(starts) - 1) // columns
+    middle = _bounding_spheres(bodies, x)
     capacity = 8 * nodes
     keys = np.empty(capacity, np.int64)
     count = 0
@@ -126,15 +141,15 @@ def find_candidates(bodies: Bodies, x: Array, margin: float, before: Candidates)
                 there = neighbour_row * columns + neighbour_column
                 for k in range(starts[there], starts[there + 1]):
                     j = members[k]
-                    if j <= i or j + 1 == nodes or bodies.owner[j + 1] != bodies.owner[j]:
+                    if j <= i:
                         continue
-                    if _are_neighbours(bodies, i, j):
+                    dx, dy, dz = middle[j, 0] - middle[i, 0], middle[j, 1] - middle[i, 1], middle[j, 2] - middle[i, 2]
+                    apart = middle[i, 3] + middle[j, 3] + margin
+                    if dx * dx + dy * dy + dz * dz > apart * apart:
+                        continue
+                    if j + 1 == nodes or bodies.owner[j + 1] != bodies.owner[j] or _are_neighbours(bodies, i, j):
                         continue
                     near = bodies.radius[bodies.owner[i]] + bodies.radius[bodies.owner[j]] + margin
-                    if min(x[2, i], x[2, i + 1]) - max(x[2, j], x[2, j + 1]) > near:
-                        continue
-                    if min(x[2, j], x[2, j + 1]) - max(x[2, i], x[2, i + 1]) > near:
-                        continue
                     if _distance(x, i, j, fractions) >= near:
                         continue
                     if count == capacity:

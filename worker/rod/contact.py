@@ -29,6 +29,9 @@ IGNORED_CHANGE_M_S = 2e-5
 """A sweep leaves an impulse as it is if the change would alter its velocity by less."""
 
 
+NEARF = 0.05
+
+
 class Contacts(NamedTuple):
     """The touching pairs of one step; only the first `count` are meant.
 
@@ -121,19 +124,47 @@ def _respond(bodies: Bodies, operator: Operator, contacts: Contacts, side: int, 
 
 
 @compiled
+def _is_far(bodies: Bodies, motion: Motion, i: int, j: int, fractions: Array, step: float, margin: float, normal: Array) -> bool:
+    """Whether two segments, by their chords, can't touch in this step; `normal` is then set by the chords."""
+    s, t = fractions[0], fractions[1]
+    x, v = motion.x, motion.v
+    squared = fast = 0.0
+    for c in range(3):
+        offset = x[c, i] + s * (x[c, i + 1] - x[c, i]) - x[c, j] - t * (x[c, j + 1] - x[c, j])
+        speed = v[c, i] + s * (v[c, i + 1] - v[c, i]) - v[c, j] - t * (v[c, j + 1] - v[c, j])
+        normal[c] = offset
+        squared += offset * offset
+        fast += speed * speed
+    one, other = bodies.radius[bodies.owner[i]], bodies.radius[bodies.owner[j]]
+    near = min(margin, 1.5 * step * np.sqrt(fast) + NEARF * margin)
+    reach = one + other + near + 0.1 * min(one, other)
+    if squared <= reach * reach:
+        return False
+    distance = np.sqrt(squared)
+    for c in range(3):
+        normal[c] /= distance
+    return True
+
+
+@compiled
 def gather_contacts(
-    bodies: Bodies, operator: Operator, x: Array, candidates: Candidates, margin: float, contacts: Contacts
+    bodies: Bodies, operator: Operator, motion: Motion, candidates: Candidates, margin: float, contacts: Contacts
 ) -> int:
     """Fill in the contacts of this step: all candidates with surfaces nearer than `margin`; returns their number."""
+    x = motion.x
     fractions = np.empty(2)
     count = 0
     for pair in range(len(candidates.one)):
         i, j = candidates.one[pair], candidates.other[pair]
         closest(x, i, j, fractions)
+        normal = contacts.normal[count]
+        if _is_far(bodies, motion, i, j, fractions, operator.step, margin, normal):
+            candidates.impulse[pair] = 0.0
+            candidates.normal[pair] = normal
+            continue
         s, t = fractions[0], fractions[1]
         base_i = _weigh(bodies, i, s, contacts.weights[0, count])
         base_j = _weigh(bodies, j, t, contacts.weights[1, count])
-        normal = contacts.normal[count]
         squared = 0.0
         for c in range(3):
             offset = 0.0
@@ -156,10 +187,6 @@ def gather_contacts(
             for c in range(3):
                 normal[c] /= distance
         gap = distance - one - other
-        if gap > margin:
-            candidates.impulse[pair] = 0.0
-            memory[:] = normal
-            continue
         memory[:] = normal
         push = candidates.impulse[pair]
         if push[0] * normal[0] + push[1] * normal[1] + push[2] * normal[2] < 0.0:

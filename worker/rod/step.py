@@ -24,11 +24,11 @@ from worker.rod.lengths import ROW, MAX_ITERATIONS, restore_lengths
 from worker.rod.model import Array
 
 REL = 0.05
-MAX_SWEEPS = 40
+MAX_SWEEPS = 20
 SWEEP_TOLERANCE_M_S = 3e-4
 """Sweeps end when none changes a velocity by more: a tenth of the speed at which a scene counts as resting."""
 
-MARGIN_RADII = 2.0
+MARGIN_RADII = 1.5
 """Candidates are gathered so much wider than needed, so that the list lasts."""
 
 MOVE_RADII = 1.0
@@ -242,7 +242,7 @@ def advance(
         if not coarsest and (len(candidates.one) == 0 or 2.2 * relative < MOVE_RADII * smallest):
             return Outcome.SLOW_ENOUGH.value, candidates
         _momentum(bodies, operator, motion, world, tally.time[0] + h, momentum)
-        count = gather_contacts(bodies, operator, motion.x, candidates, near, contacts)
+        count = gather_contacts(bodies, operator, motion, candidates, near, contacts)
         floor = touching[: _near_floor(bodies, motion, h, touching) if world.floor else 0]
         _velocities(bodies, operator, motion, momentum, candidates, contacts, count, floor, v)
         if count > 0 or len(floor) > 0:
