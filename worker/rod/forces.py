@@ -21,7 +21,7 @@ def add_gravity(bodies: Bodies, gravity: Array, force: Array) -> None:
 
 @compiled
 def add_elastic(bodies: Bodies, motion: Motion, rod: int, force: Array) -> None:
-    """Bending about the natural shape, and tension."""
+    """Bending about the natural shape."""
     first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
     x = motion.x
     stiff = bodies.stiffness[rod] / length**3
@@ -42,16 +42,19 @@ def add_elastic(bodies: Bodies, motion: Motion, rod: int, force: Array) -> None:
             force[1, i + 1] += turn * e1x
             force[0, i] += turn * (e1y + e2y)
             force[1, i] -= turn * (e1x + e2x)
-    for i in range(first, end - 1):
+
+
+@compiled
+def add_tension(bodies: Bodies, motion: Motion, step: float, momentum: Array) -> None:
+    """Impulse of the last step's tension along the segments as they are, N s, added to `momentum` (3, nodes)."""
+    x = motion.x
+    for i in range(len(bodies.mass) - 1):
         if motion.tension[i] != 0.0:
-            dx, dy, dz = x[0, i + 1] - x[0, i], x[1, i + 1] - x[1, i], x[2, i + 1] - x[2, i]
-            pull = motion.tension[i] / max(np.sqrt(dx * dx + dy * dy + dz * dz), 1e-3 * length)
-            force[0, i] += pull * dx
-            force[1, i] += pull * dy
-            force[2, i] += pull * dz
-            force[0, i + 1] -= pull * dx
-            force[1, i + 1] -= pull * dy
-            force[2, i + 1] -= pull * dz
+            pull = step * motion.tension[i] / bodies.length[bodies.owner[i]]
+            for c in range(3):
+                edge = pull * (x[c, i + 1] - x[c, i])
+                momentum[c, i] += edge
+                momentum[c, i + 1] -= edge
 
 
 @compiled

@@ -1,24 +1,30 @@
-"""Length: each segment keeps its own, exactly, by the least change in the metric of the implicit operator.
+"""Length: each segment keeps its own, exactly, while the step stays implicit Euler as a whole.
 
-Newton's method on the constraints of a whole rod at once ("fast projection", Goldenthal et al. 2007, "Efficient
-simulation of inextensible cloth"), with the bending inside the metric, so that the step as a whole is implicit Euler
-and not a splitting of it. The system
+The end of a step obeys A (x - x0) = h p + h^2 F, with p the momentum and impulses of all but the tension and F the tension
+of each segment along the mean of its edge before and after the step. That direction does no work, whatever the
+tension: (e0 + e1) . (e1 - e0) = |e1|^2 - |e0|^2 = 0. (Along the new edge, compression would feed energy in; along the old
+one, tension would.) Newton's method solves for all nodes and tensions of a rod at once:
 
-    [A  J^T] [dx]   [ 0 ]
-    [J   0 ] [ y] = [-C ]
+    [A + G  J^T] [dx]   [ residual ]
+    [J       0 ] [ y] = [    -C    ]
 
-with C = |x[i+1] - x[i]| - l has half-bandwidth 8 when each multiplier follows the second of its nodes; L D L^T needs no
-pivoting, as each multiplier comes after the nodes that it acts on.
+with C = |e1| - l, J the mean directions, y the change of tension times h^2, and G the stiffness that tension adds, where
+it pulls. Half-bandwidth is 8 when each multiplier follows the second of its nodes; L D L^T needs no pivoting, as each
+multiplier comes after the nodes that it acts on. Bending and inertia are in the metric, as in "fast projection"
+(Goldenthal et al. 2007, "Efficient simulation of inextensible cloth") they are not.
+
+Nodes that lie on the floor are held at their height meanwhile: an upright rod that lands is stopped as a whole.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from worker.rod.arrays import Bodies, Motion
 from worker.rod.bending import Operator
 from worker.rod.compiled import compiled
 from worker.rod.model import Array
 
-TOLERANCE = 1e-7
+TOLERANCE = 1e-8
 """Of a segment's strain."""
 
 MAX_ITERATIONS = 12
@@ -28,42 +34,90 @@ ROW = 2 * BAND
 
 
 @compiled
-def _residual(bodies: Bodies, x: Array, rod: int, direction: Array, residual: Array) -> float:
-    """Unit directions and excess lengths of a rod's segments; returns the largest strain."""
+def room_to_work(nodes: int) -> Array:
+    """Scratch space for `keep_lengths`."""
+    return np.empty((ROW + 2) * 4 * nodes)
+
+
+@compiled
+def _directions(bodies: Bodies, start: Array, x: Array, rod: int, mean: Array, excess: Array) -> float:
+    """Mean direction, before and after the step, and excess length of each segment; returns the largest strain."""
     first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
     worst = 0.0
     for i in range(first, end - 1):
-        dx, dy, dz = x[0, i + 1] - x[0, i], x[1, i + 1] - x[1, i], x[2, i + 1] - x[2, i]
-        norm = np.sqrt(dx * dx + dy * dy + dz * dz)
-        safe = max(norm, 1e-3 * length)
-        direction[0, i], direction[1, i], direction[2, i] = dx / safe, dy / safe, dz / safe
-        residual[i] = norm - length
+        squared = 0.0
+        for c in range(3):
+            edge = x[c, i + 1] - x[c, i]
+            mean[c, i - first] = 0.5 * (edge + start[c, i + 1] - start[c, i]) / length
+            squared += edge * edge
+        excess[i - first] = np.sqrt(squared) - length
         if bodies.pinned[i] and bodies.pinned[i + 1]:
-            residual[i] = 0.0
-        worst = max(worst, abs(residual[i]) / length)
+            excess[i - first] = 0.0
+        worst = max(worst, abs(excess[i - first]) / length)
     return worst
 
 
 @compiled
-def _assemble(bodies: Bodies, operator: Operator, rod: int, direction: Array, upper: Array) -> None:
+def _residual(
+    bodies: Bodies, operator: Operator, motion: Motion, start: Array, load: Array, rod: int, mean: Array, right: Array
+) -> None:
+    """Fill in what the nodes' balance of momentum lacks, kg m, at the places of the nodes."""
     first, end = bodies.first[rod], bodies.first[rod + 1]
-    bands, pinned = operator.bands, bodies.pinned
+    h, bands, x = operator.step, operator.bands, motion.x
     for i in range(first, end):
         row = 4 * (i - first)
         for c in range(3):
+            total = h * load[c, i] - bands[0, i] * (x[c, i] - start[c, i])
+            if i > first:
+                total -= bands[1, i - 1] * (x[c, i - 1] - start[c, i - 1])
+                total -= h * h * motion.tension[i - 1] * mean[c, i - 1 - first]
+            if i > first + 1:
+                total -= bands[2, i - 2] * (x[c, i - 2] - start[c, i - 2])
+            if i + 1 < end:
+                total -= bands[1, i] * (x[c, i + 1] - start[c, i + 1])
+                total += h * h * motion.tension[i] * mean[c, i - first]
+            if i + 2 < end:
+                total -= bands[2, i] * (x[c, i + 2] - start[c, i + 2])
+            right[row + c] = total
+
+
+@compiled
+def _assemble(
+    bodies: Bodies, operator: Operator, motion: Motion, rod: int, mean: Array, excess: Array, upper: Array, right: Array
+) -> None:
+    """The upper half of the matrix; rows of multipliers get their right-hand side."""
+    first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
+    bands, pinned = operator.bands, bodies.pinned
+    pull = 0.5 * operator.step**2 / length
+    for i in range(first, end):
+        row = 4 * (i - first)
+        before = pull * max(motion.tension[i - 1], 0.0) if i > first else 0.0
+        after = pull * max(motion.tension[i], 0.0) if i + 1 < end else 0.0
+        for c in range(3):
             upper[row + c] = 0.0
-            upper[row + c, 0] = bands[0, i]
-            upper[row + c, 4] = bands[1, i]
+            upper[row + c, 0] = bands[0, i] + before + after
+            upper[row + c, 4] = bands[1, i] - after
             upper[row + c, 8] = bands[2, i]
         upper[row + 3] = 0.0
+        right[row + 3] = 0.0
         if i == first or (pinned[i - 1] and pinned[i]):
             upper[row + 3, 0] = -1.0
             continue
+        right[row + 3] = -excess[i - 1 - first]
         for c in range(3):
-            if not pinned[i - 1]:
-                upper[row - 4 + c, 7 - c] = -direction[c, i - 1]
-            if not pinned[i]:
-                upper[row + c, 3 - c] = direction[c, i - 1]
+            upper[row - 4 + c, 7 - c] = -mean[c, i - 1 - first]
+            upper[row + c, 3 - c] = mean[c, i - 1 - first]
+
+
+@compiled
+def _hold(upper: Array, right: Array, row: int) -> None:
+    """Take one coordinate out of the system: it does not move."""
+    for k in range(1, BAND):
+        upper[row, k] = 0.0
+        if row >= k:
+            upper[row - k, k] = 0.0
+    upper[row, 0] = 1.0
+    right[row] = 0.0
 
 
 @compiled
@@ -85,43 +139,51 @@ def _solve_banded(upper: Array, right: Array, size: int) -> None:
 
 
 @compiled
-def restore_lengths(bodies: Bodies, operator: Operator, motion: Motion, rod: int, work: Array) -> int:
-    """Move a rod's nodes until its segments have their lengths, and count what it takes as tension.
+def keep_lengths(
+    bodies: Bodies,
+    operator: Operator,
+    motion: Motion,
+    start: Array,
+    load: Array,
+    on_floor: NDArray[np.bool_],
+    rod: int,
+    work: Array,
+) -> int:
+    """Move a rod's nodes to where they are at the end of the step, and find its tension.
 
     Args:
         bodies: the rods.
         operator: of this time step.
-        motion: `x` and `tension` are changed.
+        motion: `x` is a guess of the end, `tension` that of the step before; both are changed.
+        start: (3, nodes) where the nodes were at the start of the step.
+        load: (3, nodes) kg m/s, momentum and impulses of all forces but tension.
+        on_floor: (nodes,) which nodes are held at their height.
         rod: which.
-        work: scratch of at least (ROW + 6) * 4 * nodes of the rod.
+        work: from `room_to_work`.
 
     Returns:
         Newton iterations; MAX_ITERATIONS + 1 if they did not converge.
     """
     first, end = bodies.first[rod], bodies.first[rod + 1]
     nodes, size = end - first, 4 * (end - first)
-    direction = work[: 3 * bodies.first[-1]].reshape(3, bodies.first[-1])
-    offset = 3 * bodies.first[-1]
-    residual = work[offset : offset + bodies.first[-1]]
-    offset += bodies.first[-1]
-    right = work[offset : offset + size]
-    offset += size
-    upper = work[offset : offset + ROW * size].reshape(size, ROW)
-    x, tension = motion.x, motion.tension
+    mean, excess = work[: 3 * nodes].reshape(3, nodes), work[3 * nodes : 4 * nodes]
+    right = work[4 * nodes : 8 * nodes]
+    upper = work[8 * nodes : 8 * nodes + ROW * size].reshape(size, ROW)
     scale = 1.0 / (operator.step * operator.step)
     for iteration in range(MAX_ITERATIONS):
-        if _residual(bodies, x, rod, direction, residual) < TOLERANCE:
+        strain = _directions(bodies, start, motion.x, rod, mean, excess)
+        if iteration > 0 and strain < TOLERANCE:
             return iteration
-        _assemble(bodies, operator, rod, direction, upper)
+        _residual(bodies, operator, motion, start, load, rod, mean, right)
+        _assemble(bodies, operator, motion, rod, mean, excess, upper, right)
         for i in range(nodes):
-            right[4 * i] = 0.0
-            right[4 * i + 1] = 0.0
-            right[4 * i + 2] = 0.0
-            right[4 * i + 3] = -residual[first + i - 1] if i > 0 else 0.0
+            for c in range(3):
+                if bodies.pinned[first + i] or (c == 2 and on_floor[first + i]):
+                    _hold(upper, right, 4 * i + c)
         _solve_banded(upper, right, size)
         for i in range(nodes):
             for c in range(3):
-                x[c, first + i] += right[4 * i + c]
+                motion.x[c, first + i] += right[4 * i + c]
             if i > 0:
-                tension[first + i - 1] += scale * right[4 * i + 3]
+                motion.tension[first + i - 1] += scale * right[4 * i + 3]
     return MAX_ITERATIONS + 1

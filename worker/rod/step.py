@@ -19,10 +19,11 @@ from worker.rod.contact import (
     sweep_contacts,
     sweep_floor,
 )
-from worker.rod.forces import add_elastic, add_gravity, add_wind
-from worker.rod.lengths import ROW, MAX_ITERATIONS, restore_lengths
+from worker.rod.forces import add_elastic, add_gravity, add_tension, add_wind
+from worker.rod.lengths import MAX_ITERATIONS, keep_lengths, room_to_work
 from worker.rod.model import Array
 
+OUTER = 2
 REL = 0.05
 MAX_SWEEPS = 20
 SWEEP_TOLERANCE_M_S = 3e-4
@@ -110,7 +111,7 @@ def _near_floor(bodies: Bodies, motion: Motion, step: float, touching: Integers)
 
 @compiled
 def _momentum(bodies: Bodies, operator: Operator, motion: Motion, world: World, time: float, momentum: Array) -> None:
-    """The right-hand side M v + h f of the implicit solve, without contact."""
+    """The right-hand side M v + h f of the implicit solve, without contact and tension."""
     force = np.zeros(motion.x.shape)
     add_gravity(bodies, world.gravity, force)
     for rod in range(len(bodies.length)):
@@ -125,28 +126,26 @@ def _momentum(bodies: Bodies, operator: Operator, motion: Motion, world: World, 
 
 
 @compiled
-def _velocities(
-    bodies: Bodies,
-    operator: Operator,
-    motion: Motion,
-    momentum: Array,
-    candidates: Candidates,
-    contacts: Contacts,
-    count: int,
-    touching: Integers,
-    v: Array,
+def _add_impulses(
+    motion: Motion, candidates: Candidates, contacts: Contacts, count: int, touching: Integers, load: Array
 ) -> None:
-    """A v = momentum + the impulses of the floor and between rods."""
-    v[:] = momentum
+    """Add the impulses of the floor and between rods, N s, to `load` (3, nodes)."""
     for i in touching:
         for c in range(3):
-            v[c, i] += motion.floor_impulse[c, i]
+            load[c, i] += motion.floor_impulse[c, i]
     for n in range(count):
         push = candidates.impulse[contacts.pair[n]]
         for k in range(4):
             for c in range(3):
-                v[c, contacts.base[0, n] + k] += contacts.weights[0, n, k] * push[c]
-                v[c, contacts.base[1, n] + k] -= contacts.weights[1, n, k] * push[c]
+                load[c, contacts.base[0, n] + k] += contacts.weights[0, n, k] * push[c]
+                load[c, contacts.base[1, n] + k] -= contacts.weights[1, n, k] * push[c]
+
+
+@compiled
+def _velocities(bodies: Bodies, operator: Operator, motion: Motion, load: Array, v: Array) -> None:
+    """What velocities a load, in N s, gives to the rods with the tension that they have; lengths are not kept."""
+    v[:] = load
+    add_tension(bodies, motion, operator.step, v)
     for i in range(len(bodies.mass)):
         if bodies.pinned[i]:
             v[:, i] = 0.0
@@ -225,7 +224,9 @@ def advance(
     momentum = np.empty((3, nodes))
     v = np.empty((3, nodes))
     start = np.empty((3, nodes))
-    work = np.empty((ROW + 10) * 4 * nodes)
+    load = np.empty((3, nodes))
+    on_floor = np.zeros(nodes, np.bool_)
+    work = room_to_work(nodes)
     contacts = _room_for(len(candidates.one) + 1, operator.response.shape[1] + 3)
     skin = MARGIN_RADII * largest
     rms, fastest = _speeds(motion.v)
@@ -239,26 +240,34 @@ def advance(
             tally.counts[3] += 1
         if not finest and len(candidates.one) > 0 and relative > MOVE_RADII * smallest:
             return Outcome.TOO_FAST.value, candidates
-        if not coarsest and (len(candidates.one) == 0 or 2.2 * relative < MOVE_RADII * smallest):
+        if not coarsest and 2.2 * relative < MOVE_RADII * smallest:
             return Outcome.SLOW_ENOUGH.value, candidates
         _momentum(bodies, operator, motion, world, tally.time[0] + h, momentum)
         count = gather_contacts(bodies, operator, motion, candidates, near, contacts)
         floor = touching[: _near_floor(bodies, motion, h, touching) if world.floor else 0]
-        _velocities(bodies, operator, motion, momentum, candidates, contacts, count, floor, v)
-        if count > 0 or len(floor) > 0:
-            tolerance = min(max(REL * rms, SWEEP_TOLERANCE_M_S), 0.02*smallest/h)
-            tally.counts[1] += _find_impulses(
+        for outer in range(OUTER):
+            load[:] = momentum
+            _add_impulses(motion, candidates, contacts, count, floor, load)
+            _velocities(bodies, operator, motion, load, v)
+            if (count == 0 and len(floor) == 0) or outer == OUTER - 1:
+                break
+            tolerance = min(max(REL * rms, SWEEP_TOLERANCE_M_S), 0.02 * smallest / h)
+            sweeps = _find_impulses(
                 bodies, operator, motion, world, candidates, contacts, count, floor, tolerance, v
             )
-            # The sweeps' responses end where they are small; here the impulses act in full.
-            _velocities(bodies, operator, motion, momentum, candidates, contacts, count, floor, v)
+            tally.counts[1] += sweeps
+            if sweeps == 1:
+                break
         tally.counts[4] += count
+        on_floor[:] = False
+        for i in floor:
+            on_floor[i] = motion.floor_impulse[2, i] > 0.0
         for c in range(3):
             for i in range(nodes):
                 start[c, i] = motion.x[c, i]
                 motion.x[c, i] += h * v[c, i]
         for rod in range(len(bodies.length)):
-            iterations = restore_lengths(bodies, operator, motion, rod, work)
+            iterations = keep_lengths(bodies, operator, motion, start, load, on_floor, rod, work)
             tally.counts[2] += iterations
             if iterations > MAX_ITERATIONS:
                 tally.counts[5] += 1
