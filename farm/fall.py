@@ -29,7 +29,7 @@ class RodFall(Model):
         max_time_s: a fall that has not come to rest by then is captured as it is, and fails its gate.
     """
 
-    steps_per_s: Annotated[int, Field(ge=100, le=100_000)] = 500
+    steps_per_s: Annotated[int, Field(ge=100, le=100_000)] = 1000
     segment_radii: Annotated[float, Field(ge=1, le=20)] = 4.0
     max_time_s: Annotated[float, Field(gt=0, le=60)] = 4.0
 

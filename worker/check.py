@@ -20,7 +20,8 @@ def find_fault(figures: SettleFigures) -> str | None:
       is enough to be seen.
     - Not more than half a radius of air below a cable at its lowest: its shadow would come away from it.
 
-    A cable that crosses itself in plan view is no fault: cables do. Where it cuts into itself, penetration tells.
+    A cable that crosses itself in plan view is no fault: cables do. Where it cuts into itself, penetration tells. Nor
+    is one whose tip slipped round another's: real cables do that too.
     """
     if figures.pass_throughs:
         return f"{figures.pass_throughs} crossing(s) of cables that passed through each other"

@@ -96,8 +96,8 @@ def measure(shapes: CableShapes) -> SettleFigures:
 
     Penetration, air and crossings are those of the smooth centrelines that are rendered, with the true radii. Cables
     start at stacked heights, so the order of a pair at every crossing is that of their start; another order means that
-    one went through the other (or, as rare and as wrong in a picture, slipped around its end). Whether a cable went
-    through itself can't be seen from where it rests: nothing says which strand was to be on top.
+    one went through the other or, close to an end, that it may have slipped round it. Whether a cable went through
+    itself can't be seen from where it rests: nothing says which strand was to be on top. `worker.physics.passes` sees it.
 
     Args:
         shapes: finite; see `stress_fault` where they may not be.
@@ -106,6 +106,7 @@ def measure(shapes: CableShapes) -> SettleFigures:
     near = spans.near_in_plan(search_reach_m(shapes.radii_m))
     contacts = find_contacts(spans, near, shapes.radii_m)
     crossings = find_crossings(spans, near)
+    flipped, near_end = crossings.flipped(shapes.start_order), crossings.near_end(shapes.radii_m)
     radius = shapes.radii_m[spans.cable_of_sample]
     floor_depth = np.maximum(1 - spans.samples_m[:, 2] / radius, 0)
     gaps = np.minimum(spans.lowest_m - shapes.radii_m, contacts.clearance_m) / shapes.radii_m
@@ -118,7 +119,8 @@ def measure(shapes: CableShapes) -> SettleFigures:
         cable_penetration_max=float(contacts.depth.max()),
         floor_penetration=float(np.percentile(floor_depth, 99.9)),
         floor_penetration_max=float(floor_depth.max()),
-        pass_throughs=int(np.count_nonzero(crossings.flipped(shapes.start_order))),
+        pass_throughs=int(np.count_nonzero(flipped & ~near_end)),
+        end_slips=int(np.count_nonzero(flipped & near_end)),
         floor_pass_throughs=int(np.count_nonzero(spans.lowest_m < 0)),
         self_crossings=int(np.count_nonzero(crossings.own)),
         speed_rms_mm_s=float(np.sqrt(np.mean(speeds**2))),
@@ -273,12 +275,13 @@ class StressFault(Enum):
     NOT_AT_REST = "not at rest"
 
 
-def stress_fault(shapes: CableShapes, *, reach_m: float) -> StressFault | None:
+def stress_fault(shapes: CableShapes, *, reach_m: float, passes: int | None = None) -> StressFault | None:
     """Gate 10: why a run failed, the first reason in the order of `StressFault`; None if it did not.
 
     Args:
         shapes: of the run's end, finite or not.
         reach_m: farther than this from the origin, in any direction, a cable has escaped.
+        passes: how often a cable passed through one, as seen on the way; None: count them from the order of the start.
     """
     nodes, speeds = np.concatenate(shapes.nodes_m), np.concatenate(shapes.speeds_m_s)
     if not (np.isfinite(nodes).all() and np.isfinite(speeds).all()):
@@ -286,8 +289,9 @@ def stress_fault(shapes: CableShapes, *, reach_m: float) -> StressFault | None:
     if np.linalg.norm(nodes, axis=1).max() > reach_m:
         return StressFault.ESCAPED
     figures = measure(shapes)
+    passes = figures.pass_throughs if passes is None else passes
     broken = {
-        StressFault.PASSED_THROUGH: figures.pass_throughs + figures.floor_pass_throughs > 0,
+        StressFault.PASSED_THROUGH: passes + figures.floor_pass_throughs > 0,
         StressFault.STRETCHED: Gate.LENGTH.is_broken_by(figures.length_error),
         StressFault.NOT_AT_REST: not Gate.SPEED_RMS.on_target(figures.speed_rms_mm_s)
         or not Gate.SPEED_MAX.on_target(figures.speed_max_mm_s),

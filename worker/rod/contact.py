@@ -32,6 +32,10 @@ IGNORED_CHANGE_M_S = 2e-5
 NEARF = 0.05
 
 
+SLOP_RADII = 0.005
+"""Depth that is left as it is: to lift a rod out would give it energy."""
+
+
 class Contacts(NamedTuple):
     """The touching pairs of one step; only the first `count` are meant.
 
@@ -208,7 +212,8 @@ def allowed_approach(gap: float, step: float, radius: float) -> float:
     """Least relative speed along the normal, m/s: to close a gap just so, or to undo a penetration gently."""
     if gap > 0.0:
         return -gap / step
-    return min(-DEPENETRATION_SHARE * gap / step, np.sqrt(9.81 * radius))
+    depth = max(-gap - SLOP_RADII * radius, 0.0)
+    return min(DEPENETRATION_SHARE * depth / step, np.sqrt(9.81 * radius))
 
 
 @compiled

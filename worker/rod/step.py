@@ -23,8 +23,8 @@ from worker.rod.forces import add_elastic, add_gravity, add_tension, add_wind
 from worker.rod.lengths import MAX_ITERATIONS, keep_lengths, room_to_work
 from worker.rod.model import Array
 
-OUTER = 2
-REL = 0.05
+MAX_ROUNDS = 4
+ENOUGH = 0.02
 MAX_SWEEPS = 20
 SWEEP_TOLERANCE_M_S = 3e-4
 """Sweeps end when none changes a velocity by more: a tenth of the speed at which a scene counts as resting."""
@@ -163,14 +163,16 @@ def _find_impulses(
     contacts: Contacts,
     count: int,
     touching: Integers,
-    tolerance: float,
     v: Array,
 ) -> int:
     """Sweep over the contacts until their impulses hardly change; returns how many sweeps it took."""
     stirred = np.zeros(len(bodies.length), np.int64)
+    tolerance = SWEEP_TOLERANCE_M_S
     for sweep in range(MAX_SWEEPS):
         worst = sweep_contacts(bodies, contacts, count, candidates, world.friction_rods, sweep, stirred, v)
         worst = max(worst, sweep_floor(bodies, operator, motion, touching, world.friction_floor, sweep, stirred, v))
+        if sweep == 0:
+            tolerance = max(SWEEP_TOLERANCE_M_S, ENOUGH * worst)
         if worst < tolerance:
             return sweep + 1
     return MAX_SWEEPS
@@ -245,16 +247,13 @@ def advance(
         _momentum(bodies, operator, motion, world, tally.time[0] + h, momentum)
         count = gather_contacts(bodies, operator, motion, candidates, near, contacts)
         floor = touching[: _near_floor(bodies, motion, h, touching) if world.floor else 0]
-        for outer in range(OUTER):
+        for _ in range(MAX_ROUNDS):
             load[:] = momentum
             _add_impulses(motion, candidates, contacts, count, floor, load)
             _velocities(bodies, operator, motion, load, v)
-            if (count == 0 and len(floor) == 0) or outer == OUTER - 1:
+            if count == 0 and len(floor) == 0:
                 break
-            tolerance = min(max(REL * rms, SWEEP_TOLERANCE_M_S), 0.02 * smallest / h)
-            sweeps = _find_impulses(
-                bodies, operator, motion, world, candidates, contacts, count, floor, tolerance, v
-            )
+            sweeps = _find_impulses(bodies, operator, motion, world, candidates, contacts, count, floor, v)
             tally.counts[1] += sweeps
             if sweeps == 1:
                 break
