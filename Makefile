@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench masks flower template clean
+.PHONY: help setup demo test lint bench masks stress flower template clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -45,6 +45,9 @@ bench: setup ## seconds per stage and category; writes bench/stages.json and .pn
 masks: setup ## masks against Cycles renders of 1,024 samples; writes bench/masks.json
 	$(BIN)/farm assets build
 	$(BIN)/python -m worker.bench masks --out bench
+
+stress: setup ## 560 falls over the whole range of everything; writes bench/stress.json and .png
+	$(BIN)/python -m worker.bench stress --out bench
 
 flower: setup ## watch the tasks of a farm in the browser (FARM_BROKER_URL)
 	$(BIN)/farm flower

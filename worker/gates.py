@@ -97,7 +97,7 @@ def measure(shapes: CableShapes) -> SettleFigures:
     Penetration, air and crossings are those of the smooth centrelines that are rendered, with the true radii. Cables
     start at stacked heights, so the order of a pair at every crossing is that of their start; another order means that
     one went through the other or, close to an end, that it may have slipped round it. Whether a cable went through
-    itself can't be seen from where it rests: nothing says which strand was to be on top. `worker.physics.passes` sees it.
+    itself can't be seen from where it rests: nothing says which strand was to be on top. See `worker.physics.passes`.
 
     Args:
         shapes: finite; see `stress_fault` where they may not be.

@@ -55,6 +55,11 @@ def test_a_cable_that_went_through_another_is_refused() -> None:
     assert "passed through" in fault(shapes(rod(z=3 * RADIUS), rod(along_y=True)))
 
 
+def test_a_tip_that_slipped_round_another_cable_is_sound() -> None:
+    """Its end lies 5 mm beyond the crossing, on the other side than it started."""
+    assert fault(shapes(rod(z=3 * RADIUS) + np.array([0.095, 0, 0]), rod(along_y=True))) == "None"
+
+
 def test_a_stretched_cable_is_refused() -> None:
     """2 % longer than at rest."""
     stretched = replace(shapes(rod()), lengths_m=np.array([0.2 / 1.02]))

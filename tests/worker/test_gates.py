@@ -75,6 +75,23 @@ def test_the_order_of_start_decides_what_is_above() -> None:
     assert measure(shapes(*upside_down, order=(1, 0))).pass_throughs == 0
 
 
+@pytest.mark.parametrize(("end_radii", "figures"), [(9.0, (0, 1)), (11.0, (1, 0))])
+@pytest.mark.parametrize("which", [0, 1])
+def test_a_flipped_crossing_close_to_an_end_is_a_slip(end_radii: float, figures: tuple[int, int], which: int) -> None:
+    """Within ten radii along either of the cables, and one that passed through farther away."""
+    nodes = [rod(z=3 * RADIUS), rod(along_y=True)]
+    nodes[which] = nodes[which] + (0.1 - end_radii * RADIUS) * np.array([[1.0, 0, 0], [0, 1.0, 0]])[which]
+    found = measure(shapes(*nodes))
+    assert (found.pass_throughs, found.end_slips) == figures
+
+
+def test_the_thicker_cable_says_how_close_an_end_is() -> None:
+    """15 mm are ten radii of 1.5 mm or more."""
+    nodes = rod(z=0.004) + np.array([0.085, 0, 0]), rod(along_y=True, z=0.0015)
+    slips = [measure(shapes(*nodes, radii=(RADIUS, thick))).end_slips for thick in (0.0014, 0.0016)]
+    assert slips == [0, 1]
+
+
 def test_a_cable_below_the_floor_passed_through_it() -> None:
     """Counted a cable, not a place."""
     sunk = rod()
@@ -222,6 +239,13 @@ RUN = shapes(rod(), looped())
 def test_one_bit_is_a_difference(other: CableShapes) -> None:
     """In any field, the sign of a zero included."""
     assert not same_bits(RUN, other)
+
+
+def test_a_stress_run_is_judged_by_what_was_seen_on_the_way() -> None:
+    """Where that is known; the order of the start does not matter then."""
+    turned = shapes(rod(z=3 * RADIUS), rod(along_y=True))
+    assert stress_fault(turned, reach_m=1.0, passes=0) is None
+    assert stress_fault(shapes(rod()), reach_m=1.0, passes=1) is StressFault.PASSED_THROUGH
 
 
 @pytest.mark.parametrize(

@@ -1,29 +1,46 @@
-"""`python -m worker.bench stages|masks --out DIR`."""
+"""`python -m worker.bench stages|masks|stress --out DIR`."""
 
 import argparse
 import sys
 from pathlib import Path
 
 from farm.errors import FarmError
-from worker.bench import masks, stages
 from worker.leave import leave
 
 
 def main(arguments: list[str]) -> int:
     """Run one benchmark; 0 if its results are right."""
     parser = argparse.ArgumentParser(prog="python -m worker.bench", description=__doc__)
-    parser.add_argument("benchmark", choices=("stages", "masks"))
-    parser.add_argument("--out", type=Path, required=True, help="folder for the JSON and the plot")
-    parser.add_argument("--images", type=int, help="images of each category")
-    parser.add_argument("--seed", type=int, default=0)
+    commands = parser.add_subparsers(dest="benchmark", required=True)
+    shared = argparse.ArgumentParser(add_help=False)
+    shared.add_argument("--out", type=Path, required=True, help="folder for the JSON and the plot")
+    shared.add_argument("--seed", type=int, default=0)
+    for name, purpose in (("stages", "seconds per stage and category"), ("masks", "masks against fine renders")):
+        command = commands.add_parser(name, parents=[shared], help=purpose)
+        command.add_argument("--images", type=int, help="images of each category")
+    stress = commands.add_parser("stress", parents=[shared], help="the rod solver over the whole range of everything")
+    stress.add_argument("--runs", type=int, help="how many scenes")
+    stress.add_argument("--only", type=int, help="play this scene alone")
+    stress.add_argument("--processes", type=int, help="at the same time")
     options = parser.parse_args(arguments)
     options.out.mkdir(parents=True, exist_ok=True)
-    benchmark = {"stages": stages.run, "masks": masks.run}[options.benchmark]
     try:
-        return benchmark(options.out, images=options.images, seed=options.seed)
+        return _run(options)
     except FarmError as error:
         sys.stderr.write(f"{error}\n")
         return error.exit_code
+
+
+def _run(options: argparse.Namespace) -> int:
+    """Run it with no more imported than it needs: Blender must stay out of the processes of the stress test."""
+    if options.benchmark == "stress":
+        from worker.bench.stress.command import run  # noqa: PLC0415
+
+        return run(options.out, seed=options.seed, runs=options.runs, only=options.only, processes=options.processes)
+    from worker.bench import masks, stages  # noqa: PLC0415
+
+    benchmark = {"stages": stages.run, "masks": masks.run}[options.benchmark]
+    return benchmark(options.out, images=options.images, seed=options.seed)
 
 
 if __name__ == "__main__":

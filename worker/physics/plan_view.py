@@ -9,9 +9,9 @@ from worker.physics.spans import SAMPLES_PER_SPAN, Indices, Spans
 
 END_RADII = 10.0
 """Arc length from an end, in the larger radius of the two cables, up to which a flipped crossing counts as a slip round
-that end. A tip that slips round a cable comes to lie within a few radii of it (measured: up to 2), and may slide on until
-all is at rest; and with so little of the cable beyond the crossing, either order is one that the cables could have come
-to by themselves."""
+that end. A tip that slips round a cable comes to lie within a few radii of it (measured: up to 2), and may slide on
+until all is at rest; and with so little of the cable beyond the crossing, either order is one that the cables could
+have come to by themselves."""
 
 _STRIDE = 3
 """Every third sample is enough to find crossings."""

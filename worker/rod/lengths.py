@@ -13,7 +13,7 @@ it pulls. Half-bandwidth is 8 when each multiplier follows the second of its nod
 multiplier comes after the nodes that it acts on. Bending and inertia are in the metric, as in "fast projection"
 (Goldenthal et al. 2007, "Efficient simulation of inextensible cloth") they are not.
 
-Nodes that lie on the floor are held at their height meanwhile: an upright rod that lands is stopped as a whole.
+Nodes that the floor carries are held at their height meanwhile: an upright rod that lands is stopped as a whole.
 """
 
 import numpy as np
@@ -26,6 +26,8 @@ from worker.rod.model import Array
 
 TOLERANCE = 1e-8
 """Of a segment's strain."""
+
+FREE, IN_HEIGHT, AT_REST = 0, 1, 2
 
 MAX_ITERATIONS = 12
 BAND = 9
@@ -40,7 +42,9 @@ def room_to_work(nodes: int) -> Array:
 
 
 @compiled
-def _directions(bodies: Bodies, start: Array, x: Array, rod: int, mean: Array, excess: Array) -> float:
+def _directions(
+    bodies: Bodies, start: Array, x: Array, held: NDArray[np.int8], rod: int, mean: Array, excess: Array
+) -> float:
     """Mean direction, before and after the step, and excess length of each segment; returns the largest strain."""
     first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
     worst = 0.0
@@ -51,7 +55,7 @@ def _directions(bodies: Bodies, start: Array, x: Array, rod: int, mean: Array, e
             mean[c, i - first] = 0.5 * (edge + start[c, i + 1] - start[c, i]) / length
             squared += edge * edge
         excess[i - first] = np.sqrt(squared) - length
-        if bodies.pinned[i] and bodies.pinned[i + 1]:
+        if held[i] == AT_REST and held[i + 1] == AT_REST:
             excess[i - first] = 0.0
         worst = max(worst, abs(excess[i - first]) / length)
     return worst
@@ -87,7 +91,7 @@ def _assemble(
 ) -> None:
     """The upper half of the matrix; rows of multipliers get their right-hand side."""
     first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
-    bands, pinned = operator.bands, bodies.pinned
+    bands = operator.bands
     pull = 0.5 * operator.step**2 / length
     for i in range(first, end):
         row = 4 * (i - first)
@@ -100,8 +104,8 @@ def _assemble(
             upper[row + c, 8] = bands[2, i]
         upper[row + 3] = 0.0
         right[row + 3] = 0.0
-        if i == first or (pinned[i - 1] and pinned[i]):
-            upper[row + 3, 0] = -1.0
+        if i == first:
+            upper[row + 3, 0] = 1.0
             continue
         right[row + 3] = -excess[i - 1 - first]
         for c in range(3):
@@ -145,7 +149,7 @@ def keep_lengths(
     motion: Motion,
     start: Array,
     load: Array,
-    on_floor: NDArray[np.bool_],
+    held: NDArray[np.int8],
     rod: int,
     work: Array,
 ) -> int:
@@ -154,10 +158,11 @@ def keep_lengths(
     Args:
         bodies: the rods.
         operator: of this time step.
-        motion: `x` is a guess of the end, `tension` that of the step before; both are changed.
+        motion: `x` is a guess of the end, `tension` that of the step before; both are changed. So is the height's
+            part of `floor_impulse`, where nodes are held: to what holding them takes, but never to a pull.
         start: (3, nodes) where the nodes were at the start of the step.
         load: (3, nodes) kg m/s, momentum and impulses of all forces but tension.
-        on_floor: (nodes,) which nodes are held at their height.
+        held: (nodes,) `FREE`, or held where `x` has it: `IN_HEIGHT`, or `AT_REST` in all directions, as pinned nodes.
         rod: which.
         work: from `room_to_work`.
 
@@ -171,15 +176,21 @@ def keep_lengths(
     upper = work[8 * nodes : 8 * nodes + ROW * size].reshape(size, ROW)
     scale = 1.0 / (operator.step * operator.step)
     for iteration in range(MAX_ITERATIONS):
-        strain = _directions(bodies, start, motion.x, rod, mean, excess)
-        if iteration > 0 and strain < TOLERANCE:
-            return iteration
+        strain = _directions(bodies, start, motion.x, held, rod, mean, excess)
         _residual(bodies, operator, motion, start, load, rod, mean, right)
+        if iteration > 0 and strain < TOLERANCE:
+            for i in range(first, end):
+                if held[i] == IN_HEIGHT:
+                    carried = motion.floor_impulse[2, i] - right[4 * (i - first) + 2] / operator.step
+                    motion.floor_impulse[2, i] = max(carried, 0.0)
+            return iteration
         _assemble(bodies, operator, motion, rod, mean, excess, upper, right)
         for i in range(nodes):
             for c in range(3):
-                if bodies.pinned[first + i] or (c == 2 and on_floor[first + i]):
+                if held[first + i] == AT_REST or (c == 2 and held[first + i] == IN_HEIGHT):
                     _hold(upper, right, 4 * i + c)
+            if i > 0 and held[first + i - 1] == AT_REST and held[first + i] == AT_REST:
+                _hold(upper, right, 4 * i + 3)
         _solve_banded(upper, right, size)
         for i in range(nodes):
             for c in range(3):

@@ -7,6 +7,7 @@ from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from worker.rod.arrays import Bodies, Integers, Motion
 from worker.rod.bending import Operator, solve
@@ -15,15 +16,16 @@ from worker.rod.compiled import compiled
 from worker.rod.contact import (
     Contacts,
     _room_for,
+    allowed_approach,
     gather_contacts,
     sweep_contacts,
     sweep_floor,
 )
 from worker.rod.forces import add_elastic, add_gravity, add_tension, add_wind
-from worker.rod.lengths import MAX_ITERATIONS, keep_lengths, room_to_work
+from worker.rod.lengths import AT_REST, FREE, IN_HEIGHT, MAX_ITERATIONS, keep_lengths, room_to_work
 from worker.rod.model import Array
 
-MAX_ROUNDS = 4
+MAX_ROUNDS = 2
 ENOUGH = 0.02
 MAX_SWEEPS = 20
 SWEEP_TOLERANCE_M_S = 3e-4
@@ -190,6 +192,20 @@ def _speeds(v: Array) -> tuple[float, float]:
 
 
 @compiled
+def _hold_on_floor(
+    bodies: Bodies, motion: Motion, start: Array, h: float, touching: Integers, held: NDArray[np.int8]
+) -> None:
+    """Place the nodes that the floor carries where it has them at the end of the step; mark them, and pinned ones, as held."""
+    for i in range(len(held)):
+        held[i] = AT_REST if bodies.pinned[i] else FREE
+    for i in touching:
+        if motion.floor_impulse[2, i] > 0.0:
+            radius = bodies.radius[bodies.owner[i]]
+            held[i] = IN_HEIGHT
+            motion.x[2, i] = start[2, i] + h * allowed_approach(start[2, i] - radius, h, radius)
+
+
+@compiled
 def advance(
     bodies: Bodies,
     operator: Operator,
@@ -227,7 +243,7 @@ def advance(
     v = np.empty((3, nodes))
     start = np.empty((3, nodes))
     load = np.empty((3, nodes))
-    on_floor = np.zeros(nodes, np.bool_)
+    held = np.zeros(nodes, np.int8)
     work = room_to_work(nodes)
     contacts = _room_for(len(candidates.one) + 1, operator.response.shape[1] + 3)
     skin = MARGIN_RADII * largest
@@ -258,15 +274,13 @@ def advance(
             if sweeps == 1:
                 break
         tally.counts[4] += count
-        on_floor[:] = False
-        for i in floor:
-            on_floor[i] = motion.floor_impulse[2, i] > 0.0
         for c in range(3):
             for i in range(nodes):
                 start[c, i] = motion.x[c, i]
                 motion.x[c, i] += h * v[c, i]
+        _hold_on_floor(bodies, motion, start, h, floor, held)
         for rod in range(len(bodies.length)):
-            iterations = keep_lengths(bodies, operator, motion, start, load, on_floor, rod, work)
+            iterations = keep_lengths(bodies, operator, motion, start, load, held, rod, work)
             tally.counts[2] += iterations
             if iterations > MAX_ITERATIONS:
                 tally.counts[5] += 1
