@@ -27,6 +27,9 @@ from worker.rod.model import Array
 TOLERANCE = 1e-8
 """Of a segment's strain."""
 
+BALANCE_TOLERANCE = 1e-7
+"""Of a node's place, over a segment's length."""
+
 FREE, IN_HEIGHT, AT_REST = 0, 1, 2
 
 MAX_ITERATIONS = 12
@@ -83,6 +86,18 @@ def _residual(
             if i + 2 < end:
                 total -= bands[2, i] * (x[c, i + 2] - start[c, i + 2])
             right[row + c] = total
+
+
+@compiled
+def _imbalance(bodies: Bodies, operator: Operator, held: NDArray[np.int8], rod: int, right: Array) -> float:
+    """How far the nodes that are not held are from where their momentum takes them, over a segment's length."""
+    first, end = bodies.first[rod], bodies.first[rod + 1]
+    worst = 0.0
+    for i in range(first, end):
+        if held[i] != AT_REST:
+            for c in range(2 if held[i] == IN_HEIGHT else 3):
+                worst = max(worst, abs(right[4 * (i - first) + c]) / operator.bands[0, i])
+    return worst / bodies.length[rod]
 
 
 @compiled
@@ -178,7 +193,7 @@ def keep_lengths(
     for iteration in range(MAX_ITERATIONS):
         strain = _directions(bodies, start, motion.x, held, rod, mean, excess)
         _residual(bodies, operator, motion, start, load, rod, mean, right)
-        if iteration > 0 and strain < TOLERANCE:
+        if strain < TOLERANCE and _imbalance(bodies, operator, held, rod, right) < BALANCE_TOLERANCE:
             for i in range(first, end):
                 if held[i] == IN_HEIGHT:
                     carried = motion.floor_impulse[2, i] - right[4 * (i - first) + 2] / operator.step

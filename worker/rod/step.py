@@ -26,9 +26,9 @@ from worker.rod.lengths import AT_REST, FREE, IN_HEIGHT, MAX_ITERATIONS, keep_le
 from worker.rod.model import Array
 
 MAX_ROUNDS = 2
-ENOUGH = 0.02
-MAX_SWEEPS = 20
-SWEEP_TOLERANCE_M_S = 3e-4
+ENOUGH = 0.05
+MAX_SWEEPS = 12
+SWEEP_TOLERANCE_M_S = 4e-4
 """Sweeps end when none changes a velocity by more: a tenth of the speed at which a scene counts as resting."""
 
 MARGIN_RADII = 1.5
@@ -36,6 +36,10 @@ MARGIN_RADII = 1.5
 
 MOVE_RADII = 1.0
 """How far nodes may move against each other in a step, in the least radius; faster ones get a finer step."""
+
+
+MAX_CATCHES = 4
+SUNK_RADII = 0.02
 
 
 class Outcome(IntEnum):
@@ -206,6 +210,18 @@ def _hold_on_floor(
 
 
 @compiled
+def _catch_sunk(bodies: Bodies, motion: Motion, start: Array, h: float, rod: int, held: NDArray[np.int8]) -> bool:
+    """Hold the nodes that keeping the lengths has pushed into the floor; returns whether there are any."""
+    radius, found = bodies.radius[rod], False
+    for i in range(bodies.first[rod], bodies.first[rod + 1]):
+        if held[i] == FREE and motion.x[2, i] < min((1 - SUNK_RADII) * radius, start[2, i]):
+            held[i] = IN_HEIGHT
+            motion.x[2, i] = start[2, i] + h * allowed_approach(start[2, i] - radius, h, radius)
+            found = True
+    return found
+
+
+@compiled
 def advance(
     bodies: Bodies,
     operator: Operator,
@@ -281,6 +297,10 @@ def advance(
         _hold_on_floor(bodies, motion, start, h, floor, held)
         for rod in range(len(bodies.length)):
             iterations = keep_lengths(bodies, operator, motion, start, load, held, rod, work)
+            for _ in range(MAX_CATCHES):
+                if not world.floor or not _catch_sunk(bodies, motion, start, h, rod, held):
+                    break
+                iterations = keep_lengths(bodies, operator, motion, start, load, held, rod, work)
             tally.counts[2] += iterations
             if iterations > MAX_ITERATIONS:
                 tally.counts[5] += 1
