@@ -279,14 +279,15 @@ def advance(
         _momentum(bodies, operator, motion, world, tally.time[0] + h, momentum)
         count = gather_contacts(bodies, operator, motion, candidates, near, contacts)
         floor = touching[: _near_floor(bodies, motion, h, touching) if world.floor else 0]
-        for _ in range(MAX_ROUNDS):
+        load[:] = momentum
+        _add_impulses(motion, candidates, contacts, count, floor, load)
+        _velocities(bodies, operator, motion, load, v)
+        for _ in range(MAX_ROUNDS if count > 0 or len(floor) > 0 else 0):
+            sweeps = _find_impulses(bodies, operator, motion, world, candidates, contacts, count, floor, v)
+            tally.counts[1] += sweeps
             load[:] = momentum
             _add_impulses(motion, candidates, contacts, count, floor, load)
             _velocities(bodies, operator, motion, load, v)
-            if count == 0 and len(floor) == 0:
-                break
-            sweeps = _find_impulses(bodies, operator, motion, world, candidates, contacts, count, floor, v)
-            tally.counts[1] += sweeps
             if sweeps == 1:
                 break
         tally.counts[4] += count
