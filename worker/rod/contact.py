@@ -25,14 +25,14 @@ DEPENETRATION_SHARE = 0.2
 """Of a penetration that is undone in a step."""
 
 
-IGNORED_CHANGE_M_S = 2e-5
-"""A sweep leaves an impulse as it is if the change would alter its velocity by less."""
+LOCAL_CHANGE_M_S = 2e-5
+"""A change of velocity by less is not carried on to the neighbours within the sweeps."""
+
+NEARBY_SHARE = 0.05
+"""Of the margin within which a pair counts as near although it does not approach."""
 
 
-NEARF = 0.05
-
-
-SLOP_RADII = 0.005
+SLOP_RADII = 0.002
 """Depth that is left as it is: to lift a rod out would give it energy."""
 
 
@@ -140,7 +140,7 @@ def _is_far(bodies: Bodies, motion: Motion, i: int, j: int, fractions: Array, st
         squared += offset * offset
         fast += speed * speed
     one, other = bodies.radius[bodies.owner[i]], bodies.radius[bodies.owner[j]]
-    near = min(margin, 1.5 * step * np.sqrt(fast) + NEARF * margin)
+    near = min(margin, 1.5 * step * np.sqrt(fast) + NEARBY_SHARE * margin)
     reach = one + other + near + 0.1 * min(one, other)
     if squared <= reach * reach:
         return False
@@ -277,7 +277,7 @@ def sweep_contacts(
         for c in range(3):
             change[c] = wanted[c] - impulse[c]
             moved = max(moved, abs(change[c]))
-        if moved * contacts.compliance[n] > IGNORED_CHANGE_M_S:
+        if moved * contacts.compliance[n] > LOCAL_CHANGE_M_S:
             for c in range(3):
                 impulse[c] = wanted[c]
             _push(contacts, 0, n, 1.0, change, v)
@@ -337,10 +337,12 @@ def sweep_floor(
         moved = 0.0
         for c in range(3):
             change[c] = wanted[c] - impulse[c]
+            impulse[c] = wanted[c]
             moved = max(moved, abs(change[c]))
-        if moved * compliance > IGNORED_CHANGE_M_S:
+        if moved * compliance <= LOCAL_CHANGE_M_S:
             for c in range(3):
-                impulse[c] = wanted[c]
+                v[c, node] += compliance * change[c]
+        else:
             floor_push(bodies, operator, node, change, v)
             stirred[rod] = sweep
             worst = max(worst, moved * compliance)

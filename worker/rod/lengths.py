@@ -174,7 +174,8 @@ def keep_lengths(
         bodies: the rods.
         operator: of this time step.
         motion: `x` is a guess of the end, `tension` that of the step before; both are changed. So is the height's
-            part of `floor_impulse`, where nodes are held: to what holding them takes, but never to a pull.
+            part of `floor_impulse`, where nodes are held, to what holding them takes. A pull lets the node go in the
+            next step.
         start: (3, nodes) where the nodes were at the start of the step.
         load: (3, nodes) kg m/s, momentum and impulses of all forces but tension.
         held: (nodes,) `FREE`, or held where `x` has it: `IN_HEIGHT`, or `AT_REST` in all directions, as pinned nodes.
@@ -196,8 +197,7 @@ def keep_lengths(
         if strain < TOLERANCE and _imbalance(bodies, operator, held, rod, right) < BALANCE_TOLERANCE:
             for i in range(first, end):
                 if held[i] == IN_HEIGHT:
-                    carried = motion.floor_impulse[2, i] - right[4 * (i - first) + 2] / operator.step
-                    motion.floor_impulse[2, i] = max(carried, 0.0)
+                    motion.floor_impulse[2, i] -= right[4 * (i - first) + 2] / operator.step
             return iteration
         _assemble(bodies, operator, motion, rod, mean, excess, upper, right)
         for i in range(nodes):

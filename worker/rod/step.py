@@ -18,6 +18,7 @@ from worker.rod.contact import (
     _room_for,
     allowed_approach,
     gather_contacts,
+    project_on_cone,
     sweep_contacts,
     sweep_floor,
 )
@@ -26,9 +27,9 @@ from worker.rod.lengths import AT_REST, FREE, IN_HEIGHT, MAX_ITERATIONS, keep_le
 from worker.rod.model import Array
 
 MAX_ROUNDS = 2
-ENOUGH = 0.05
+ENOUGH = 0.02
 MAX_SWEEPS = 12
-SWEEP_TOLERANCE_M_S = 4e-4
+SWEEP_TOLERANCE_M_S = 3e-4
 """Sweeps end when none changes a velocity by more: a tenth of the speed at which a scene counts as resting."""
 
 MARGIN_RADII = 1.5
@@ -102,14 +103,16 @@ def _fastest_against_mean(v: Array) -> float:
 
 
 @compiled
-def _near_floor(bodies: Bodies, motion: Motion, step: float, touching: Integers) -> int:
+def _near_floor(bodies: Bodies, motion: Motion, step: float, friction: float, touching: Integers) -> int:
     """Nodes that could reach the floor in this step; the others' impulses are forgotten."""
     count = 0
+    up = np.array([0.0, 0.0, 1.0])
     for i in range(len(bodies.owner)):
         gap = motion.x[2, i] - bodies.radius[bodies.owner[i]]
         if not bodies.pinned[i] and gap < bodies.radius[bodies.owner[i]] + 2 * step * abs(motion.v[2, i]):
             touching[count] = i
             count += 1
+            project_on_cone(motion.floor_impulse[:, i], up, friction)
         else:
             motion.floor_impulse[:, i] = 0.0
     return count
@@ -278,7 +281,7 @@ def advance(
             return Outcome.SLOW_ENOUGH.value, candidates
         _momentum(bodies, operator, motion, world, tally.time[0] + h, momentum)
         count = gather_contacts(bodies, operator, motion, candidates, near, contacts)
-        floor = touching[: _near_floor(bodies, motion, h, touching) if world.floor else 0]
+        floor = touching[: _near_floor(bodies, motion, h, world.friction_floor, touching) if world.floor else 0]
         load[:] = momentum
         _add_impulses(motion, candidates, contacts, count, floor, load)
         _velocities(bodies, operator, motion, load, v)
