@@ -51,6 +51,28 @@ class Motion(NamedTuple):
     floor_impulse: Array
 
 
+class Scratch(NamedTuple):
+    """Room for what is computed within a step.
+
+    Attributes:
+        momentum: (3, nodes) N s, without contact and tension.
+        load: (3, nodes) N s, the same with contact.
+        v: (3, nodes) m/s.
+        start: (3, nodes) m, where the nodes were at the start of the step.
+        near_floor: (nodes,) the nodes that the floor may touch, the first ones of these.
+        held: (nodes,) which nodes lengths are kept against; see `worker.rod.lengths`.
+        system: for the equations of `worker.rod.lengths`.
+    """
+
+    momentum: Array
+    load: Array
+    v: Array
+    start: Array
+    near_floor: Integers
+    held: NDArray[np.int8]
+    system: Array
+
+
 def flatten(rods: Sequence[Rod]) -> tuple[Bodies, Motion]:
     """The rods at rest where they start."""
     counts = [len(rod.nodes_m) for rod in rods]

@@ -64,7 +64,8 @@ def closest(x: Array, i: int, j: int, out: Array) -> None:
 
 
 @compiled
-def _distance(x: Array, i: int, j: int, out: Array) -> float:
+def _distance(x: Array, i: int, j: int) -> float:
+    out = np.empty(2)
     closest(x, i, j, out)
     total = 0.0
     for c in range(3):
@@ -121,17 +122,34 @@ def _are_neighbours(bodies: Bodies, i: int, j: int) -> bool:
 
 
 @compiled
+def _may_touch(bodies: Bodies, x: Array, spheres: Array, i: int, j: int, margin: float) -> bool:
+    """Whether the surfaces of two segments are nearer than `margin`, and they are no neighbours."""
+    dx, dy, dz = spheres[j, 0] - spheres[i, 0], spheres[j, 1] - spheres[i, 1], spheres[j, 2] - spheres[i, 2]
+    apart = spheres[i, 3] + spheres[j, 3] + margin
+    if dx * dx + dy * dy + dz * dz > apart * apart:
+        return False
+    if j + 1 == len(bodies.owner) or bodies.owner[j + 1] != bodies.owner[j] or _are_neighbours(bodies, i, j):
+        return False
+    return _distance(x, i, j) < bodies.radius[bodies.owner[i]] + bodies.radius[bodies.owner[j]] + margin
+
+
+@compiled
+def _longer(keys: Integers) -> Integers:
+    """A copy with twice the room."""
+    longer = np.empty(2 * len(keys), np.int64)
+    longer[: len(keys)] = keys
+    return longer
+
+
+@compiled
 def find_candidates(bodies: Bodies, x: Array, margin: float, before: Candidates) -> Candidates:
     """All pairs of segments with surfaces nearer than `margin`, in m; what `before` remembers of them is kept."""
     nodes = len(bodies.owner)
-    size = bodies.length.max() + 2 * bodies.radius.max() + margin
-    cell, starts, members, columns = _cells(bodies, x, size)
+    cell, starts, members, columns = _cells(bodies, x, bodies.length.max() + 2 * bodies.radius.max() + margin)
     rows = (len(starts) - 1) // columns
-    middle = _bounding_spheres(bodies, x)
-    capacity = 8 * nodes
-    keys = np.empty(capacity, np.int64)
+    spheres = _bounding_spheres(bodies, x)
+    keys = np.empty(8 * nodes, np.int64)
     count = 0
-    fractions = np.empty(2)
     for i in range(nodes - 1):
         if bodies.owner[i + 1] != bodies.owner[i]:
             continue
@@ -141,25 +159,18 @@ def find_candidates(bodies: Bodies, x: Array, margin: float, before: Candidates)
                 there = neighbour_row * columns + neighbour_column
                 for k in range(starts[there], starts[there + 1]):
                     j = members[k]
-                    if j <= i:
-                        continue
-                    dx, dy, dz = middle[j, 0] - middle[i, 0], middle[j, 1] - middle[i, 1], middle[j, 2] - middle[i, 2]
-                    apart = middle[i, 3] + middle[j, 3] + margin
-                    if dx * dx + dy * dy + dz * dz > apart * apart:
-                        continue
-                    if j + 1 == nodes or bodies.owner[j + 1] != bodies.owner[j] or _are_neighbours(bodies, i, j):
-                        continue
-                    near = bodies.radius[bodies.owner[i]] + bodies.radius[bodies.owner[j]] + margin
-                    if _distance(x, i, j, fractions) >= near:
-                        continue
-                    if count == capacity:
-                        capacity *= 2
-                        longer = np.empty(capacity, np.int64)
-                        longer[:count] = keys
-                        keys = longer
-                    keys[count] = i * nodes + j
-                    count += 1
-    keys = np.sort(keys[:count])
+                    if j > i and _may_touch(bodies, x, spheres, i, j, margin):
+                        if count == len(keys):
+                            keys = _longer(keys)
+                        keys[count] = i * nodes + j
+                        count += 1
+    return _with_memory(np.sort(keys[:count]), before, x)
+
+
+@compiled
+def _with_memory(keys: Integers, before: Candidates, x: Array) -> Candidates:
+    """The pairs of ascending keys i * nodes + j, with what is remembered of those that were there before."""
+    nodes, count = x.shape[1], len(keys)
     normal, impulse = np.zeros((count, 3)), np.zeros((count, 3))
     one, other = np.empty(count, np.int64), np.empty(count, np.int64)
     k = 0

@@ -3,9 +3,9 @@
 A contact acts on the smooth curves through the nodes, not on the chords: a point of a segment is moved by the mean of
 the two parabolas at its ends (a Catmull-Rom curve), so that its weights act on four nodes.
 
-Impulses are found by projected Gauss-Seidel iteration in fixed order. The velocity that an impulse causes is that of the
-implicit operator, bending and all, so that it says how soft a rod is there. As the operator is the same in x, y and z,
-a contact's own block is a multiple of the unit matrix and the projection on Coulomb's cone is exact.
+The velocity that an impulse causes is that of the implicit operator, bending and all, so that it says how soft a rod is
+there. As the operator is the same in x, y and z, a contact's own block is a multiple of the unit matrix, and Coulomb's
+cone a true cone.
 
 Contacts are speculative: a pair that would meet within the step is stopped at the touch, whatever its speed, so that
 nothing tunnels. A pair remembers which side it was on; a curve that got to the wrong side is pushed back.
@@ -24,13 +24,11 @@ from worker.rod.model import Array
 DEPENETRATION_SHARE = 0.2
 """Of a penetration that is undone in a step."""
 
-
 LOCAL_CHANGE_M_S = 2e-5
 """A change of velocity by less is not carried on to the neighbours within the sweeps."""
 
 NEARBY_SHARE = 0.05
 """Of the margin within which a pair counts as near although it does not approach."""
-
 
 SLOP_RADII = 0.002
 """Depth that is left as it is: to lift a rod out would give it energy."""
@@ -62,13 +60,10 @@ class Contacts(NamedTuple):
     column: Array
 
 
-def room_for(pairs: int, operator: Operator) -> Contacts:
-    """Arrays for so many contacts."""
-    return _room_for(pairs, operator.response.shape[1] + 3)
-
-
 @compiled
-def _room_for(pairs: int, widest: int) -> Contacts:
+def room_for_contacts(pairs: int, operator: Operator) -> Contacts:
+    """Room for as many contacts as there are candidate pairs."""
+    widest = operator.response.shape[1] + 3
     return Contacts(
         np.empty(pairs, np.int64),
         np.empty((2, pairs), np.int64),
@@ -101,7 +96,7 @@ def _weigh(bodies: Bodies, i: int, t: float, weights: Array) -> int:
         weights[k] += bulge * t
         weights[k + 1] -= 2 * bulge * t
         weights[k + 2] += bulge * t
-    return base
+    return int(base)
 
 
 @compiled
@@ -128,7 +123,9 @@ def _respond(bodies: Bodies, operator: Operator, contacts: Contacts, side: int, 
 
 
 @compiled
-def _is_far(bodies: Bodies, motion: Motion, i: int, j: int, fractions: Array, step: float, margin: float, normal: Array) -> bool:
+def _is_far(
+    bodies: Bodies, motion: Motion, i: int, j: int, fractions: Array, step: float, margin: float, normal: Array
+) -> bool:
     """Whether two segments, by their chords, can't touch in this step; `normal` is then set by the chords."""
     s, t = fractions[0], fractions[1]
     x, v = motion.x, motion.v
@@ -213,18 +210,7 @@ def allowed_approach(gap: float, step: float, radius: float) -> float:
     if gap > 0.0:
         return -gap / step
     depth = max(-gap - SLOP_RADII * radius, 0.0)
-    return min(DEPENETRATION_SHARE * depth / step, np.sqrt(9.81 * radius))
-
-
-@compiled
-def _push(contacts: Contacts, side: int, n: int, sign: float, impulse: Array, v: Array) -> None:
-    low, width = contacts.low[side, n], contacts.width[side, n]
-    column = contacts.column[side, n]
-    for c in range(3):
-        p = sign * impulse[c]
-        if p != 0.0:
-            for j in range(width):
-                v[c, low + j] += p * column[j]
+    return float(min(DEPENETRATION_SHARE * depth / step, np.sqrt(9.81 * radius)))
 
 
 @compiled
@@ -242,108 +228,3 @@ def project_on_cone(impulse: Array, normal: Array, friction: float) -> None:
     impulse[0] = along * normal[0] + tx
     impulse[1] = along * normal[1] + ty
     impulse[2] = along * normal[2] + tz
-
-
-@compiled
-def sweep_contacts(
-    bodies: Bodies,
-    contacts: Contacts,
-    count: int,
-    candidates: Candidates,
-    friction: float,
-    sweep: int,
-    stirred: Integers,
-    v: Array,
-) -> float:
-    """One pass over all contacts between rods; returns the largest change of a relative velocity, m/s."""
-    worst = 0.0
-    change, wanted = np.empty(3), np.empty(3)
-    for step in range(count):
-        n = count - 1 - step if sweep % 2 == 1 else step
-        base_i, base_j = contacts.base[0, n], contacts.base[1, n]
-        one, other = bodies.owner[base_i], bodies.owner[base_j]
-        if stirred[one] < sweep - 1 and stirred[other] < sweep - 1:
-            continue
-        normal, impulse = contacts.normal[n], candidates.impulse[contacts.pair[n]]
-        for c in range(3):
-            u = 0.0
-            for k in range(4):
-                u += contacts.weights[0, n, k] * v[c, base_i + k] - contacts.weights[1, n, k] * v[c, base_j + k]
-            wanted[c] = u
-        for c in range(3):
-            wanted[c] = impulse[c] - (wanted[c] - contacts.approach[n] * normal[c]) / contacts.compliance[n]
-        project_on_cone(wanted, normal, friction)
-        moved = 0.0
-        for c in range(3):
-            change[c] = wanted[c] - impulse[c]
-            moved = max(moved, abs(change[c]))
-        if moved * contacts.compliance[n] > LOCAL_CHANGE_M_S:
-            for c in range(3):
-                impulse[c] = wanted[c]
-            _push(contacts, 0, n, 1.0, change, v)
-            _push(contacts, 1, n, -1.0, change, v)
-            stirred[one] = sweep
-            stirred[other] = sweep
-            worst = max(worst, moved * contacts.compliance[n])
-    return worst
-
-
-@compiled
-def floor_push(bodies: Bodies, operator: Operator, node: int, impulse: Array, v: Array) -> None:
-    """Add what an impulse on a node does to the velocities of its rod."""
-    rod = bodies.owner[node]
-    reach = operator.reach[rod]
-    centre = (operator.response.shape[1] - 1) // 2
-    low, high = max(bodies.first[rod], node - reach), min(bodies.first[rod + 1], node + reach + 1)
-    shift = centre - node
-    for c in range(3):
-        p = impulse[c]
-        if p != 0.0:
-            for j in range(low, high):
-                v[c, j] += p * operator.response[node, j + shift]
-
-
-@compiled
-def sweep_floor(
-    bodies: Bodies,
-    operator: Operator,
-    motion: Motion,
-    touching: Integers,
-    friction: float,
-    sweep: int,
-    stirred: Integers,
-    v: Array,
-) -> float:
-    """One pass over all nodes near the floor; returns the largest change of a velocity, m/s."""
-    worst = 0.0
-    centre = (operator.response.shape[1] - 1) // 2
-    change, wanted = np.empty(3), np.empty(3)
-    up = np.zeros(3)
-    up[2] = 1.0
-    for step in range(len(touching)):
-        node = touching[len(touching) - 1 - step] if sweep % 2 == 1 else touching[step]
-        rod = bodies.owner[node]
-        if stirred[rod] < sweep - 1:
-            continue
-        compliance = operator.response[node, centre]
-        radius = bodies.radius[rod]
-        gap = motion.x[2, node] - radius
-        approach = allowed_approach(gap, operator.step, radius)
-        impulse = motion.floor_impulse[:, node]
-        for c in range(3):
-            wanted[c] = impulse[c] - v[c, node] / compliance
-        wanted[2] += approach / compliance
-        project_on_cone(wanted, up, friction)
-        moved = 0.0
-        for c in range(3):
-            change[c] = wanted[c] - impulse[c]
-            impulse[c] = wanted[c]
-            moved = max(moved, abs(change[c]))
-        if moved * compliance <= LOCAL_CHANGE_M_S:
-            for c in range(3):
-                v[c, node] += compliance * change[c]
-        else:
-            floor_push(bodies, operator, node, change, v)
-            stirred[rod] = sweep
-            worst = max(worst, moved * compliance)
-    return worst

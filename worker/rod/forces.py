@@ -5,6 +5,7 @@ import numpy as np
 from worker.rod.arrays import Bodies, Motion
 from worker.rod.compiled import compiled
 from worker.rod.model import Array
+from worker.rod.world import World, air_velocity
 
 AIR_DENSITY_KG_M3 = 1.2
 DRAG_COEFFICIENT = 1.1
@@ -12,7 +13,7 @@ DRAG_COEFFICIENT = 1.1
 
 
 @compiled
-def add_gravity(bodies: Bodies, gravity: Array, force: Array) -> None:
+def _add_gravity(bodies: Bodies, gravity: Array, force: Array) -> None:
     """Weight of each node, N, added to `force` (3, nodes)."""
     for i in range(len(bodies.mass)):
         for c in range(3):
@@ -20,7 +21,7 @@ def add_gravity(bodies: Bodies, gravity: Array, force: Array) -> None:
 
 
 @compiled
-def add_elastic(bodies: Bodies, motion: Motion, rod: int, force: Array) -> None:
+def _add_elastic(bodies: Bodies, motion: Motion, rod: int, force: Array) -> None:
     """Bending about the natural shape."""
     first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
     x = motion.x
@@ -58,7 +59,7 @@ def add_tension(bodies: Bodies, motion: Motion, step: float, momentum: Array) ->
 
 
 @compiled
-def add_wind(bodies: Bodies, motion: Motion, air: Array, force: Array) -> None:
+def _add_wind(bodies: Bodies, motion: Motion, air: Array, force: Array) -> None:
     """Drag on each segment from the air's velocity across it: rho/2 C d l |u| u, half to either node."""
     x, v = motion.x, motion.v
     for i in range(len(bodies.mass) - 1):
@@ -66,7 +67,9 @@ def add_wind(bodies: Bodies, motion: Motion, air: Array, force: Array) -> None:
         if bodies.owner[i + 1] != rod:
             continue
         length = bodies.length[rod]
-        tx, ty, tz = (x[0, i + 1] - x[0, i]) / length, (x[1, i + 1] - x[1, i]) / length, (x[2, i + 1] - x[2, i]) / length
+        tx = (x[0, i + 1] - x[0, i]) / length
+        ty = (x[1, i + 1] - x[1, i]) / length
+        tz = (x[2, i + 1] - x[2, i]) / length
         ux = air[0] - 0.5 * (v[0, i] + v[0, i + 1])
         uy = air[1] - 0.5 * (v[1, i] + v[1, i + 1])
         uz = air[2] - 0.5 * (v[2, i] + v[2, i + 1])
@@ -78,3 +81,19 @@ def add_wind(bodies: Bodies, motion: Motion, air: Array, force: Array) -> None:
             force[0, j] += half * ux
             force[1, j] += half * uy
             force[2, j] += half * uz
+
+
+@compiled
+def momentum_to_be(bodies: Bodies, motion: Motion, world: World, step: float, time: float, momentum: Array) -> None:
+    """M v + h f, N s: momentum and what all forces but contact and tension add to it by `time`, the end of the step."""
+    force = np.zeros(motion.x.shape)
+    _add_gravity(bodies, world.gravity, force)
+    for rod in range(len(bodies.length)):
+        _add_elastic(bodies, motion, rod, force)
+    if world.drag:
+        air = np.empty(3)
+        air_velocity(world, time, air)
+        _add_wind(bodies, motion, air, force)
+    for c in range(3):
+        for i in range(len(bodies.mass)):
+            momentum[c, i] = bodies.mass[i] * motion.v[c, i] + step * force[c, i]

@@ -1,17 +1,17 @@
 """Length: each segment keeps its own, exactly, while the step stays implicit Euler as a whole.
 
-The end of a step obeys A (x - x0) = h p + h^2 F, with p the momentum and impulses of all but the tension and F the tension
-of each segment along the mean of its edge before and after the step. That direction does no work, whatever the
-tension: (e0 + e1) . (e1 - e0) = |e1|^2 - |e0|^2 = 0. (Along the new edge, compression would feed energy in; along the old
-one, tension would.) Newton's method solves for all nodes and tensions of a rod at once:
+The end of a step obeys A (x - x0) = h p + h^2 F, with p the momentum and impulses of all but the tension and F the
+tension of each segment along the mean of its edge before and after the step. That direction does no work, whatever the
+tension: (e0 + e1) . (e1 - e0) = |e1|^2 - |e0|^2 = 0. (Along the new edge, compression would feed energy in; along the
+old one, tension would.) Newton's method solves for all nodes and tensions of a rod at once:
 
     [A + G  J^T] [dx]   [ residual ]
     [J       0 ] [ y] = [    -C    ]
 
-with C = |e1| - l, J the mean directions, y the change of tension times h^2, and G the stiffness that tension adds, where
-it pulls. Half-bandwidth is 8 when each multiplier follows the second of its nodes; L D L^T needs no pivoting, as each
-multiplier comes after the nodes that it acts on. Bending and inertia are in the metric, as in "fast projection"
-(Goldenthal et al. 2007, "Efficient simulation of inextensible cloth") they are not.
+with C = |e1| - l, J the mean directions, y the change of tension times h^2, and G the stiffness that tension adds,
+where it pulls. Half-bandwidth is 8 when each multiplier follows the second of its nodes; L D L^T needs no pivoting, as
+each multiplier comes after the nodes that it acts on. It is the "fast projection" of Goldenthal et al. 2007 ("Efficient
+simulation of inextensible cloth") with bending in the metric and momentum kept.
 
 Nodes that the floor carries are held at their height meanwhile: an upright rod that lands is stopped as a whole.
 """
@@ -19,7 +19,7 @@ Nodes that the floor carries are held at their height meanwhile: an upright rod 
 import numpy as np
 from numpy.typing import NDArray
 
-from worker.rod.arrays import Bodies, Motion
+from worker.rod.arrays import Bodies, Motion, Scratch
 from worker.rod.bending import Operator
 from worker.rod.compiled import compiled
 from worker.rod.model import Array
@@ -39,8 +39,8 @@ ROW = 2 * BAND
 
 
 @compiled
-def room_to_work(nodes: int) -> Array:
-    """Scratch space for `keep_lengths`."""
+def room_for_system(nodes: int) -> Array:
+    """Room for the equations of a rod of so many nodes."""
     return np.empty((ROW + 2) * 4 * nodes)
 
 
@@ -97,7 +97,7 @@ def _imbalance(bodies: Bodies, operator: Operator, held: NDArray[np.int8], rod: 
         if held[i] != AT_REST:
             for c in range(2 if held[i] == IN_HEIGHT else 3):
                 worst = max(worst, abs(right[4 * (i - first) + c]) / operator.bands[0, i])
-    return worst / bodies.length[rod]
+    return float(worst / bodies.length[rod])
 
 
 @compiled
@@ -158,16 +158,7 @@ def _solve_banded(upper: Array, right: Array, size: int) -> None:
 
 
 @compiled
-def keep_lengths(
-    bodies: Bodies,
-    operator: Operator,
-    motion: Motion,
-    start: Array,
-    load: Array,
-    held: NDArray[np.int8],
-    rod: int,
-    work: Array,
-) -> int:
+def keep_lengths(bodies: Bodies, operator: Operator, motion: Motion, scratch: Scratch, rod: int) -> int:
     """Move a rod's nodes to where they are at the end of the step, and find its tension.
 
     Args:
@@ -176,17 +167,16 @@ def keep_lengths(
         motion: `x` is a guess of the end, `tension` that of the step before; both are changed. So is the height's
             part of `floor_impulse`, where nodes are held, to what holding them takes. A pull lets the node go in the
             next step.
-        start: (3, nodes) where the nodes were at the start of the step.
-        load: (3, nodes) kg m/s, momentum and impulses of all forces but tension.
-        held: (nodes,) `FREE`, or held where `x` has it: `IN_HEIGHT`, or `AT_REST` in all directions, as pinned nodes.
+        scratch: `start`; `load`, the momentum and impulses of all forces but tension; `held`, which nodes stay where
+            `x` has them: `FREE`, `IN_HEIGHT`, or `AT_REST` in all directions, as pinned nodes do.
         rod: which.
-        work: from `room_to_work`.
 
     Returns:
         Newton iterations; MAX_ITERATIONS + 1 if they did not converge.
     """
     first, end = bodies.first[rod], bodies.first[rod + 1]
     nodes, size = end - first, 4 * (end - first)
+    start, load, held, work = scratch.start, scratch.load, scratch.held, scratch.system
     mean, excess = work[: 3 * nodes].reshape(3, nodes), work[3 * nodes : 4 * nodes]
     right = work[4 * nodes : 8 * nodes]
     upper = work[8 * nodes : 8 * nodes + ROW * size].reshape(size, ROW)

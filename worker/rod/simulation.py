@@ -9,10 +9,11 @@ from worker.rod.arrays import flatten
 from worker.rod.bending import Operator, operator_for
 from worker.rod.broad_phase import find_candidates, no_candidates
 from worker.rod.model import Array, Rod, Surroundings
-from worker.rod.step import Outcome, Tally, World, advance
+from worker.rod.step import Bounds, Outcome, Tally, advance
+from worker.rod.world import world_of
 
 MAX_HALVINGS = 8
-NEVER_RESTS = (0.0, 0.0, 1 << 62)
+NEVER_RESTS = (-1.0, -1.0, 1)
 
 
 class DivergedError(Exception):
@@ -45,7 +46,7 @@ class RodSimulation:
         self.step_s = 1.0 / steps_per_s
         self._bodies, self._motion = flatten(rods)
         self._damping = surroundings.damping_s
-        self._world = _world(surroundings)
+        self._world = world_of(surroundings)
         self._operators: dict[int, Operator] = {}
         self._halvings = 0
         self._tally = Tally(counts=np.zeros(6, np.int64), time=np.zeros(1), quiet=np.zeros(1, np.int64))
@@ -134,17 +135,16 @@ class RodSimulation:
         while self.steps < end and self.time_s < max_time_s:
             operator = self._operator()
             left = (max_time_s - self.time_s) / operator.step
+            bounds = Bounds(
+                steps=min(end - self.steps, int(np.ceil(left))) if np.isfinite(left) else end - self.steps,
+                rest_rms=rest[0],
+                rest_fastest=rest[1],
+                rest_steps=rest[2],
+                coarsest=self._halvings == 0,
+                finest=self._halvings == MAX_HALVINGS,
+            )
             code, self._candidates = advance(
-                self._bodies,
-                operator,
-                self._motion,
-                self._world,
-                self._candidates,
-                self._tally,
-                int(min(end - self.steps, np.ceil(left))) if np.isfinite(left) else end - self.steps,
-                rest,
-                self._halvings == 0,
-                self._halvings == MAX_HALVINGS,
+                self._bodies, operator, self._motion, self._world, self._candidates, self._tally, bounds
             )
             match Outcome(code):
                 case Outcome.TOO_FAST:
@@ -171,17 +171,3 @@ class RodSimulation:
 
     def _part(self, rod: int) -> slice:
         return slice(int(self._bodies.first[rod]), int(self._bodies.first[rod + 1]))
-
-
-def _world(surroundings: Surroundings) -> World:
-    breeze = surroundings.breeze
-    return World(
-        gravity=np.array(surroundings.gravity_m_s2, dtype=np.float64),
-        floor=surroundings.floor,
-        friction_floor=float(surroundings.friction_floor),
-        friction_rods=float(surroundings.friction_rods),
-        air=np.zeros(3) if breeze is None else np.array(breeze.velocity_m_s, dtype=np.float64),
-        gusts=np.zeros((0, 3)) if breeze is None else np.array(breeze.gusts, dtype=np.float64).reshape(-1, 3),
-        calm_from=0.0 if breeze is None else float(breeze.until_s),
-        drag=breeze is not None,
-    )

@@ -1,0 +1,169 @@
+"""The impulses of all contacts of a step: projected Gauss-Seidel iteration over them, in fixed order."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from worker.rod.arrays import Bodies, Integers, Motion, Scratch
+from worker.rod.bending import Operator, solve
+from worker.rod.broad_phase import Candidates
+from worker.rod.compiled import compiled
+from worker.rod.contact import LOCAL_CHANGE_M_S, Contacts, project_on_cone
+from worker.rod.floor import sweep_floor
+from worker.rod.forces import add_tension
+from worker.rod.model import Array
+from worker.rod.world import World
+
+MAX_ROUNDS = 2
+"""The sweeps' responses end where they are small; after the sweeps of a round the impulses act in full."""
+
+MAX_SWEEPS = 12
+"""Of a round. What is missing then is made up for in the next step, which starts from these impulses."""
+
+TOLERANCE_M_S = 3e-4
+"""Sweeps end when none changes a velocity by more: about a third of the speed at which a scene counts as resting."""
+
+ENOUGH = 0.02
+"""They also end when none changes a velocity by more than this share of the first one's change."""
+
+
+class Touch(NamedTuple):
+    """What touches in this step: the first `count` of the contacts, and nodes near the floor."""
+
+    contacts: Contacts
+    count: int
+    floor: Integers
+
+
+@compiled
+def _push(contacts: Contacts, side: int, n: int, sign: float, impulse: Array, v: Array) -> None:
+    low, width = contacts.low[side, n], contacts.width[side, n]
+    column = contacts.column[side, n]
+    for c in range(3):
+        p = sign * impulse[c]
+        if p != 0.0:
+            for j in range(width):
+                v[c, low + j] += p * column[j]
+
+
+@compiled
+def _sweep_contacts(
+    bodies: Bodies, touch: Touch, candidates: Candidates, friction: float, sweep: int, stirred: Integers, v: Array
+) -> float:
+    """One pass over all contacts between rods; returns the largest change of a relative velocity, m/s."""
+    contacts, count = touch.contacts, touch.count
+    worst = 0.0
+    change, wanted = np.empty(3), np.empty(3)
+    for step in range(count):
+        n = count - 1 - step if sweep % 2 == 1 else step
+        base_i, base_j = contacts.base[0, n], contacts.base[1, n]
+        one, other = bodies.owner[base_i], bodies.owner[base_j]
+        if stirred[one] < sweep - 1 and stirred[other] < sweep - 1:
+            continue
+        normal, impulse = contacts.normal[n], candidates.impulse[contacts.pair[n]]
+        for c in range(3):
+            u = 0.0
+            for k in range(4):
+                u += contacts.weights[0, n, k] * v[c, base_i + k] - contacts.weights[1, n, k] * v[c, base_j + k]
+            wanted[c] = u
+        for c in range(3):
+            wanted[c] = impulse[c] - (wanted[c] - contacts.approach[n] * normal[c]) / contacts.compliance[n]
+        project_on_cone(wanted, normal, friction)
+        moved = 0.0
+        for c in range(3):
+            change[c] = wanted[c] - impulse[c]
+            moved = max(moved, abs(change[c]))
+        if moved * contacts.compliance[n] > LOCAL_CHANGE_M_S:
+            for c in range(3):
+                impulse[c] = wanted[c]
+            _push(contacts, 0, n, 1.0, change, v)
+            _push(contacts, 1, n, -1.0, change, v)
+            stirred[one] = sweep
+            stirred[other] = sweep
+            worst = max(worst, moved * contacts.compliance[n])
+    return worst
+
+
+@compiled
+def _sweep(
+    bodies: Bodies, operator: Operator, motion: Motion, world: World, candidates: Candidates, touch: Touch, v: Array
+) -> int:
+    """Sweep over the contacts until their impulses hardly change; returns how many sweeps it took."""
+    stirred = np.zeros(len(bodies.length), np.int64)
+    tolerance = TOLERANCE_M_S
+    for sweep in range(MAX_SWEEPS):
+        between = _sweep_contacts(bodies, touch, candidates, world.friction_rods, sweep, stirred, v)
+        below = sweep_floor(bodies, operator, motion, touch.floor, world.friction_floor, sweep, stirred, v)
+        worst = max(between, below)
+        if sweep == 0:
+            tolerance = max(TOLERANCE_M_S, ENOUGH * worst)
+        if worst < tolerance:
+            return sweep + 1
+    return MAX_SWEEPS
+
+
+@compiled
+def _add_impulses(motion: Motion, candidates: Candidates, touch: Touch, load: Array) -> None:
+    """Add the impulses of the floor and between rods, N s, to `load` (3, nodes)."""
+    contacts = touch.contacts
+    for i in touch.floor:
+        for c in range(3):
+            load[c, i] += motion.floor_impulse[c, i]
+    for n in range(touch.count):
+        push = candidates.impulse[contacts.pair[n]]
+        for k in range(4):
+            for c in range(3):
+                load[c, contacts.base[0, n] + k] += contacts.weights[0, n, k] * push[c]
+                load[c, contacts.base[1, n] + k] -= contacts.weights[1, n, k] * push[c]
+
+
+@compiled
+def _velocities(bodies: Bodies, operator: Operator, motion: Motion, load: Array, v: Array) -> None:
+    """What velocities a load, in N s, gives to the rods with the tension that they have; lengths are not kept."""
+    v[:] = load
+    add_tension(bodies, motion, operator.step, v)
+    for i in range(len(bodies.mass)):
+        if bodies.pinned[i]:
+            v[:, i] = 0.0
+    for rod in range(len(bodies.length)):
+        solve(bodies, operator.factors, rod, v)
+
+
+@compiled
+def find_impulses(
+    bodies: Bodies,
+    operator: Operator,
+    motion: Motion,
+    world: World,
+    candidates: Candidates,
+    touch: Touch,
+    scratch: Scratch,
+) -> int:
+    """Find the impulses of all contacts, starting from those of the step before.
+
+    Args:
+        bodies: the rods.
+        operator: of this time step.
+        motion: `floor_impulse` is changed.
+        world: how strong friction is.
+        candidates: `impulse` is changed.
+        touch: what touches.
+        scratch: `momentum` is read; `load` and `v` receive it with all impulses, and the velocities that it gives.
+
+    Returns:
+        How many sweeps it took.
+    """
+    load, v = scratch.load, scratch.v
+    load[:] = scratch.momentum
+    _add_impulses(motion, candidates, touch, load)
+    _velocities(bodies, operator, motion, load, v)
+    total = 0
+    for _ in range(MAX_ROUNDS if touch.count > 0 or len(touch.floor) > 0 else 0):
+        sweeps = _sweep(bodies, operator, motion, world, candidates, touch, v)
+        total += sweeps
+        load[:] = scratch.momentum
+        _add_impulses(motion, candidates, touch, load)
+        _velocities(bodies, operator, motion, load, v)
+        if sweeps == 1:
+            break
+    return total
