@@ -31,14 +31,16 @@ class Candidates(NamedTuple):
 
 
 @compiled
-def closest(x: Array, i: int, j: int, out: Array) -> None:
+def closest(x: Array, i: int, j: int) -> tuple[float, float]:
     """Where segments i and j are closest (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
 
     Args:
         x: (3, nodes).
         i: first node of one segment.
         j: first node of the other.
-        out: (2,) receives the fractions along them, in [0, 1].
+
+    Returns:
+        The fractions along them, in [0, 1].
     """
     d1x, d1y, d1z = x[0, i + 1] - x[0, i], x[1, i + 1] - x[1, i], x[2, i + 1] - x[2, i]
     d2x, d2y, d2z = x[0, j + 1] - x[0, j], x[1, j + 1] - x[1, j], x[2, j + 1] - x[2, j]
@@ -59,18 +61,16 @@ def closest(x: Array, i: int, j: int, out: Array) -> None:
     elif t > 1.0:
         t = 1.0
         s = min(max((b - c) / a, 0.0), 1.0)
-    out[0] = s
-    out[1] = t
+    return s, t
 
 
 @compiled
 def _distance(x: Array, i: int, j: int) -> float:
-    out = np.empty(2)
-    closest(x, i, j, out)
+    s, t = closest(x, i, j)
     total = 0.0
     for c in range(3):
-        p = x[c, i] + out[0] * (x[c, i + 1] - x[c, i])
-        q = x[c, j] + out[1] * (x[c, j + 1] - x[c, j])
+        p = x[c, i] + s * (x[c, i + 1] - x[c, i])
+        q = x[c, j] + t * (x[c, j + 1] - x[c, j])
         total += (p - q) * (p - q)
     return float(np.sqrt(total))
 
@@ -130,7 +130,7 @@ def _may_touch(bodies: Bodies, x: Array, spheres: Array, i: int, j: int, margin:
         return False
     if j + 1 == len(bodies.owner) or bodies.owner[j + 1] != bodies.owner[j] or _are_neighbours(bodies, i, j):
         return False
-    return _distance(x, i, j) < bodies.radius[bodies.owner[i]] + bodies.radius[bodies.owner[j]] + margin
+    return bool(_distance(x, i, j) < bodies.radius[bodies.owner[i]] + bodies.radius[bodies.owner[j]] + margin)
 
 
 @compiled

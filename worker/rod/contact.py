@@ -124,10 +124,10 @@ def _respond(bodies: Bodies, operator: Operator, contacts: Contacts, side: int, 
 
 @compiled
 def _is_far(
-    bodies: Bodies, motion: Motion, i: int, j: int, fractions: Array, step: float, margin: float, normal: Array
+    bodies: Bodies, motion: Motion, i: int, j: int, at: tuple[float, float], step: float, margin: float, normal: Array
 ) -> bool:
     """Whether two segments, by their chords, can't touch in this step; `normal` is then set by the chords."""
-    s, t = fractions[0], fractions[1]
+    s, t = at
     x, v = motion.x, motion.v
     squared = fast = 0.0
     for c in range(3):
@@ -153,17 +153,15 @@ def gather_contacts(
 ) -> int:
     """Fill in the contacts of this step: all candidates with surfaces nearer than `margin`; returns their number."""
     x = motion.x
-    fractions = np.empty(2)
     count = 0
     for pair in range(len(candidates.one)):
         i, j = candidates.one[pair], candidates.other[pair]
-        closest(x, i, j, fractions)
+        s, t = closest(x, i, j)
         normal = contacts.normal[count]
-        if _is_far(bodies, motion, i, j, fractions, operator.step, margin, normal):
+        if _is_far(bodies, motion, i, j, (s, t), operator.step, margin, normal):
             candidates.impulse[pair] = 0.0
             candidates.normal[pair] = normal
             continue
-        s, t = fractions[0], fractions[1]
         base_i = _weigh(bodies, i, s, contacts.weights[0, count])
         base_j = _weigh(bodies, j, t, contacts.weights[1, count])
         squared = 0.0

@@ -10,7 +10,7 @@ from worker.rod.simulation import DivergedError, RodSimulation
 from worker.shapes import CableShapes, bent_rod
 
 INTERNAL_DAMPING_S = 0.01
-"""Time constant of the cables' internal damping: a loss factor of 0.1 to 0.4 at the 5 to 20 Hz at which bridges swing."""
+"""Time constant of the cables' internal damping: stranded ones swing hardly more than once."""
 
 REST_RMS_M_S = 0.5e-3
 REST_FASTEST_M_S = 2.5e-3
@@ -91,7 +91,7 @@ def curvature_at_rest(nodes: Array) -> Array:
 
 
 def _breeze(wind: Wind, landing_s: float) -> Breeze:
-    """The wind blows until the highest cable has fallen: it pushes the cables while they fall, and they come to rest."""
+    """Wind that blows until the highest cable has fallen: it pushes the cables while they fall, not for ever."""
     bearing, tilt = np.radians(wind.bearing_deg), np.radians(wind.tilt_deg)
     direction = np.array([-np.sin(tilt) * np.cos(bearing), -np.sin(tilt) * np.sin(bearing), np.cos(tilt)])
     gusts = [(gust.share, 2 * np.pi / gust.period_s, np.radians(gust.phase_deg)) for gust in wind.gusts]

@@ -28,10 +28,13 @@ ENOUGH = 0.02
 
 
 class Touch(NamedTuple):
-    """What touches in this step: the first `count` of the contacts, and nodes near the floor."""
+    """What touches in this step: the first `pairs` of the contacts, and nodes near the floor.
+
+    Loops take its parts as arguments: out of a nested tuple, compiled code would count references at every access.
+    """
 
     contacts: Contacts
-    count: int
+    pairs: int
     floor: Integers
 
 
@@ -48,14 +51,20 @@ def _push(contacts: Contacts, side: int, n: int, sign: float, impulse: Array, v:
 
 @compiled
 def _sweep_contacts(
-    bodies: Bodies, touch: Touch, candidates: Candidates, friction: float, sweep: int, stirred: Integers, v: Array
+    bodies: Bodies,
+    contacts: Contacts,
+    pairs: int,
+    candidates: Candidates,
+    friction: float,
+    sweep: int,
+    stirred: Integers,
+    v: Array,
 ) -> float:
     """One pass over all contacts between rods; returns the largest change of a relative velocity, m/s."""
-    contacts, count = touch.contacts, touch.count
     worst = 0.0
     change, wanted = np.empty(3), np.empty(3)
-    for step in range(count):
-        n = count - 1 - step if sweep % 2 == 1 else step
+    for step in range(pairs):
+        n = pairs - 1 - step if sweep % 2 == 1 else step
         base_i, base_j = contacts.base[0, n], contacts.base[1, n]
         one, other = bodies.owner[base_i], bodies.owner[base_j]
         if stirred[one] < sweep - 1 and stirred[other] < sweep - 1:
@@ -92,7 +101,9 @@ def _sweep(
     stirred = np.zeros(len(bodies.length), np.int64)
     tolerance = TOLERANCE_M_S
     for sweep in range(MAX_SWEEPS):
-        between = _sweep_contacts(bodies, touch, candidates, world.friction_rods, sweep, stirred, v)
+        between = _sweep_contacts(
+            bodies, touch.contacts, touch.pairs, candidates, world.friction_rods, sweep, stirred, v
+        )
         below = sweep_floor(bodies, operator, motion, touch.floor, world.friction_floor, sweep, stirred, v)
         worst = max(between, below)
         if sweep == 0:
@@ -103,13 +114,14 @@ def _sweep(
 
 
 @compiled
-def _add_impulses(motion: Motion, candidates: Candidates, touch: Touch, load: Array) -> None:
+def _add_impulses(
+    motion: Motion, candidates: Candidates, contacts: Contacts, pairs: int, floor: Integers, load: Array
+) -> None:
     """Add the impulses of the floor and between rods, N s, to `load` (3, nodes)."""
-    contacts = touch.contacts
-    for i in touch.floor:
+    for i in floor:
         for c in range(3):
             load[c, i] += motion.floor_impulse[c, i]
-    for n in range(touch.count):
+    for n in range(pairs):
         push = candidates.impulse[contacts.pair[n]]
         for k in range(4):
             for c in range(3):
@@ -155,14 +167,14 @@ def find_impulses(
     """
     load, v = scratch.load, scratch.v
     load[:] = scratch.momentum
-    _add_impulses(motion, candidates, touch, load)
+    _add_impulses(motion, candidates, touch.contacts, touch.pairs, touch.floor, load)
     _velocities(bodies, operator, motion, load, v)
     total = 0
-    for _ in range(MAX_ROUNDS if touch.count > 0 or len(touch.floor) > 0 else 0):
+    for _ in range(MAX_ROUNDS if touch.pairs > 0 or len(touch.floor) > 0 else 0):
         sweeps = _sweep(bodies, operator, motion, world, candidates, touch, v)
         total += sweeps
         load[:] = scratch.momentum
-        _add_impulses(motion, candidates, touch, load)
+        _add_impulses(motion, candidates, touch.contacts, touch.pairs, touch.floor, load)
         _velocities(bodies, operator, motion, load, v)
         if sweeps == 1:
             break

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from worker.rod.arrays import flatten
+from worker.rod.arrays import Bodies, flatten
 from worker.rod.bending import Operator, operator_for
 from worker.rod.broad_phase import find_candidates, no_candidates
 from worker.rod.model import Array, Rod, Surroundings
@@ -13,6 +13,7 @@ from worker.rod.step import Bounds, Outcome, Tally, advance
 from worker.rod.world import world_of
 
 MAX_HALVINGS = 8
+MAX_EXPLICIT_SHARE = 0.25
 NEVER_RESTS = (-1.0, -1.0, 1)
 
 
@@ -48,7 +49,7 @@ class RodSimulation:
         self._damping = surroundings.damping_s
         self._world = world_of(surroundings)
         self._operators: dict[int, Operator] = {}
-        self._halvings = 0
+        self._least_halvings = self._halvings = _halvings_for_curvature(self._bodies, self.step_s, self._damping)
         self._tally = Tally(counts=np.zeros(6, np.int64), time=np.zeros(1), quiet=np.zeros(1, np.int64))
         skin = 2 * float(self._bodies.radius.max())
         self._candidates = find_candidates(self._bodies, self._motion.x, skin, no_candidates(self._motion.x))
@@ -140,8 +141,9 @@ class RodSimulation:
                 rest_rms=rest[0],
                 rest_fastest=rest[1],
                 rest_steps=rest[2],
-                coarsest=self._halvings == 0,
-                finest=self._halvings == MAX_HALVINGS,
+                horizon=2 * self.step_s,
+                coarsest=self._halvings == self._least_halvings,
+                finest=self._halvings >= MAX_HALVINGS,
             )
             code, self._candidates = advance(
                 self._bodies, operator, self._motion, self._world, self._candidates, self._tally, bounds
@@ -171,3 +173,22 @@ class RodSimulation:
 
     def _part(self, rod: int) -> slice:
         return slice(int(self._bodies.first[rod]), int(self._bodies.first[rod + 1]))
+
+
+def _halvings_for_curvature(bodies: Bodies, step_s: float, damping_s: float) -> int:
+    """How often the step must be halved for the explicit pull towards the natural shape to be stable.
+
+    That pull, EI k q^3 for a wave of number q, acts for h^2 against rho A + h (h + tau) EI q^4; their ratio is greatest
+    at q = (3 rho A / (h (h + tau) EI))^(1/4), where it is 0.57 k (EI h^2 / rho A)^(1/2) / (1 + tau / h)^(3/4) ... with
+    the length (h (h + tau) EI / rho A)^(1/4) of the implicit response.
+    """
+    owner_curvature = np.array(
+        [np.abs(bodies.curvature[a:b]).max() for a, b in zip(bodies.first[:-1], bodies.first[1:], strict=True)]
+    )
+    mass_per_length = bodies.mass[bodies.first[:-1] + 1] / bodies.length
+    for halvings in range(MAX_HALVINGS):
+        h = step_s / 2**halvings
+        response_length = (bodies.stiffness * h * (h + damping_s) / mass_per_length) ** 0.25
+        if np.max(0.57 * h / (h + damping_s) * owner_curvature * response_length) <= MAX_EXPLICIT_SHARE:
+            return halvings
+    return MAX_HALVINGS

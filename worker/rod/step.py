@@ -48,6 +48,7 @@ class Bounds(NamedTuple):
         rest_rms: root mean square speed below which the rods rest, m/s.
         rest_fastest: largest speed below which they do, m/s.
         rest_steps: how many steps they must have rested.
+        horizon: how long before rods land they count as landing, s; whatever the time step is.
         coarsest: whether no greater time step can be had.
         finest: whether no smaller one can be had.
     """
@@ -56,6 +57,7 @@ class Bounds(NamedTuple):
     rest_rms: float
     rest_fastest: float
     rest_steps: int
+    horizon: float
     coarsest: bool
     finest: bool
 
@@ -88,9 +90,21 @@ def _room(nodes: int) -> Scratch:
 
 
 @compiled
-def _fastest_against_mean(v: Array) -> float:
+def _is_landing(bodies: Bodies, motion: Motion, horizon: float) -> bool:
+    """Whether a node may meet the floor within a time, in s."""
+    for i in range(len(bodies.owner)):
+        if motion.x[2, i] - bodies.radius[bodies.owner[i]] + horizon * motion.v[2, i] < 0.0:
+            return True
+    return False
+
+
+@compiled
+def _fastest(v: Array, against_mean: bool) -> float:
+    """Largest speed, or largest difference from the mean velocity: rods that fall together do not meet."""
     nodes = v.shape[1]
-    mx, my, mz = v[0].mean(), v[1].mean(), v[2].mean()
+    mx = my = mz = 0.0
+    if against_mean:
+        mx, my, mz = v[0].mean(), v[1].mean(), v[2].mean()
     worst = 0.0
     for i in range(nodes):
         ax, ay, az = v[0, i] - mx, v[1, i] - my, v[2, i] - mz
@@ -137,7 +151,7 @@ def _make_step(
 ) -> None:
     h, nodes = operator.step, len(bodies.mass)
     tally.counts[1] += find_impulses(bodies, operator, motion, world, candidates, touch, scratch)
-    tally.counts[4] += touch.count
+    tally.counts[4] += touch.pairs
     for c in range(3):
         for i in range(nodes):
             scratch.start[c, i] = motion.x[c, i]
@@ -197,7 +211,8 @@ def advance(
     scratch = _room(len(bodies.mass))
     contacts = room_for_contacts(len(candidates.one) + 1, operator)
     for _ in range(bounds.steps):
-        relative = operator.step * _fastest_against_mean(motion.v)
+        landing = world.floor and _is_landing(bodies, motion, bounds.horizon)
+        relative = operator.step * _fastest(motion.v, not landing)
         # Both of a pair may move, and gravity adds to it within the step.
         near = 2 * relative + 0.1 * smallest
         if drift(motion.x, candidates.built_at) + near > skin:
