@@ -122,15 +122,25 @@ def _are_neighbours(bodies: Bodies, i: int, j: int) -> bool:
 
 
 @compiled
-def _may_touch(bodies: Bodies, x: Array, spheres: Array, i: int, j: int, margin: float) -> bool:
+def _may_touch(bodies: Bodies, x: Array, i: int, j: int, margin: float) -> bool:
     """Whether the surfaces of two segments are nearer than `margin`, and they are no neighbours."""
-    dx, dy, dz = spheres[j, 0] - spheres[i, 0], spheres[j, 1] - spheres[i, 1], spheres[j, 2] - spheres[i, 2]
-    apart = spheres[i, 3] + spheres[j, 3] + margin
-    if dx * dx + dy * dy + dz * dz > apart * apart:
-        return False
     if j + 1 == len(bodies.owner) or bodies.owner[j + 1] != bodies.owner[j] or _are_neighbours(bodies, i, j):
         return False
     return bool(_distance(x, i, j) < bodies.radius[bodies.owner[i]] + bodies.radius[bodies.owner[j]] + margin)
+
+
+@compiled
+def _near_spheres(spheres: Array, i: int, members: Integers, margin: float, near: Integers) -> int:
+    """Those of `members`, > i, whose spheres are nearer than `margin` to that of segment i; returns their number."""
+    count = 0
+    for j in members:
+        if j > i:
+            dx, dy, dz = spheres[j, 0] - spheres[i, 0], spheres[j, 1] - spheres[i, 1], spheres[j, 2] - spheres[i, 2]
+            apart = spheres[i, 3] + spheres[j, 3] + margin
+            if dx * dx + dy * dy + dz * dz <= apart * apart:
+                near[count] = j
+                count += 1
+    return count
 
 
 @compiled
@@ -149,21 +159,22 @@ def find_candidates(bodies: Bodies, x: Array, margin: float, before: Candidates)
     rows = (len(starts) - 1) // columns
     spheres = _bounding_spheres(bodies, x)
     keys = np.empty(8 * nodes, np.int64)
+    near = np.empty(nodes, np.int64)
     count = 0
     for i in range(nodes - 1):
         if bodies.owner[i + 1] != bodies.owner[i]:
             continue
         row, column = cell[i] // columns, cell[i] % columns
+        left, right = max(0, column - 1), min(columns, column + 2)
         for neighbour_row in range(max(0, row - 1), min(rows, row + 2)):
-            for neighbour_column in range(max(0, column - 1), min(columns, column + 2)):
-                there = neighbour_row * columns + neighbour_column
-                for k in range(starts[there], starts[there + 1]):
-                    j = members[k]
-                    if j > i and _may_touch(bodies, x, spheres, i, j, margin):
-                        if count == len(keys):
-                            keys = _longer(keys)
-                        keys[count] = i * nodes + j
-                        count += 1
+            # The cells of a row follow each other, and so do their members.
+            there = members[starts[neighbour_row * columns + left] : starts[neighbour_row * columns + right]]
+            for k in range(_near_spheres(spheres, i, there, margin, near)):
+                if _may_touch(bodies, x, i, near[k], margin):
+                    if count == len(keys):
+                        keys = _longer(keys)
+                    keys[count] = i * nodes + near[k]
+                    count += 1
     return _with_memory(np.sort(keys[:count]), before, x)
 
 
