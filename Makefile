@@ -6,10 +6,10 @@ BIN := $(VENV)/bin
 WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench masks stress flower template clean
+.PHONY: help setup demo test lint bench bench-physics masks stress flower template clean
 
 help: ## list the targets
-	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
 
 $(VENV)/installed: pyproject.toml constraints.txt docker/debian-packages.txt
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
@@ -48,6 +48,9 @@ masks: setup ## masks against Cycles renders of 1,024 samples; writes bench/mask
 
 stress: setup ## 560 falls over the whole range of everything; writes bench/stress.json and .png
 	$(BIN)/python -m worker.bench stress --out bench
+
+bench-physics: setup ## time against error of all simulators; writes bench/physics.json and .png
+	$(BIN)/python -m worker.bench physics --out bench
 
 flower: setup ## watch the tasks of a farm in the browser (FARM_BROKER_URL)
 	$(BIN)/farm flower

@@ -13,7 +13,7 @@ from worker.rod.arrays import Bodies, Integers
 from worker.rod.compiled import compiled
 from worker.rod.model import Array
 
-NEGLIGIBLE_RESPONSE = 1e-3
+NEGLIGIBLE_RESPONSE = 5e-3
 """Where the response to a push has fallen to this share of its peak, contacts leave it out while they iterate; the
 exact response is applied at the end of each step."""
 
