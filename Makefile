@@ -17,9 +17,10 @@ $(VENV)/installed: pyproject.toml constraints.txt docker/debian-packages.txt
 	@docker/missing-packages.sh docker/debian-packages.txt
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[worker,local,flower,dev]'
+	$(BIN)/python -m worker.rod
 	@touch $@
 
-setup: $(VENV)/installed ## make .venv and install the pinned dependencies
+setup: $(VENV)/installed ## make .venv, install the pinned dependencies, compile the rod solver
 
 demo: setup ## render 12 pictures, two of each category, into demo/
 	$(BIN)/farm assets build

@@ -20,6 +20,7 @@ from assets.surfaces.catalogue import SURFACES
 from assets.surfaces.maps import SurfaceMaps
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 from farm.errors import AssetError
+from farm.machine import cache_folder
 
 RECORD_NAME = "surface.json"
 SMALLEST_EDGE, LARGEST_EDGE = 64, 8192
@@ -114,8 +115,7 @@ def surface_directory() -> Path:
     chosen = os.environ.get("FARM_ASSETS")
     if chosen:
         return Path(chosen).expanduser()
-    cache = os.environ.get("XDG_CACHE_HOME")
-    return (Path(cache) if cache else Path.home() / ".cache") / "cable-farm" / "surfaces"
+    return cache_folder() / "surfaces"
 
 
 def bake_surfaces(

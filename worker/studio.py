@@ -148,5 +148,6 @@ def _versions() -> dict[str, str]:
         "blender": bpy.app.version_string,
         "numpy": np.__version__,
         "scipy": version("scipy"),
+        "numba": version("numba"),
         "opencv": version("opencv-contrib-python-headless"),
     }

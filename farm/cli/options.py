@@ -13,6 +13,7 @@ import typer
 
 from farm.description import Description, describe, parse_quotas
 from farm.errors import SpecError
+from farm.fall import Simulator
 from farm.spec import Engine, Quality
 
 _DATASET = "What to make"
@@ -72,6 +73,7 @@ class DatasetOptions:
     resolution: Annotated[int | None, typer.Option(help="Edge of a picture, px.", rich_help_panel=_DATASET)] = None
     engine: Annotated[Engine | None, typer.Option(help="Render engine.", rich_help_panel=_DATASET)] = None
     quality: Annotated[Quality | None, typer.Option(help="Time against noise.", rich_help_panel=_DATASET)] = None
+    simulator: Annotated[Simulator | None, typer.Option(help="What lets cables fall.", rich_help_panel=_DATASET)] = None
     template: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Your own .blend template.", rich_help_panel=_DATASET)
     ] = None
@@ -109,7 +111,7 @@ class DatasetOptions:
             raise SpecError("give either --images or --quota, not both")
         flags: dict[str, object] = {
             name: getattr(self, name)
-            for name in ("images", "seed", "resolution", "engine", "quality", "close_distributed_hdri")
+            for name in ("images", "seed", "resolution", "engine", "quality", "simulator", "close_distributed_hdri")
             if getattr(self, name) is not None
         }
         if self.quota:

@@ -1,4 +1,4 @@
-"""`python -m worker.bench stages|masks|stress --out DIR`."""
+"""`python -m worker.bench stages|masks|stress|physics --out DIR`."""
 
 import argparse
 import sys
@@ -22,6 +22,8 @@ def main(arguments: list[str]) -> int:
     stress.add_argument("--runs", type=int, help="how many scenes")
     stress.add_argument("--only", type=int, help="play this scene alone")
     stress.add_argument("--processes", type=int, help="at the same time")
+    physics = commands.add_parser("physics", parents=[shared], help="time against error of all simulators")
+    physics.add_argument("--scenes", type=int, help="most scenes for each setting")
     options = parser.parse_args(arguments)
     options.out.mkdir(parents=True, exist_ok=True)
     try:
@@ -32,11 +34,18 @@ def main(arguments: list[str]) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    """Run it with no more imported than it needs: Blender must stay out of the processes of the stress test."""
+    """Run it with no more imported than it needs.
+
+    Blender must stay out of the stress test's processes, and find itself on one core in the comparison of simulators.
+    """
     if options.benchmark == "stress":
         from worker.bench.stress.command import run  # noqa: PLC0415
 
         return run(options.out, seed=options.seed, runs=options.runs, only=options.only, processes=options.processes)
+    if options.benchmark == "physics":
+        from worker.bench.physics.command import run as run_physics  # noqa: PLC0415
+
+        return run_physics(options.out, seed=options.seed, scenes=options.scenes)
     from worker.bench import masks, stages  # noqa: PLC0415
 
     benchmark = {"stages": stages.run, "masks": masks.run}[options.benchmark]

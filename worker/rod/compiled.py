@@ -6,7 +6,11 @@ are the same bits in every process.
 """
 
 import hashlib
+import os
+import shutil
+import tempfile
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import TypeVar, cast
 
@@ -17,6 +21,40 @@ from farm.machine import cache_folder
 Function = TypeVar("Function", bound=Callable[..., object])
 
 
+def compiled(function: Function) -> Function:
+    """Compile a function on its first call, or load it from disk."""
+    return cast("Function", numba.njit(cache=True, error_model="numpy")(function))
+
+
+def kept_in() -> Path:
+    """The folder of the compiled code: below FARM_COMPILED, or the user's cache folder.
+
+    A folder that can't be written, as in a container's read-only image, is copied to the user's cache folder first:
+    numba does not read from where it can't write.
+    """
+    fingerprint = _fingerprint()
+    own = cache_folder() / "compiled" / fingerprint
+    chosen = os.environ.get("FARM_COMPILED")
+    if not chosen:
+        return own
+    kept = Path(chosen) / fingerprint
+    if not kept.is_dir() or os.access(kept, os.W_OK):
+        return kept
+    if not own.is_dir():
+        _copy(kept, own)
+    return own
+
+
+def _copy(source: Path, target: Path) -> None:
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=target.parent) as folder:
+        copy = Path(folder) / "copy"
+        shutil.copytree(source, copy)
+        # Another process may have been faster.
+        with suppress(OSError):
+            copy.rename(target)
+
+
 def _fingerprint() -> str:
     digest = hashlib.sha256(numba.__version__.encode())
     for source in sorted(Path(__file__).parent.glob("*.py")):
@@ -24,9 +62,4 @@ def _fingerprint() -> str:
     return digest.hexdigest()[:16]
 
 
-numba.config.CACHE_DIR = str(cache_folder() / "compiled" / _fingerprint())
-
-
-def compiled(function: Function) -> Function:
-    """Compile a function on its first call, or load it from disk."""
-    return cast("Function", numba.njit(cache=True, error_model="numpy")(function))
+numba.config.CACHE_DIR = str(kept_in())

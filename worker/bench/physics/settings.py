@@ -1,0 +1,79 @@
+"""Which settings of which simulator are compared, and on how many cables."""
+
+from dataclasses import dataclass
+
+from farm.fall import ClothFall, Fall, RodFall, Simulator
+
+COUNTS = (1, 2, 4, 8)
+"""Numbers of cables that a picture may show."""
+
+COMPARED_COUNT = 8
+"""The number of cables for which simulators are compared."""
+
+CROWDS = (16, 32)
+"""More cables than a picture shows, for the rod solver's default alone: how its cost grows."""
+
+DEFAULT_SCENES = 6
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """One row of the comparison.
+
+    Attributes:
+        name: what is set, in a few characters; unique for its simulator.
+        is_default: whether the farm takes it unless told otherwise.
+        most_scenes: a slow one is played on the first so many scenes only.
+        counts: numbers of cables.
+    """
+
+    simulator: Simulator
+    name: str
+    fall: Fall
+    is_default: bool = False
+    most_scenes: int = 1000
+    counts: tuple[int, ...] = COUNTS
+
+
+def rod_settings() -> tuple[Setting, ...]:
+    """One thing varied at a time about the default, and the cheapest of both together."""
+    default = RodFall()
+    steps, radii = default.steps_per_s, default.segment_radii
+    pairs = [(250, radii), (500, radii), (steps, radii), (2000, radii), (4000, radii)]
+    pairs += [(steps, 3.0), (steps, 6.0), (250, 6.0)]
+    return tuple(_rod(RodFall(steps_per_s=each, segment_radii=length), default) for each, length in pairs)
+
+
+def cloth_settings() -> tuple[Setting, ...]:
+    """Qualities of the joined cloth, then the published set-up at Blender's."""
+    pairs = [(5, 4), (5, 8), (10, 4), (10, 8), (20, 4), (20, 8), (40, 8)]
+    published = Setting(
+        Simulator.CLOTH_PUBLISHED, "q 5", Fall(cloth=ClothFall(quality=5)), is_default=True, most_scenes=2
+    )
+    return (*(_cloth(quality, collisions) for quality, collisions in pairs), published)
+
+
+def all_settings() -> tuple[Setting, ...]:
+    """Of all simulators."""
+    return rod_settings() + cloth_settings()
+
+
+def _rod(fall: RodFall, default: RodFall) -> Setting:
+    return Setting(
+        simulator=Simulator.ROD,
+        name=f"{fall.steps_per_s}/s {fall.segment_radii:g}r",
+        fall=Fall(rod=fall),
+        is_default=fall == default,
+        counts=COUNTS + CROWDS if fall == default else COUNTS,
+    )
+
+
+def _cloth(quality: int, collision_quality: int) -> Setting:
+    fall = ClothFall(quality=quality, collision_quality=collision_quality)
+    return Setting(
+        simulator=Simulator.CLOTH,
+        name=f"q {quality} c {collision_quality}",
+        fall=Fall(cloth=fall),
+        is_default=fall == ClothFall(),
+        most_scenes=3 if quality > 20 else 1000,
+    )
