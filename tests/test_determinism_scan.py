@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-STAGES = ["randomize", "simulate", "check", "label", "realize", "render", "studio", "shapes", "strip", "tube"]
+STAGES = ["randomize", "simulate", "check", "label", "realize", "render", "studio", "shapes", "gates", "tube"]
 FILES = [
     *(ROOT / "worker" / f"{stage}.py" for stage in STAGES),
+    *(file for part in ("rod", "cloth", "physics") for file in sorted((ROOT / "worker" / part).rglob("*.py"))),
     *sorted((ROOT / "blend").rglob("*.py")),
     *sorted((ROOT / "assets").rglob("*.py")),
 ]

@@ -22,10 +22,13 @@ def test_a_bent_rod_keeps_its_length(bends: list[float]) -> None:
     assert 0.4 * (1 - (25 * 0.005) ** 2 / 24) - 1e-6 <= length <= 0.4 + 1e-9
 
 
-def test_a_constant_bend_gives_a_circular_arc() -> None:
-    """Curvature k over length L gives a chord of 2/k sin(kL/2)."""
+def test_a_constant_bend_gives_a_regular_polygons_arc() -> None:
+    """N edges of length l that each turn by k l span a chord of l sin(N k l / 2) / sin(k l / 2)."""
     rod = bent_rod(0.4, (5.0, 5.0, 5.0), 81)
-    assert np.linalg.norm(rod[-1] - rod[0]) == pytest.approx(2 / 5 * np.sin(5 * 0.4 / 2), rel=1e-5)
+    edge, turn = 0.4 / 80, 5.0 * 0.4 / 80
+    chord = edge * np.sin(80 * turn / 2) / np.sin(turn / 2)
+    assert np.linalg.norm(rod[-1] - rod[0]) == pytest.approx(chord, rel=1e-12)
+    assert np.linalg.norm(np.diff(rod, axis=0), axis=1) == pytest.approx(np.full(80, edge), rel=1e-12)
 
 
 def test_a_bent_rod_heads_along_x_with_its_middle_at_the_origin() -> None:

@@ -13,9 +13,9 @@ from worker.rod.arrays import Bodies, Integers
 from worker.rod.compiled import compiled
 from worker.rod.model import Array
 
-NEGLIGIBLE_RESPONSE = 5e-3
-"""Where the response to a push has fallen to this share of its peak, contacts leave it out while they iterate; the
-exact response is applied at the end of each step."""
+NEGLIGIBLE_RESPONSE = 0.01
+"""This share of a push's response, that of the farthest nodes, is left out while contacts iterate; after each round of
+sweeps the impulses act in full."""
 
 
 class Operator(NamedTuple):
@@ -26,6 +26,7 @@ class Operator(NamedTuple):
         bands: (3, nodes) diagonal of A and the two above it, kg.
         factors: (3, nodes) of A = L D L^T: 1/D, and the two diagonals below that of L.
         reach: (rods,) nodes on either side of a push that respond to it.
+        coupling: (rods,) change of velocity of all nodes together when a push changes that of its own node by one.
         response: (nodes, 2 max(reach) + 1) velocity per impulse around the pushed node, 1/kg.
     """
 
@@ -33,6 +34,7 @@ class Operator(NamedTuple):
     bands: Array
     factors: Array
     reach: Integers
+    coupling: Array
     response: Array
 
 
@@ -127,8 +129,8 @@ def _unit_response(bodies: Bodies, factors: Array, rod: int, node: int, column: 
 
 
 @compiled
-def _reach(bodies: Bodies, factors: Array, reach: Integers) -> None:
-    """How far the response in the middle of each rod is not negligible."""
+def _reach(bodies: Bodies, factors: Array, reach: Integers, coupling: Array) -> None:
+    """How far the response to a push on each rod's middle is not negligible."""
     for rod in range(len(bodies.length)):
         first, end = bodies.first[rod], bodies.first[rod + 1]
         middle = (first + end) // 2
@@ -136,13 +138,18 @@ def _reach(bodies: Bodies, factors: Array, reach: Integers) -> None:
             middle += 1
         column = np.zeros(end - first)
         _unit_response(bodies, factors, rod, middle, column)
-        peak = abs(column[middle - first])
-        reach[rod] = 2
-        for j in range(end - first):
-            distance = abs(j + first - middle)
-            if abs(column[j]) > NEGLIGIBLE_RESPONSE * peak and distance > reach[rod]:
-                reach[rod] = distance
-        reach[rod] = min(reach[rod], end - first - 1)
+        # Many pushes on a stiff rod add up, so it is the sum of what is left out that must be small.
+        coupling[rod] = np.abs(column).sum() / abs(column[middle - first])
+        left_out = NEGLIGIBLE_RESPONSE * np.abs(column).sum()
+        far = end - first - 1
+        while far > 2:
+            for j in (middle - first - far, middle - first + far):
+                if 0 <= j < end - first:
+                    left_out -= abs(column[j])
+            if left_out < 0.0:
+                break
+            far -= 1
+        reach[rod] = far
 
 
 @compiled
@@ -164,7 +171,8 @@ def operator_for(bodies: Bodies, step_s: float, damping_s: float) -> Operator:
     reach = np.zeros(len(bodies.length), np.int64)
     _assemble(bodies, step_s * (step_s + damping_s), bands)
     _factor(bodies, bands, factors)
-    _reach(bodies, factors, reach)
+    coupling = np.zeros(len(bodies.length))
+    _reach(bodies, factors, reach, coupling)
     response = np.zeros((nodes, 2 * int(reach.max()) + 1))
     _respond(bodies, factors, reach, response)
-    return Operator(step=step_s, bands=bands, factors=factors, reach=reach, response=response)
+    return Operator(step=step_s, bands=bands, factors=factors, reach=reach, coupling=coupling, response=response)

@@ -24,8 +24,9 @@ from worker.rod.model import Array
 DEPENETRATION_SHARE = 0.2
 """Of a penetration that is undone in a step."""
 
-LOCAL_CHANGE_M_S = 2e-5
-"""A change of velocity by less is not carried on to the neighbours within the sweeps."""
+SMALL_CHANGE_M_S = 1e-4
+"""A change of velocity is not carried on within the sweeps if over all nodes of a rod it adds up to less: many small
+ones move a stiff rod as a whole."""
 
 NEARBY_SHARE = 0.05
 """Of the margin within which a pair counts as near although it does not approach."""

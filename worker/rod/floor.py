@@ -5,7 +5,7 @@ import numpy as np
 from worker.rod.arrays import Bodies, Integers, Motion, Scratch
 from worker.rod.bending import Operator
 from worker.rod.compiled import compiled
-from worker.rod.contact import LOCAL_CHANGE_M_S, allowed_approach, project_on_cone
+from worker.rod.contact import SMALL_CHANGE_M_S, allowed_approach, project_on_cone
 from worker.rod.lengths import AT_REST, FREE, IN_HEIGHT
 from worker.rod.model import Array
 
@@ -55,7 +55,7 @@ def sweep_floor(
     stirred: Integers,
     v: Array,
 ) -> float:
-    """One pass over all nodes near the floor; returns the largest change of a velocity, m/s."""
+    """One pass over all nodes near the floor; returns the largest change, m/s, summed over a rod."""
     worst = 0.0
     centre = (operator.response.shape[1] - 1) // 2
     change, wanted = np.empty(3), np.empty(3)
@@ -79,13 +79,14 @@ def sweep_floor(
             change[c] = wanted[c] - impulse[c]
             impulse[c] = wanted[c]
             moved = max(moved, abs(change[c]))
-        if moved * compliance <= LOCAL_CHANGE_M_S:
+        moved *= compliance * operator.coupling[rod]
+        if moved <= SMALL_CHANGE_M_S:
             for c in range(3):
                 v[c, node] += compliance * change[c]
         else:
             _push(bodies, operator, node, change, v)
             stirred[rod] = sweep
-            worst = max(worst, moved * compliance)
+            worst = max(worst, moved)
     return worst
 
 

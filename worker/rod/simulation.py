@@ -9,7 +9,7 @@ from worker.rod.arrays import Bodies, flatten
 from worker.rod.bending import Operator, operator_for
 from worker.rod.broad_phase import find_candidates, no_candidates
 from worker.rod.model import Array, Rod, Surroundings
-from worker.rod.step import Bounds, Outcome, Tally, advance
+from worker.rod.step import Bounds, Outcome, Tally, advance, prestress
 from worker.rod.world import world_of
 
 MAX_HALVINGS = 8
@@ -51,6 +51,7 @@ class RodSimulation:
         self._operators: dict[int, Operator] = {}
         self._least_halvings = self._halvings = _halvings_for_curvature(self._bodies, self.step_s, self._damping)
         self._tally = Tally(counts=np.zeros(6, np.int64), time=np.zeros(1), quiet=np.zeros(1, np.int64))
+        prestress(self._bodies, self._operator(), self._motion, self._world)
         skin = 2 * float(self._bodies.radius.max())
         self._candidates = find_candidates(self._bodies, self._motion.x, skin, no_candidates(self._motion.x))
 

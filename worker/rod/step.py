@@ -16,7 +16,7 @@ from worker.rod.contact import Contacts, gather_contacts, room_for_contacts
 from worker.rod.floor import catch_sunk, find_near_floor, hold_on_floor
 from worker.rod.forces import momentum_to_be
 from worker.rod.impulses import Touch, find_impulses
-from worker.rod.lengths import MAX_ITERATIONS, keep_lengths, room_for_system
+from worker.rod.lengths import AT_REST, FREE, MAX_ITERATIONS, keep_lengths, room_for_system
 from worker.rod.model import Array
 from worker.rod.world import World
 
@@ -181,6 +181,19 @@ def _find_touch(
     if world.floor:
         touching = find_near_floor(bodies, motion, operator.step, world.friction_floor, scratch.near_floor)
     return Touch(contacts, count, scratch.near_floor[:touching])
+
+
+@compiled
+def prestress(bodies: Bodies, operator: Operator, motion: Motion, world: World) -> None:
+    """Find the tension that balances the rods where they start: a curved rod at rest is under some."""
+    scratch = _room(len(bodies.mass))
+    momentum_to_be(bodies, motion, world, operator.step, 0.0, scratch.load)
+    scratch.start[:] = motion.x
+    for i in range(len(bodies.mass)):
+        scratch.held[i] = AT_REST if bodies.pinned[i] else FREE
+    for rod in range(len(bodies.length)):
+        keep_lengths(bodies, operator, motion, scratch, rod)
+    motion.x[:] = scratch.start
 
 
 @compiled

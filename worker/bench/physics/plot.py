@@ -16,6 +16,9 @@ from matplotlib import pyplot as plt  # the backend must be chosen first
 from matplotlib.axes import Axes
 
 _MARKS = {Simulator.ROD: "o", Simulator.CLOTH: "s", Simulator.CLOTH_PUBLISHED: "^"}
+_LABELS = {Simulator.ROD: (60, -48), Simulator.CLOTH: (45, 42), Simulator.CLOTH_PUBLISHED: (0, -36)}
+"""Where a default's label stands from its mark, in points: where no other marks are."""
+
 _COLOURS = dict(zip(COUNTS, mpl.colormaps["viridis"](np.linspace(0.9, 0.0, len(COUNTS))), strict=True))
 _BEYOND = 1e4
 """Where an error is drawn that is greater than that, or infinite."""
@@ -47,12 +50,12 @@ def _draw_settings(axes: Axes, rows: Sequence[Row]) -> None:
             axes.annotate(
                 f"{row.setting.simulator}\n{row.setting.name}",
                 (row.cpu_s, min(row.error, _BEYOND)),
-                xytext=(12, 0),
+                xytext=_LABELS[row.setting.simulator],
                 textcoords="offset points",
+                ha="center",
                 va="center",
                 fontsize="small",
-                bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
-                zorder=4,
+                arrowprops={"arrowstyle": "-", "color": "0.5", "linewidth": 0.8, "shrinkB": 6},
             )
     axes.axhline(1.0, color="0.4", linewidth=1, linestyle="--")
     axes.text(0.005, 1.0, "target", transform=axes.get_yaxis_transform(), va="bottom", fontsize="small", color="0.4")
