@@ -15,7 +15,8 @@ for name in sys.argv[1:]: importlib.import_module(name)
 print(*sorted({name.partition(".")[0] for name in sys.modules} & {"bpy", "worker", "blend"}))
 """
 PURE_STAGES = [
-    f"worker.{stage}" for stage in ["randomize", "shapes", "check", "tube", "label", "cloth.strip", "cloth.scale"]
+    f"worker.{stage}"
+    for stage in ["randomize", "shapes", "check", "tube", "label", "gates", "rod.fall", "cloth.strip", "cloth.scale"]
 ]
 ASSETS = ["assets", *(module.name for module in pkgutil.walk_packages(assets.__path__, "assets."))]
 MODULES = ["farm", *(module.name for module in pkgutil.walk_packages(farm.__path__, "farm."))]
