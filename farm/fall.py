@@ -12,7 +12,7 @@ class Simulator(StrEnum):
     """What lets the cables fall.
 
     `ROD` is the farm's own rod solver; `CLOTH` is Blender's cloth, in one joined mesh; `CLOTH_PUBLISHED` is the
-    published set-up of eight cloth objects over 100 frames, for comparison only: its results differ from run to run.
+    published set-up of eight cloth objects over 100 frames, for comparison only: nothing warrants that it repeats.
     """
 
     ROD = "rod"
