@@ -14,6 +14,8 @@ from worker.rod.world import world_of
 
 MAX_HALVINGS = 8
 MAX_EXPLICIT_SHARE = 0.25
+"""Of the explicit pull towards the natural shape in the implicit rest; from 1 on it would be unstable."""
+
 NEVER_RESTS = (-1.0, -1.0, 1)
 
 
@@ -179,9 +181,9 @@ class RodSimulation:
 def _halvings_for_curvature(bodies: Bodies, step_s: float, damping_s: float) -> int:
     """How often the step must be halved for the explicit pull towards the natural shape to be stable.
 
-    That pull, EI k q^3 for a wave of number q, acts for h^2 against rho A + h (h + tau) EI q^4; their ratio is greatest
-    at q = (3 rho A / (h (h + tau) EI))^(1/4), where it is 0.57 k (EI h^2 / rho A)^(1/2) / (1 + tau / h)^(3/4) ... with
-    the length (h (h + tau) EI / rho A)^(1/4) of the implicit response.
+    Against rho A + h (h + tau) EI q^4, the implicit part, a wave of number q is pulled by h^2 EI k q^3. The ratio is
+    greatest at q = 3^(1/4) / a, where it is 0.57 k a h / (h + tau); a = (h (h + tau) EI / rho A)^(1/4) is the length
+    over which the rod responds within a step.
     """
     owner_curvature = np.array(
         [np.abs(bodies.curvature[a:b]).max() for a, b in zip(bodies.first[:-1], bodies.first[1:], strict=True)]
