@@ -49,6 +49,7 @@ class Motion(NamedTuple):
     v: Array
     tension: Array
     floor_impulse: Array
+    touched: NDArray[np.bool_]
 
 
 class Scratch(NamedTuple):
@@ -59,6 +60,8 @@ class Scratch(NamedTuple):
         load: (3, nodes) N s, the same with contact.
         v: (3, nodes) m/s.
         start: (3, nodes) m, where the nodes were at the start of the step.
+        bulge: (nodes,) m, how far the curve leaves the chords; see `worker.rod.narrow_phase`.
+        reach: (nodes,) m, how far around each node contact is looked for; see `worker.rod.narrow_phase`.
         near_floor: (nodes,) the nodes that the floor may touch, the first ones of these.
         held: (nodes,) which nodes lengths are kept against; see `worker.rod.lengths`.
         system: for the equations of `worker.rod.lengths`.
@@ -68,6 +71,8 @@ class Scratch(NamedTuple):
     load: Array
     v: Array
     start: Array
+    bulge: Array
+    reach: Array
     near_floor: Integers
     held: NDArray[np.int8]
     system: Array
@@ -100,5 +105,6 @@ def flatten(rods: Sequence[Rod]) -> tuple[Bodies, Motion]:
         v=np.zeros((3, nodes)),
         tension=np.zeros(nodes),
         floor_impulse=np.zeros((3, nodes)),
+        touched=np.zeros(len(rods), np.bool_),
     )
     return bodies, motion

@@ -176,3 +176,19 @@ def operator_for(bodies: Bodies, step_s: float, damping_s: float) -> Operator:
     response = np.zeros((nodes, 2 * int(reach.max()) + 1))
     _respond(bodies, factors, reach, response)
     return Operator(step=step_s, bands=bands, factors=factors, reach=reach, coupling=coupling, response=response)
+
+
+@compiled
+def energy_of(bodies: Bodies, bands: Array, v: Array) -> float:
+    """v A v / 2 of velocities (3, nodes), J: kinetic energy, and what bending takes up within a step."""
+    total = 0.0
+    for rod in range(len(bodies.length)):
+        for i in range(bodies.first[rod], bodies.first[rod + 1]):
+            for c in range(3):
+                row = 0.5 * bands[0, i] * v[c, i]
+                if i + 1 < bodies.first[rod + 1]:
+                    row += bands[1, i] * v[c, i + 1]
+                if i + 2 < bodies.first[rod + 1]:
+                    row += bands[2, i] * v[c, i + 2]
+                total += row * v[c, i]
+    return total

@@ -1,15 +1,32 @@
-"""Which segments may come into contact: a grid over the floor's plane, and a list that lasts several steps."""
+"""Which segments may come into contact: a list that lasts several steps.
+
+Each node gets a box around the way that it would go within some steps, with its reach (see `worker.rod.narrow_phase`)
+and some slack. Segments whose boxes overlap are listed. The list holds for as long as all nodes, with the reach that
+they have by then, are inside their boxes: whatever made them move, and whether they went all the way or stopped.
+
+Rods that fall together meet as little as if they were at rest. So until they land, boxes move along with the mean.
+"""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from worker.rod.arrays import Bodies, Integers
+from worker.rod.arrays import Bodies, Integers, Motion
+from worker.rod.boxes import RUN, add_overlapping, hulls, pick_overlapping, runs_of, segment_boxes
 from worker.rod.compiled import compiled
 from worker.rod.model import Array
 
 NEIGHBOUR_RADII = 6.0
 """Segments of one rod nearer to each other along it than so many radii never count as touching."""
+
+HORIZON_STEPS = 8.0
+"""How far ahead boxes reach."""
+
+SWEEP_RADII = 8.0
+"""How far ahead boxes reach at most, in the greatest radius: a node that flies off must not be near all others."""
+
+SLACK_RADII = 0.5
+"""How far nodes may leave the way foreseen before the list is made anew, in the greatest radius."""
 
 
 class Candidates(NamedTuple):
@@ -18,202 +35,158 @@ class Candidates(NamedTuple):
     Attributes:
         one: (pairs,) first node of a segment.
         other: (pairs,) first node of another, > one.
-        normal: (pairs, 3) unit vector from the other to the one when last seen; 0 if never.
+        normal: (pairs, 3) from the other to the one when last seen, a unit vector if they were near; 0 if never seen.
         impulse: (pairs, 3) N s on the one in the last step.
-        built_at: (3, nodes) where the nodes were when the list was made.
+        low: (3, nodes) least coordinates of the box around each node, m.
+        high: (3, nodes) greatest.
+        middle: (3,) mean of the nodes when the list was made, m.
     """
 
     one: Integers
     other: Integers
     normal: Array
     impulse: Array
-    built_at: Array
+    low: Array
+    high: Array
+    middle: Array
+
+
+def no_candidates(nodes: int) -> Candidates:
+    """An empty list that does not hold: no node is inside an empty box."""
+    none, nowhere = np.zeros(0, np.int64), np.full((3, nodes), np.nan)
+    return Candidates(none, none, np.zeros((0, 3)), np.zeros((0, 3)), nowhere, nowhere, np.zeros(3))
 
 
 @compiled
-def closest(x: Array, i: int, j: int) -> tuple[float, float]:
-    """Where segments i and j are closest (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
+def middle_of(x: Array) -> Array:
+    """(3,): mean of (3, nodes)."""
+    return np.array([x[0].mean(), x[1].mean(), x[2].mean()])
+
+
+@compiled
+def still_hold(candidates: Candidates, x: Array, reach: Array, together: bool) -> bool:
+    """Whether all nodes are inside their boxes, with their reach; `together`, if these move along with the mean."""
+    low, high = candidates.low, candidates.high
+    moved = middle_of(x) - candidates.middle if together else np.zeros(3)
+    for c in range(3):
+        inside = True
+        for i in range(x.shape[1]):
+            at = x[c, i] - moved[c]
+            inside &= (at - reach[i] >= low[c, i]) & (at + reach[i] <= high[c, i])
+        if not inside:
+            return False
+    return True
+
+
+@compiled
+def find_candidates(
+    bodies: Bodies, motion: Motion, frame: Array, step: float, reach: Array, before: Candidates
+) -> Candidates:
+    """List all pairs of segments that may touch in the next steps; what `before` remembers of them is kept.
 
     Args:
-        x: (3, nodes).
-        i: first node of one segment.
-        j: first node of the other.
-
-    Returns:
-        The fractions along them, in [0, 1].
+        bodies: the rods.
+        motion: where they are, and how fast.
+        frame: (3,) velocity that all rods share, m/s.
+        step: s.
+        reach: (nodes,) of each node in the first of these steps, m.
+        before: the list until now.
     """
-    d1x, d1y, d1z = x[0, i + 1] - x[0, i], x[1, i + 1] - x[1, i], x[2, i + 1] - x[2, i]
-    d2x, d2y, d2z = x[0, j + 1] - x[0, j], x[1, j + 1] - x[1, j], x[2, j + 1] - x[2, j]
-    rx, ry, rz = x[0, i] - x[0, j], x[1, i] - x[1, j], x[2, i] - x[2, j]
-    a = d1x * d1x + d1y * d1y + d1z * d1z
-    e = d2x * d2x + d2y * d2y + d2z * d2z
-    f = d2x * rx + d2y * ry + d2z * rz
-    c = d1x * rx + d1y * ry + d1z * rz
-    b = d1x * d2x + d1y * d2y + d1z * d2z
-    denominator = a * e - b * b
-    s = 0.0
-    if denominator > 1e-9 * a * e:
-        s = min(max((b * f - c * e) / denominator, 0.0), 1.0)
-    t = (b * s + f) / e
-    if t < 0.0:
-        t = 0.0
-        s = min(max(-c / a, 0.0), 1.0)
-    elif t > 1.0:
-        t = 1.0
-        s = min(max((b - c) / a, 0.0), 1.0)
-    return s, t
+    low, high = _node_boxes(motion, frame, step, reach, bodies.radius.max())
+    one, other = _overlapping_segments(segment_boxes(low, high, bodies.first), bodies.first, _least_apart(bodies))
+    normal, impulse = _remembered(one, other, before)
+    return Candidates(one, other, normal, impulse, low, high, middle_of(motion.x))
 
 
 @compiled
-def _distance(x: Array, i: int, j: int) -> float:
-    s, t = closest(x, i, j)
-    total = 0.0
+def _node_boxes(motion: Motion, frame: Array, step: float, reach: Array, radius: float) -> tuple[Array, Array]:
+    """Least and greatest coordinates, (3, nodes) m, of where nodes will soon be, with their reach and slack."""
+    x, v = motion.x, motion.v
+    low, high = np.empty_like(x), np.empty_like(x)
+    slack, farthest = SLACK_RADII * radius, SWEEP_RADII * radius
     for c in range(3):
-        p = x[c, i] + s * (x[c, i + 1] - x[c, i])
-        q = x[c, j] + t * (x[c, j + 1] - x[c, j])
-        total += (p - q) * (p - q)
-    return float(np.sqrt(total))
+        for i in range(x.shape[1]):
+            ahead = min(max(HORIZON_STEPS * step * (v[c, i] - frame[c]), -farthest), farthest)
+            low[c, i] = x[c, i] + min(ahead, 0.0) - reach[i] - slack
+            high[c, i] = x[c, i] + max(ahead, 0.0) + reach[i] + slack
+    return low, high
 
 
 @compiled
-def _cells(bodies: Bodies, x: Array, size: float) -> tuple[Integers, Integers, Integers, int]:
-    """Sort segments into square cells: the cell of each node's segment, where cells start, their segments, columns."""
-    nodes = len(bodies.owner)
-    left, bottom = x[0].min(), x[1].min()
-    # Rods that lie far apart would ask for more cells than there are segments; bigger ones serve as well.
-    width, depth = x[0].max() - left, x[1].max() - bottom
-    edge = max(size, np.sqrt(width * depth / (4.0 * nodes)), max(width, depth) / (4.0 * nodes))
-    columns = int(depth / edge) + 1
-    cell = np.empty(nodes, np.int64)
-    starts = np.zeros((int(width / edge) + 1) * columns + 1, np.int64)
-    for i in range(nodes):
-        cell[i] = int((x[0, i] - left) / edge) * columns + int((x[1, i] - bottom) / edge)
-        starts[cell[i] + 1] += 1
-    starts = np.cumsum(starts)
-    fill = starts.copy()
-    members = np.empty(nodes, np.int64)
-    for i in range(nodes):
-        members[fill[cell[i]]] = i
-        fill[cell[i]] += 1
-    return cell, starts, members, columns
+def _least_apart(bodies: Bodies) -> Integers:
+    """(rods,): how many segments apart those of one rod are at least that may touch."""
+    apart: Integers = np.maximum(2, np.ceil(NEIGHBOUR_RADII * bodies.radius / bodies.length) + 1).astype(np.int64)
+    return apart
 
 
 @compiled
-def _bounding_spheres(bodies: Bodies, x: Array) -> Array:
-    """(nodes, 4): middle of the segment that starts at each node, and the radius of a sphere around it."""
-    spheres = np.empty((x.shape[1], 4))
-    for i in range(x.shape[1]):
-        j = min(i + 1, x.shape[1] - 1)
-        squared = 0.0
-        for c in range(3):
-            spheres[i, c] = 0.5 * (x[c, i] + x[c, j])
-            squared += (x[c, i] - x[c, j]) ** 2
-        spheres[i, 3] = 0.5 * np.sqrt(squared) + bodies.radius[bodies.owner[i]]
-    return spheres
+def _overlapping_segments(segments: Array, first: Integers, least_apart: Integers) -> tuple[Integers, Integers]:
+    """All pairs of segments with boxes that overlap, but for neighbours on a rod, in ascending order.
+
+    Boxes around rods are asked first, then those around runs of segments, all in order: so nothing needs sorting.
+
+    Args:
+        segments: (nodes, 6) boxes, m.
+        first: (rods + 1,) number of each rod's first node, and of all nodes.
+        least_apart: (rods,) how many segments apart those of one rod must be.
+    """
+    starts, first_run = runs_of(first)
+    runs = hulls(segments, starts)
+    rods = hulls(runs, first_run)
+    near_rods, rods_here = np.empty(len(rods), np.int64), np.empty(len(rods), np.int64)
+    near_runs, runs_here = np.empty(len(runs), np.int64), np.empty(len(runs), np.int64)
+    one, other = np.empty(8 * len(segments), np.int64), np.empty(8 * len(segments), np.int64)
+    pairs = 0
+    for rod in range(len(rods)):
+        rods_near = add_overlapping(rods, rod, len(rods), rods, rod, near_rods, 0)
+        for run in range(first_run[rod], first_run[rod + 1]):
+            rods_met = pick_overlapping(rods, near_rods, rods_near, runs, run, rods_here)
+            runs_near = _runs_near(runs, run, first_run, rods_here, rods_met, near_runs)
+            if pairs + runs_near * RUN * RUN > len(other):
+                one, other = _longer(one, runs_near * RUN * RUN), _longer(other, runs_near * RUN * RUN)
+            for i in range(starts[run], starts[run + 1]):
+                runs_met = pick_overlapping(runs, near_runs, runs_near, segments, i, runs_here)
+                before = pairs
+                for k in range(runs_met):
+                    begin, end = starts[runs_here[k]], starts[runs_here[k] + 1]
+                    if begin < first[rod + 1]:
+                        begin = max(begin, i + least_apart[rod])
+                    pairs = add_overlapping(segments, begin, end, segments, i, other, pairs)
+                for pair in range(before, pairs):
+                    one[pair] = i
+    return one[:pairs].copy(), other[:pairs].copy()
 
 
 @compiled
-def _are_neighbours(bodies: Bodies, i: int, j: int) -> bool:
-    rod = bodies.owner[i]
-    if rod != bodies.owner[j]:
-        return False
-    between = (abs(i - j) - 1) * bodies.length[rod]
-    return between < NEIGHBOUR_RADII * bodies.radius[rod] or abs(i - j) < 2
-
-
-@compiled
-def _may_touch(bodies: Bodies, x: Array, i: int, j: int, margin: float) -> bool:
-    """Whether the surfaces of two segments are nearer than `margin`, and they are no neighbours."""
-    if j + 1 == len(bodies.owner) or bodies.owner[j + 1] != bodies.owner[j] or _are_neighbours(bodies, i, j):
-        return False
-    return bool(_distance(x, i, j) < bodies.radius[bodies.owner[i]] + bodies.radius[bodies.owner[j]] + margin)
-
-
-@compiled
-def _near_spheres(spheres: Array, i: int, members: Integers, margin: float, near: Integers) -> int:
-    """Those of `members`, > i, whose spheres are nearer than `margin` to that of segment i; returns their number."""
+def _runs_near(runs: Array, run: int, first_run: Integers, rods: Integers, number: int, near: Integers) -> int:
+    """Find those runs of the first so many `rods` whose boxes overlap that of a run, from it on; returns how many."""
     count = 0
-    for j in members:
-        if j > i:
-            dx, dy, dz = spheres[j, 0] - spheres[i, 0], spheres[j, 1] - spheres[i, 1], spheres[j, 2] - spheres[i, 2]
-            apart = spheres[i, 3] + spheres[j, 3] + margin
-            if dx * dx + dy * dy + dz * dz <= apart * apart:
-                near[count] = j
-                count += 1
+    for k in range(number):
+        rod = rods[k]
+        count = add_overlapping(runs, max(run, first_run[rod]), first_run[rod + 1], runs, run, near, count)
     return count
 
 
 @compiled
-def _longer(keys: Integers) -> Integers:
-    """A copy with twice the room."""
-    longer = np.empty(2 * len(keys), np.int64)
-    longer[: len(keys)] = keys
+def _longer(numbers: Integers, least: int) -> Integers:
+    """A copy with twice the room, or at least so much more."""
+    longer = np.empty(len(numbers) + max(len(numbers), least), np.int64)
+    longer[: len(numbers)] = numbers
     return longer
 
 
 @compiled
-def find_candidates(bodies: Bodies, x: Array, margin: float, before: Candidates) -> Candidates:
-    """All pairs of segments with surfaces nearer than `margin`, in m; what `before` remembers of them is kept."""
-    nodes = len(bodies.owner)
-    cell, starts, members, columns = _cells(bodies, x, bodies.length.max() + 2 * bodies.radius.max() + margin)
-    rows = (len(starts) - 1) // columns
-    spheres = _bounding_spheres(bodies, x)
-    keys = np.empty(8 * nodes, np.int64)
-    near = np.empty(nodes, np.int64)
-    count = 0
-    for i in range(nodes - 1):
-        if bodies.owner[i + 1] != bodies.owner[i]:
-            continue
-        row, column = cell[i] // columns, cell[i] % columns
-        left, right = max(0, column - 1), min(columns, column + 2)
-        for neighbour_row in range(max(0, row - 1), min(rows, row + 2)):
-            # The cells of a row follow each other, and so do their members.
-            there = members[starts[neighbour_row * columns + left] : starts[neighbour_row * columns + right]]
-            for k in range(_near_spheres(spheres, i, there, margin, near)):
-                if _may_touch(bodies, x, i, near[k], margin):
-                    if count == len(keys):
-                        keys = _longer(keys)
-                    keys[count] = i * nodes + near[k]
-                    count += 1
-    return _with_memory(np.sort(keys[:count]), before, x)
-
-
-@compiled
-def _with_memory(keys: Integers, before: Candidates, x: Array) -> Candidates:
-    """The pairs of ascending keys i * nodes + j, with what is remembered of those that were there before."""
-    nodes, count = x.shape[1], len(keys)
-    normal, impulse = np.zeros((count, 3)), np.zeros((count, 3))
-    one, other = np.empty(count, np.int64), np.empty(count, np.int64)
+def _remembered(one: Integers, other: Integers, before: Candidates) -> tuple[Array, Array]:
+    """Normals and impulses, (pairs, 3), that a list remembers of pairs; 0 of those that it does not have."""
+    normal, impulse = np.zeros((len(one), 3)), np.zeros((len(one), 3))
+    known_one, known_other, known_normal, known_impulse = before.one, before.other, before.normal, before.impulse
     k = 0
-    for pair in range(count):
-        one[pair], other[pair] = keys[pair] // nodes, keys[pair] % nodes
-        while k < len(before.one) and before.one[k] * nodes + before.other[k] < keys[pair]:
+    for pair in range(len(one)):
+        i, j = one[pair], other[pair]
+        while k < len(known_one) and (known_one[k] < i or (known_one[k] == i and known_other[k] < j)):
             k += 1
-        if k < len(before.one) and before.one[k] * nodes + before.other[k] == keys[pair]:
-            normal[pair] = before.normal[k]
-            impulse[pair] = before.impulse[k]
-    return Candidates(one, other, normal, impulse, x.copy())
-
-
-@compiled
-def drift(x: Array, built_at: Array) -> float:
-    """Twice the farthest that a node has moved against the common motion of all since the list was made, m."""
-    nodes = x.shape[1]
-    mean = np.zeros(3)
-    for c in range(3):
-        for i in range(nodes):
-            mean[c] += x[c, i] - built_at[c, i]
-        mean[c] /= nodes
-    worst = 0.0
-    for i in range(nodes):
-        dx = x[0, i] - built_at[0, i] - mean[0]
-        dy = x[1, i] - built_at[1, i] - mean[1]
-        dz = x[2, i] - built_at[2, i] - mean[2]
-        worst = max(worst, dx * dx + dy * dy + dz * dz)
-    return float(2 * np.sqrt(worst))
-
-
-def no_candidates(x: Array) -> Candidates:
-    """An empty list."""
-    none = np.zeros(0, np.int64)
-    return Candidates(none, none, np.zeros((0, 3)), np.zeros((0, 3)), x.copy())
+        if k < len(known_one) and known_one[k] == i and known_other[k] == j:
+            for c in range(3):
+                normal[pair, c] = known_normal[k, c]
+                impulse[pair, c] = known_impulse[k, c]
+    return normal, impulse

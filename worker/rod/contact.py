@@ -17,19 +17,22 @@ import numpy as np
 
 from worker.rod.arrays import Bodies, Integers, Motion
 from worker.rod.bending import Operator
-from worker.rod.broad_phase import Candidates, closest
+from worker.rod.broad_phase import Candidates
 from worker.rod.compiled import compiled
 from worker.rod.model import Array
+from worker.rod.narrow_phase import find_near
 
 DEPENETRATION_SHARE = 0.2
 """Of a penetration that is undone in a step."""
 
+UNDOING_S = 0.03
+
+DEEP_SHARE = 0.9
+TURN_SHARE = 0.5
+
 SMALL_CHANGE_M_S = 1e-4
 """A change of velocity is not carried on within the sweeps if over all nodes of a rod it adds up to less: many small
 ones move a stiff rod as a whole."""
-
-NEARBY_SHARE = 0.05
-"""Of the margin within which a pair counts as near although it does not approach."""
 
 SLOP_RADII = 0.002
 """Depth that is left as it is: to lift a rod out would give it energy."""
@@ -40,6 +43,7 @@ class Contacts(NamedTuple):
 
     Attributes:
         pair: number of the candidate pair.
+        at: (2, n) where on their segments they are closest, in [0, 1].
         base: (2, n) first of the four nodes on either side.
         weights: (2, n, 4) of these nodes.
         normal: (n, 3) unit vector from the second side to the first.
@@ -51,6 +55,7 @@ class Contacts(NamedTuple):
     """
 
     pair: Integers
+    at: Array
     base: Integers
     weights: Array
     normal: Array
@@ -67,6 +72,7 @@ def room_for_contacts(pairs: int, operator: Operator) -> Contacts:
     widest = operator.response.shape[1] + 3
     return Contacts(
         np.empty(pairs, np.int64),
+        np.empty((2, pairs)),
         np.empty((2, pairs), np.int64),
         np.empty((2, pairs, 4)),
         np.empty((pairs, 3)),
@@ -79,128 +85,174 @@ def room_for_contacts(pairs: int, operator: Operator) -> Contacts:
 
 
 @compiled
-def _weigh(bodies: Bodies, i: int, t: float, weights: Array) -> int:
-    """Weights of four nodes that give the curve's point at fraction t of segment i; returns the first node."""
-    rod = bodies.owner[i]
-    first, end = bodies.first[rod], bodies.first[rod + 1]
+def _weigh(weights: Array, side: int, n: int, i: int, t: float, first: int, end: int) -> int:
+    """Weights of four nodes that give the curve's point at fraction t of segment i; returns the first node.
+
+    They become `weights[side, n]`. The rod's nodes are those from `first` on, before `end`.
+    """
     base = min(max(i - 1, first), end - 4)
-    weights[:] = 0.0
+    for k in range(4):
+        weights[side, n, k] = 0.0
     k = i - base
-    weights[k] = 1 - t
-    weights[k + 1] = t
+    weights[side, n, k] = 1 - t
+    weights[side, n, k + 1] = t
     bulge = -0.5 * t * (1 - t)
     if i > first:
-        weights[k - 1] += bulge * (1 - t)
-        weights[k] -= 2 * bulge * (1 - t)
-        weights[k + 1] += bulge * (1 - t)
+        weights[side, n, k - 1] += bulge * (1 - t)
+        weights[side, n, k] -= 2 * bulge * (1 - t)
+        weights[side, n, k + 1] += bulge * (1 - t)
     if i + 2 < end:
-        weights[k] += bulge * t
-        weights[k + 1] -= 2 * bulge * t
-        weights[k + 2] += bulge * t
+        weights[side, n, k] += bulge * t
+        weights[side, n, k + 1] -= 2 * bulge * t
+        weights[side, n, k + 2] += bulge * t
     return int(base)
 
 
 @compiled
-def _respond(bodies: Bodies, operator: Operator, contacts: Contacts, side: int, n: int) -> float:
-    """Fill in the column of one side of a contact; returns its compliance."""
-    base, weights, column = contacts.base[side, n], contacts.weights[side, n], contacts.column[side, n]
-    rod = bodies.owner[base]
-    reach = operator.reach[rod]
-    centre = (operator.response.shape[1] - 1) // 2
-    low = max(bodies.first[rod], base - reach)
-    high = min(bodies.first[rod + 1], base + 4 + reach)
-    contacts.low[side, n] = low
-    contacts.width[side, n] = high - low
-    column[: high - low] = 0.0
+def _respond(
+    response: Array, reach: int, weights: Array, side: int, n: int, base: int, span: tuple[int, int], column: Array
+) -> float:
+    """Fill in the column of one side of a contact; returns its compliance.
+
+    Args:
+        response: (nodes, width) of the operator, 1/kg.
+        reach: how far it is not negligible, in nodes.
+        weights: (2, n, 4).
+        side: of the contact.
+        n: number of the contact.
+        base: first of the four nodes.
+        span: the first node that responds, and the one after the last.
+        column: (2, n, max); that of the contact is set.
+    """
+    centre = (response.shape[1] - 1) // 2
+    low, high = span
+    for j in range(high - low):
+        column[side, n, j] = 0.0
     for k in range(4):
-        node, weight = base + k, weights[k]
+        node, weight = base + k, weights[side, n, k]
         if weight != 0.0:
             for j in range(max(low, node - reach), min(high, node + reach + 1)):
-                column[j - low] += weight * operator.response[node, j - node + centre]
+                column[side, n, j - low] += weight * response[node, j - node + centre]
     total = 0.0
     for k in range(4):
-        total += weights[k] * column[base + k - low]
+        total += weights[side, n, k] * column[side, n, base + k - low]
     return total
 
 
 @compiled
-def _is_far(
-    bodies: Bodies, motion: Motion, i: int, j: int, at: tuple[float, float], step: float, margin: float, normal: Array
-) -> bool:
-    """Whether two segments, by their chords, can't touch in this step; `normal` is then set by the chords."""
-    s, t = at
-    x, v = motion.x, motion.v
-    squared = fast = 0.0
-    for c in range(3):
-        offset = x[c, i] + s * (x[c, i + 1] - x[c, i]) - x[c, j] - t * (x[c, j + 1] - x[c, j])
-        speed = v[c, i] + s * (v[c, i + 1] - v[c, i]) - v[c, j] - t * (v[c, j + 1] - v[c, j])
-        normal[c] = offset
-        squared += offset * offset
-        fast += speed * speed
-    one, other = bodies.radius[bodies.owner[i]], bodies.radius[bodies.owner[j]]
-    near = min(margin, 1.5 * step * np.sqrt(fast) + NEARBY_SHARE * margin)
-    reach = one + other + near + 0.1 * min(one, other)
-    if squared <= reach * reach:
-        return False
-    distance = np.sqrt(squared)
-    for c in range(3):
-        normal[c] /= distance
-    return True
+def gather_contacts(
+    bodies: Bodies,
+    operator: Operator,
+    motion: Motion,
+    candidates: Candidates,
+    bulge: Array,
+    reach: Array,
+    margin: float,
+    contacts: Contacts,
+) -> int:
+    """Fill in the contacts of this step.
+
+    Args:
+        bodies: the rods.
+        operator: of this time step.
+        motion: where they are, and how fast.
+        candidates: what they remember is changed.
+        bulge: (nodes,) how far the curve leaves the chords, m.
+        reach: (nodes,) how far around each node contact is looked for, m.
+        margin: how far apart surfaces may be that are still looked at, m.
+        contacts: is filled in.
+
+    Returns:
+        How many there are.
+    """
+    x, owner, radius, first = motion.x, bodies.owner, bodies.radius, bodies.first
+    pairs, at, base, weights = contacts.pair, contacts.at, contacts.base, contacts.weights
+    segments, remembered, impulse = (candidates.one, candidates.other), candidates.normal, candidates.impulse
+    near = find_near(bodies, motion, candidates, bulge, reach, operator.step, margin, pairs, at)
+    count = 0
+    for n in range(near):
+        pair = pairs[n]
+        for side in range(2):
+            i = segments[side][pair]
+            rod = owner[i]
+            base[side, count] = _weigh(weights, side, count, i, at[side, n], first[rod], first[rod + 1])
+        one, other = radius[owner[segments[0][pair]]], radius[owner[segments[1][pair]]]
+        _point(x, base, weights, count, contacts.normal)
+        distance = _turn(contacts.normal, count, remembered, pair, one + other)
+        _forget_pull(impulse, pair, contacts.normal, count)
+        compliance = 0.0
+        for side in range(2):
+            rod, middle = owner[base[side, count]], base[side, count]
+            low, high = (
+                max(first[rod], middle - operator.reach[rod]),
+                min(first[rod + 1], middle + 4 + operator.reach[rod]),
+            )
+            contacts.low[side, count], contacts.width[side, count] = low, high - low
+            compliance += _respond(
+                operator.response, operator.reach[rod], weights, side, count, middle, (low, high), contacts.column
+            )
+        if compliance > 0.0:
+            # Never ahead of what is still to be read.
+            pairs[count] = pair
+            contacts.compliance[count] = compliance
+            contacts.approach[count] = allowed_approach(distance - one - other, operator.step, min(one, other))
+            count += 1
+    return count
 
 
 @compiled
-def gather_contacts(
-    bodies: Bodies, operator: Operator, motion: Motion, candidates: Candidates, margin: float, contacts: Contacts
-) -> int:
-    """Fill in the contacts of this step: all candidates with surfaces nearer than `margin`; returns their number."""
-    x = motion.x
-    count = 0
-    for pair in range(len(candidates.one)):
-        i, j = candidates.one[pair], candidates.other[pair]
-        s, t = closest(x, i, j)
-        normal = contacts.normal[count]
-        if _is_far(bodies, motion, i, j, (s, t), operator.step, margin, normal):
-            candidates.impulse[pair] = 0.0
-            candidates.normal[pair] = normal
-            continue
-        base_i = _weigh(bodies, i, s, contacts.weights[0, count])
-        base_j = _weigh(bodies, j, t, contacts.weights[1, count])
-        squared = 0.0
-        for c in range(3):
-            offset = 0.0
-            for k in range(4):
-                offset += contacts.weights[0, count, k] * x[c, base_i + k]
-                offset -= contacts.weights[1, count, k] * x[c, base_j + k]
-            normal[c] = offset
-            squared += offset * offset
-        distance = np.sqrt(squared)
-        one, other = bodies.radius[bodies.owner[i]], bodies.radius[bodies.owner[j]]
-        memory = candidates.normal[pair]
-        if distance < 1e-6 * (one + other):
-            if memory[0] == 0.0 and memory[1] == 0.0 and memory[2] == 0.0:
-                memory[2] = -1.0
-            normal[:] = memory
+def _point(x: Array, base: Integers, weights: Array, n: int, normal: Array) -> None:
+    """Set `normal[n]` to the way from the second side of contact n to the first, m."""
+    for c in range(3):
+        offset = 0.0
+        for k in range(4):
+            offset += weights[0, n, k] * x[c, base[0, n] + k]
+            offset -= weights[1, n, k] * x[c, base[1, n] + k]
+        normal[n, c] = offset
+
+
+@compiled
+def _turn(normal: Array, n: int, memory: Array, pair: int, touching: float) -> float:
+    """Make the way `normal[n]` a unit vector; returns its length, m, negative if the first side is on the wrong one.
+
+    Args:
+        normal: (n, 3) ways from the second side to the first, m.
+        n: number of the contact.
+        memory: (pairs, 3) such ways or unit vectors as last seen; 0 if never. The pair's becomes the unit vector.
+        pair: its number.
+        touching: the distance at which the two touch, m.
+    """
+    squared = known = side = 0.0
+    for c in range(3):
+        squared += normal[n, c] * normal[n, c]
+        known += memory[pair, c] * memory[pair, c]
+        side += normal[n, c] * memory[pair, c]
+    distance, known = np.sqrt(squared), np.sqrt(known)
+    if distance < DEEP_SHARE * touching and side <= TURN_SHARE * distance * known:
+        if known == 0.0:
+            up = 1.0 if normal[n, 2] > 0.05 * touching else -1.0
+            distance = up * normal[n, 2]
+            normal[n, 0], normal[n, 1], normal[n, 2] = 0.0, 0.0, up
         else:
-            side = normal[0] * memory[0] + normal[1] * memory[1] + normal[2] * memory[2]
-            if side < 0.0 and distance < one + other:
-                distance = -distance
+            distance = side / known
             for c in range(3):
-                normal[c] /= distance
-        gap = distance - one - other
-        memory[:] = normal
-        push = candidates.impulse[pair]
-        if push[0] * normal[0] + push[1] * normal[1] + push[2] * normal[2] < 0.0:
-            push[:] = 0.0
-        contacts.pair[count] = pair
-        contacts.base[0, count] = base_i
-        contacts.base[1, count] = base_j
-        contacts.compliance[count] = _respond(bodies, operator, contacts, 0, count)
-        contacts.compliance[count] += _respond(bodies, operator, contacts, 1, count)
-        if contacts.compliance[count] <= 0.0:
-            continue
-        contacts.approach[count] = allowed_approach(gap, operator.step, min(one, other))
-        count += 1
-    return count
+                normal[n, c] = memory[pair, c] / known
+    else:
+        if side < 0.0 and distance < touching:
+            distance = -distance
+        for c in range(3):
+            normal[n, c] /= distance
+    for c in range(3):
+        memory[pair, c] = normal[n, c]
+    return float(distance)
+
+
+@compiled
+def _forget_pull(impulse: Array, pair: int, normal: Array, n: int) -> None:
+    """Set the impulse of a pair, (pairs, 3) N s, to 0 if it would pull along the normal, (n, 3)."""
+    if impulse[pair, 0] * normal[n, 0] + impulse[pair, 1] * normal[n, 1] + impulse[pair, 2] * normal[n, 2] < 0.0:
+        for c in range(3):
+            impulse[pair, c] = 0.0
 
 
 @compiled
@@ -209,7 +261,7 @@ def allowed_approach(gap: float, step: float, radius: float) -> float:
     if gap > 0.0:
         return -gap / step
     depth = max(-gap - SLOP_RADII * radius, 0.0)
-    return float(min(DEPENETRATION_SHARE * depth / step, np.sqrt(9.81 * radius)))
+    return float(min(DEPENETRATION_SHARE * depth / step, depth / UNDOING_S, np.sqrt(9.81 * radius)))
 
 
 @compiled

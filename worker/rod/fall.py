@@ -12,6 +12,8 @@ from worker.shapes import CableShapes, bent_rod
 INTERNAL_DAMPING_S = 0.01
 """Time constant of the cables' internal damping: stranded ones swing hardly more than once."""
 
+RESISTANCE = 0.01
+
 REST_RMS_M_S = 0.5e-3
 REST_FASTEST_M_S = 2.5e-3
 """Half of what gate 4 asks for."""
@@ -57,6 +59,7 @@ def surroundings_of(scene: Scene) -> Surroundings:
         friction_floor=scene.friction.floor,
         friction_rods=scene.friction.cable,
         damping_s=INTERNAL_DAMPING_S,
+        resistance=RESISTANCE,
         breeze=_breeze(scene.wind, landing_s=float(np.sqrt(2 * highest / 9.81))) if scene.wind.speed_m_s > 0 else None,
     )
 

@@ -49,6 +49,7 @@ def sweep_floor(
     bodies: Bodies,
     operator: Operator,
     motion: Motion,
+    start: Array,
     touching: Integers,
     friction: float,
     sweep: int,
@@ -67,7 +68,7 @@ def sweep_floor(
             continue
         compliance = operator.response[node, centre]
         radius = bodies.radius[rod]
-        gap = motion.x[2, node] - radius
+        gap = start[2, node] - radius
         approach = allowed_approach(gap, operator.step, radius)
         impulse = motion.floor_impulse[:, node]
         for c in range(3):
@@ -112,5 +113,19 @@ def catch_sunk(bodies: Bodies, motion: Motion, scratch: Scratch, step: float, ro
         if held[i] == FREE and motion.x[2, i] < min((1 - SUNK_RADII) * radius, start[2, i]):
             held[i] = IN_HEIGHT
             motion.x[2, i] = start[2, i] + step * allowed_approach(start[2, i] - radius, step, radius)
+            found = True
+    return found
+
+
+@compiled
+def let_go_pulled(bodies: Bodies, motion: Motion, scratch: Scratch, rod: int) -> bool:
+    """Let go the nodes that the floor would have to pull; returns whether there are any."""
+    held, load, found = scratch.held, scratch.load, False
+    for i in range(bodies.first[rod], bodies.first[rod + 1]):
+        if held[i] == IN_HEIGHT and motion.floor_impulse[2, i] < 0.0:
+            held[i] = FREE
+            for c in range(3):
+                load[c, i] -= motion.floor_impulse[c, i]
+                motion.floor_impulse[c, i] = 0.0
             found = True
     return found

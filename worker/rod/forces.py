@@ -12,6 +12,10 @@ DRAG_COEFFICIENT = 1.1
 """Of a long cylinder across the flow, Reynolds numbers from 1e2 to 1e5 (Hoerner 1965, "Fluid-Dynamic Drag", ch. 3)."""
 
 
+SKIN_COEFFICIENT = 0.02
+"""Of a long cylinder along the flow, on its diameter: pi 1.328 / sqrt(Re) of a laminar skin, Re = 4e4 (ibid., ch. 2)."""
+
+
 @compiled
 def _add_gravity(bodies: Bodies, gravity: Array, force: Array) -> None:
     """Weight of each node, N, added to `force` (3, nodes)."""
@@ -59,8 +63,11 @@ def add_tension(bodies: Bodies, motion: Motion, step: float, momentum: Array) ->
 
 
 @compiled
-def _add_wind(bodies: Bodies, motion: Motion, air: Array, force: Array) -> None:
-    """Drag on each segment from the air's velocity across it: rho/2 C d l |u| u, half to either node."""
+def _add_wind(bodies: Bodies, motion: Motion, air: Array, step: float, force: Array) -> None:
+    """Drag on each segment from the air's velocity across and along it: rho/2 C d l |u| u each, half to either node.
+
+    As it would be at the end of the step with |u| of its start, so that a light rod is not blown past the air's speed.
+    """
     x, v = motion.x, motion.v
     for i in range(len(bodies.mass) - 1):
         rod = bodies.owner[i]
@@ -75,12 +82,35 @@ def _add_wind(bodies: Bodies, motion: Motion, air: Array, force: Array) -> None:
         uz = air[2] - 0.5 * (v[2, i] + v[2, i + 1])
         along = ux * tx + uy * ty + uz * tz
         ux, uy, uz = ux - along * tx, uy - along * ty, uz - along * tz
-        speed = np.sqrt(ux * ux + uy * uy + uz * uz)
-        half = 0.5 * 0.5 * AIR_DENSITY_KG_M3 * DRAG_COEFFICIENT * 2 * bodies.radius[rod] * length * speed
+        across = np.sqrt(ux * ux + uy * uy + uz * uz)
+        per_speed = 0.5 * AIR_DENSITY_KG_M3 * 2 * bodies.radius[rod] * length
+        mass = max(bodies.mass[i], bodies.mass[i + 1])
+        push = _damped(per_speed * DRAG_COEFFICIENT * across, step, mass)
+        rub = _damped(per_speed * SKIN_COEFFICIENT * abs(along), step, mass) * along
         for j in (i, i + 1):
-            force[0, j] += half * ux
-            force[1, j] += half * uy
-            force[2, j] += half * uz
+            force[0, j] += 0.5 * (push * ux + rub * tx)
+            force[1, j] += 0.5 * (push * uy + rub * ty)
+            force[2, j] += 0.5 * (push * uz + rub * tz)
+
+
+@compiled
+def _damped(drag: float, step: float, mass: float) -> float:
+    """A drag per speed, kg/s, such that within the step it stops a mass against the air, but does not throw it back."""
+    return drag / (1 + step * drag / mass)
+
+
+@compiled
+def _resist(bodies: Bodies, motion: Motion, resistance: float, step: float, momentum: Array) -> None:
+    """Take the momentum that dry resistance stops within the step, N s, off rods that touch something."""
+    for rod in range(len(bodies.length)):
+        if not motion.touched[rod]:
+            continue
+        for i in range(bodies.first[rod], bodies.first[rod + 1]):
+            speed = np.sqrt(motion.v[0, i] ** 2 + motion.v[1, i] ** 2 + motion.v[2, i] ** 2)
+            if speed > 0.0:
+                share = min(resistance * step / speed, 1.0)
+                for c in range(3):
+                    momentum[c, i] -= share * bodies.mass[i] * motion.v[c, i]
 
 
 @compiled
@@ -93,7 +123,9 @@ def momentum_to_be(bodies: Bodies, motion: Motion, world: World, step: float, ti
     if world.drag:
         air = np.empty(3)
         air_velocity(world, time, air)
-        _add_wind(bodies, motion, air, force)
+        _add_wind(bodies, motion, air, step, force)
     for c in range(3):
         for i in range(len(bodies.mass)):
             momentum[c, i] = bodies.mass[i] * motion.v[c, i] + step * force[c, i]
+    if world.resistance > 0.0:
+        _resist(bodies, motion, world.resistance * np.sqrt(np.sum(world.gravity ** 2)), step, momentum)

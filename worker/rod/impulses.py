@@ -8,16 +8,17 @@ from worker.rod.arrays import Bodies, Integers, Motion, Scratch
 from worker.rod.bending import Operator, solve
 from worker.rod.broad_phase import Candidates
 from worker.rod.compiled import compiled
-from worker.rod.contact import SMALL_CHANGE_M_S, Contacts, project_on_cone
+from worker.rod.contact import SMALL_CHANGE_M_S, Contacts, allowed_approach, project_on_cone
 from worker.rod.floor import sweep_floor
 from worker.rod.forces import add_tension
 from worker.rod.model import Array
 from worker.rod.world import World
 
-MAX_ROUNDS = 2
+import os
+MAX_ROUNDS = int(os.environ.get('X_ROUNDS','4'))
 """The sweeps' responses end where they are small; after the sweeps of a round the impulses act in full."""
 
-MAX_SWEEPS = 12
+MAX_SWEEPS = int(os.environ.get('X_SWEEPS','8'))
 """Of a round. What is missing then is made up for in the next step, which starts from these impulses."""
 
 TOLERANCE_M_S = 1.5e-3
@@ -99,16 +100,17 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - out of nested tuples every acce
 
 @compiled
 def _sweep(
-    bodies: Bodies, operator: Operator, motion: Motion, world: World, candidates: Candidates, touch: Touch, v: Array
+    bodies: Bodies, operator: Operator, motion: Motion, world: World, candidates: Candidates, touch: Touch, scratch: Scratch
 ) -> int:
     """Sweep over the contacts until their impulses hardly change; returns how many sweeps it took."""
     stirred = np.zeros(len(bodies.length), np.int64)
+    v = scratch.v
     tolerance = TOLERANCE_M_S
     for sweep in range(MAX_SWEEPS):
         between = _sweep_contacts(
             bodies, operator, touch.contacts, touch.pairs, candidates, world.friction_rods, sweep, stirred, v
         )
-        below = sweep_floor(bodies, operator, motion, touch.floor, world.friction_floor, sweep, stirred, v)
+        below = sweep_floor(bodies, operator, motion, scratch.start, touch.floor, world.friction_floor, sweep, stirred, v)
         worst = max(between, below)
         if sweep == 0:
             tolerance = max(TOLERANCE_M_S, ENOUGH * worst)
@@ -146,40 +148,68 @@ def _velocities(bodies: Bodies, operator: Operator, motion: Motion, load: Array,
 
 
 @compiled
-def find_impulses(
+def predict(
     bodies: Bodies,
     operator: Operator,
     motion: Motion,
-    world: World,
     candidates: Candidates,
     touch: Touch,
     scratch: Scratch,
-) -> int:
-    """Find the impulses of all contacts, starting from those of the step before.
+) -> None:
+    """Velocities at the end of the step if all impulses and tensions were those of the step before.
 
     Args:
         bodies: the rods.
         operator: of this time step.
-        motion: `floor_impulse` is changed.
-        world: how strong friction is.
-        candidates: `impulse` is changed.
+        motion: where they are, and their tension.
+        candidates: the impulses between rods.
         touch: what touches.
         scratch: `momentum` is read; `load` and `v` receive it with all impulses, and the velocities that it gives.
-
-    Returns:
-        How many sweeps it took.
     """
-    load, v = scratch.load, scratch.v
-    load[:] = scratch.momentum
-    _add_impulses(motion, candidates, touch.contacts, touch.pairs, touch.floor, load)
-    _velocities(bodies, operator, motion, load, v)
-    total = 0
-    for _ in range(MAX_ROUNDS if touch.pairs > 0 or len(touch.floor) > 0 else 0):
-        sweeps = _sweep(bodies, operator, motion, world, candidates, touch, v)
-        total += sweeps
-        load[:] = scratch.momentum
-        _add_impulses(motion, candidates, touch.contacts, touch.pairs, touch.floor, load)
-        _velocities(bodies, operator, motion, load, v)
-        if sweeps == 1:
-            break
+    gather_load(motion, candidates, touch, scratch)
+    _velocities(bodies, operator, motion, scratch.load, scratch.v)
+
+
+@compiled
+def gather_load(motion: Motion, candidates: Candidates, touch: Touch, scratch: Scratch) -> None:
+    """Put `momentum` and the impulses of all contacts, N s, into `load`."""
+    scratch.load[:] = scratch.momentum
+    _add_impulses(motion, candidates, touch.contacts, touch.pairs, touch.floor, scratch.load)
+
+
+@compiled
+def correct(
+    bodies: Bodies, operator: Operator, motion: Motion, world: World, candidates: Candidates, touch: Touch, scratch: Scratch
+) -> int:
+    """Change the impulses, and `scratch.v` by what a change does nearby, until they hardly change; returns the sweeps."""
+    return _sweep(bodies, operator, motion, world, candidates, touch, scratch)
+
+
+@compiled
+def work_of_depenetration(bodies: Bodies, operator: Operator, start: Array, motion: Motion, candidates: Candidates, touch: Touch) -> float:
+    """What the impulses of a step do by pushing apart what had cut into each other, J at most."""
+    contacts, total = touch.contacts, 0.0
+    for n in range(touch.pairs):
+        if contacts.approach[n] > 0.0:
+            normal, impulse = contacts.normal[n], candidates.impulse[contacts.pair[n]]
+            along = impulse[0] * normal[0] + impulse[1] * normal[1] + impulse[2] * normal[2]
+            total += contacts.approach[n] * along
+    for i in touch.floor:
+        radius = bodies.radius[bodies.owner[i]]
+        approach = allowed_approach(start[2, i] - radius, operator.step, radius)
+        total += max(approach, 0.0) * motion.floor_impulse[2, i]
     return total
+
+
+@compiled
+def find_touched(bodies: Bodies, motion: Motion, candidates: Candidates, touch: Touch) -> None:
+    """Note which rods were pushed by anything in this step."""
+    motion.touched[:] = False
+    for i in touch.floor:
+        if motion.floor_impulse[2, i] > 0.0:
+            motion.touched[bodies.owner[i]] = True
+    for n in range(touch.pairs):
+        push = candidates.impulse[touch.contacts.pair[n]]
+        if push[0] != 0.0 or push[1] != 0.0 or push[2] != 0.0:
+            motion.touched[bodies.owner[touch.contacts.base[0, n]]] = True
+            motion.touched[bodies.owner[touch.contacts.base[1, n]]] = True

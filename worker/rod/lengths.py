@@ -9,17 +9,21 @@ old one, tension would.) Newton's method solves for all nodes and tensions of a 
     [J       0 ] [ y] = [    -C    ]
 
 with C = |e1| - l, J the mean directions, y the change of tension times h^2, and G the stiffness that tension adds,
-where it pulls. Half-bandwidth is 8 when each multiplier follows the second of its nodes; L D L^T needs no pivoting, as
-each multiplier comes after the nodes that it acts on. It is the "fast projection" of Goldenthal et al. 2007 ("Efficient
-simulation of inextensible cloth") with bending in the metric and momentum kept.
+where it pulls. A node couples with two on either side when each multiplier stands at the second of its nodes, and
+elimination needs no pivoting, as each multiplier comes after the coordinates that it acts on. It is the "fast
+projection" of Goldenthal et al. 2007 ("Efficient simulation of inextensible cloth") with bending in the metric and
+momentum kept.
 
 Nodes that the floor carries are held at their height meanwhile: an upright rod that lands is stopped as a whole.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from worker.rod.arrays import Bodies, Motion, Scratch
+from worker.rod.banded import BEYOND, DIAGONAL, LATER, NEXT, OWN, RIGHT, ROW, SOLUTION, solve
 from worker.rod.bending import Operator
 from worker.rod.compiled import compiled
 from worker.rod.model import Array
@@ -33,128 +37,149 @@ BALANCE_TOLERANCE = 1e-7
 FREE, IN_HEIGHT, AT_REST = 0, 1, 2
 
 MAX_ITERATIONS = 12
-BAND = 9
-ROW = 2 * BAND
-"""Numbers kept for each row of the upper half: the band, and zeros."""
+
+PADDING = 2
+"""Zeros after a rod's last node, for the nodes that others would couple with."""
+
+
+class Work(NamedTuple):
+    """What is computed for a rod.
+
+    Attributes:
+        free: (4, nodes + PADDING) 0.0 for coordinates that are held and multipliers that have nothing to act on, else
+            1.0. The multiplier at each node is that of the segment that ends there.
+        mean: (3, nodes) direction of the segment that starts at each node, before and after the step.
+        excess: (nodes,) by how much that segment is too long, m.
+        moved: (nodes + PADDING,) how far the nodes have moved in the step, in one direction, m.
+        lack: (3, nodes) what the nodes' balance of momentum lacks, kg m, at the places of the nodes.
+        rows: (nodes, ROW) the equations.
+    """
+
+    free: Array
+    mean: Array
+    excess: Array
+    moved: Array
+    lack: Array
+    rows: Array
 
 
 @compiled
 def room_for_system(nodes: int) -> Array:
     """Room for the equations of a rod of so many nodes."""
-    return np.empty((ROW + 2) * 4 * nodes)
+    return np.empty((ROW + 3 + 1 + 3) * nodes + (4 + 1) * (nodes + PADDING))
 
 
 @compiled
-def _directions(
-    bodies: Bodies, start: Array, x: Array, held: NDArray[np.int8], rod: int, mean: Array, excess: Array
-) -> float:
-    """Mean direction, before and after the step, and excess length of each segment; returns the largest strain."""
+def _parts(room: Array, nodes: int) -> Work:
+    padded = nodes + PADDING
+    rows, room = room[: ROW * nodes], room[ROW * nodes :]
+    mean, room = room[: 3 * nodes], room[3 * nodes :]
+    lack, room = room[: 3 * nodes], room[3 * nodes :]
+    excess, room = room[:nodes], room[nodes:]
+    moved, free = room[:padded], room[padded : 5 * padded]
+    return Work(
+        free.reshape(4, padded), mean.reshape(3, nodes), excess, moved, lack.reshape(3, nodes), rows.reshape(nodes, ROW)
+    )
+
+
+@compiled
+def _find_free(held: NDArray[np.int8], work: Work) -> None:
+    """What the equations leave out."""
+    free, nodes = work.free, len(held)
+    free[:, nodes:] = 0.0
+    work.moved[nodes:] = 0.0
+    for i in range(nodes):
+        free[0, i] = free[1, i] = 0.0 if held[i] == AT_REST else 1.0
+        free[2, i] = 1.0 if held[i] == FREE else 0.0
+    free[3, 0] = 0.0
+    for i in range(nodes - 1):
+        free[3, i + 1] = max(free[0, i], free[0, i + 1])
+
+
+@compiled
+def _directions(bodies: Bodies, start: Array, x: Array, rod: int, work: Work) -> int:
+    """Mean direction and excess length of each segment; returns how many have not kept their length."""
     first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
-    worst = 0.0
-    for i in range(first, end - 1):
-        squared = 0.0
-        for c in range(3):
-            edge = x[c, i + 1] - x[c, i]
-            mean[c, i - first] = 0.5 * (edge + start[c, i + 1] - start[c, i]) / length
-            squared += edge * edge
-        excess[i - first] = np.sqrt(squared) - length
-        if held[i] == AT_REST and held[i + 1] == AT_REST:
-            excess[i - first] = 0.0
-        worst = max(worst, abs(excess[i - first]) / length)
-    return worst
+    segments, excess, acts = end - first - 1, work.excess, work.free[3, 1:]
+    excess[:] = 0.0
+    for c in range(3):
+        now, before, mean = x[c, first:end], start[c, first:end], work.mean[c]
+        for i in range(segments):
+            edge = now[i + 1] - now[i]
+            mean[i] = 0.5 * (edge + before[i + 1] - before[i]) / length
+            excess[i] += edge * edge
+    wrong = 0
+    for i in range(segments):
+        excess[i] = acts[i] * (np.sqrt(excess[i]) - length)
+        wrong += not abs(excess[i]) < TOLERANCE * length
+    return wrong
 
 
 @compiled
-def _residual(
-    bodies: Bodies, operator: Operator, motion: Motion, start: Array, load: Array, rod: int, mean: Array, right: Array
-) -> None:
-    """Fill in what the nodes' balance of momentum lacks, kg m, at the places of the nodes."""
+def _imbalance(
+    bodies: Bodies, operator: Operator, motion: Motion, start: Array, load: Array, rod: int, work: Work
+) -> int:
+    """What the balance of momentum lacks; returns in how many coordinates nodes are not where momentum takes them."""
     first, end = bodies.first[rod], bodies.first[rod + 1]
-    h, bands, x = operator.step, operator.bands, motion.x
-    for i in range(first, end):
-        row = 4 * (i - first)
-        for c in range(3):
-            total = h * load[c, i] - bands[0, i] * (x[c, i] - start[c, i])
-            if i > first:
-                total -= bands[1, i - 1] * (x[c, i - 1] - start[c, i - 1])
-                total -= h * h * motion.tension[i - 1] * mean[c, i - 1 - first]
-            if i > first + 1:
-                total -= bands[2, i - 2] * (x[c, i - 2] - start[c, i - 2])
-            if i + 1 < end:
-                total -= bands[1, i] * (x[c, i + 1] - start[c, i + 1])
-                total += h * h * motion.tension[i] * mean[c, i - first]
-            if i + 2 < end:
-                total -= bands[2, i] * (x[c, i + 2] - start[c, i + 2])
-            right[row + c] = total
+    h, nodes, moved = operator.step, end - first, work.moved
+    # The last two are zero where there is no node to couple with.
+    diagonal, beside, beyond = operator.bands[0, first:end], operator.bands[1, first:end], operator.bands[2, first:end]
+    tension, limit = motion.tension[first:end], BALANCE_TOLERANCE * bodies.length[rod]
+    wrong = 0
+    for c in range(3):
+        x, x0, p, mean = motion.x[c, first:end], start[c, first:end], load[c, first:end], work.mean[c]
+        lack, free = work.lack[c], work.free[c]
+        for i in range(nodes):
+            moved[i] = x[i] - x0[i]
+        for i in range(nodes):
+            lack[i] = h * p[i] - diagonal[i] * moved[i] - beside[i] * moved[i + 1] - beyond[i] * moved[i + 2]
+        for i in range(nodes - 1):
+            lack[i] += h * h * tension[i] * mean[i]
+        for i in range(nodes - 1):
+            lack[i + 1] -= h * h * tension[i] * mean[i] + beside[i] * moved[i]
+        for i in range(nodes - 2):
+            lack[i + 2] -= beyond[i] * moved[i]
+        for i in range(nodes):
+            wrong += not free[i] * abs(lack[i]) < limit * diagonal[i]
+    return wrong
 
 
 @compiled
-def _imbalance(bodies: Bodies, operator: Operator, held: NDArray[np.int8], rod: int, right: Array) -> float:
-    """How far the nodes that are not held are from where their momentum takes them, over a segment's length."""
+def _assemble(bodies: Bodies, operator: Operator, motion: Motion, rod: int, work: Work) -> None:
+    """Fill in the equations of what is free; what is held gets those of not moving."""
     first, end = bodies.first[rod], bodies.first[rod + 1]
-    worst = 0.0
-    for i in range(first, end):
-        if held[i] != AT_REST:
-            for c in range(2 if held[i] == IN_HEIGHT else 3):
-                worst = max(worst, abs(right[4 * (i - first) + c]) / operator.bands[0, i])
-    return float(worst / bodies.length[rod])
-
-
-@compiled
-def _assemble(
-    bodies: Bodies, operator: Operator, motion: Motion, rod: int, mean: Array, excess: Array, upper: Array, right: Array
-) -> None:
-    """The upper half of the matrix; rows of multipliers get their right-hand side."""
-    first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
-    bands = operator.bands
-    pull = 0.5 * operator.step**2 / length
-    for i in range(first, end):
-        row = 4 * (i - first)
-        before = pull * max(motion.tension[i - 1], 0.0) if i > first else 0.0
-        after = pull * max(motion.tension[i], 0.0) if i + 1 < end else 0.0
+    free, mean, rows, nodes = work.free, work.mean, work.rows, end - first
+    diagonal, beside, beyond = operator.bands[0, first:end], operator.bands[1, first:end], operator.bands[2, first:end]
+    tension, stiffness = motion.tension[first:end], 0.5 * operator.step**2 / bodies.length[rod]
+    before = 0.0
+    for i in range(nodes):
+        row = rows[i]
+        after = stiffness * max(tension[i], 0.0) if i + 1 < nodes else 0.0
         for c in range(3):
-            upper[row + c] = 0.0
-            upper[row + c, 0] = bands[0, i] + before + after
-            upper[row + c, 4] = bands[1, i] - after
-            upper[row + c, 8] = bands[2, i]
-        upper[row + 3] = 0.0
-        right[row + 3] = 0.0
-        if i == first:
-            upper[row + 3, 0] = 1.0
-            continue
-        right[row + 3] = -excess[i - 1 - first]
-        for c in range(3):
-            upper[row - 4 + c, 7 - c] = -mean[c, i - 1 - first]
-            upper[row + c, 3 - c] = mean[c, i - 1 - first]
+            own = free[c, i]
+            row[DIAGONAL + c] = own * (diagonal[i] + before + after) + (1.0 - own)
+            row[RIGHT + c] = own * work.lack[c, i]
+            row[NEXT + c] = own * free[c, i + 1] * (beside[i] - after)
+            row[BEYOND + c] = own * free[c, i + 2] * beyond[i]
+            row[LATER + c] = -own * free[3, i + 1] * mean[c, i] if i + 1 < nodes else 0.0
+            row[OWN + c] = own * free[3, i] * mean[c, i - 1] if i > 0 else 0.0
+        row[DIAGONAL + 3] = 1.0 - free[3, i]
+        row[RIGHT + 3] = -work.excess[i - 1] if i > 0 else 0.0
+        before = after
 
 
 @compiled
-def _hold(upper: Array, right: Array, row: int) -> None:
-    """Take one coordinate out of the system: it does not move."""
-    for k in range(1, BAND):
-        upper[row, k] = 0.0
-        if row >= k:
-            upper[row - k, k] = 0.0
-    upper[row, 0] = 1.0
-    right[row] = 0.0
-
-
-@compiled
-def _solve_banded(upper: Array, right: Array, size: int) -> None:
-    """Solve a symmetric banded system, of which the rows hold the upper half, in place."""
-    for j in range(size):
-        inverse = 1.0 / upper[j, 0]
-        for a in range(1, min(BAND, size - j)):
-            factor = upper[j, a] * inverse
-            # Of fixed length, so that it becomes one vector operation; the columns beyond the band hold zeros.
-            for b in range(BAND - 1):
-                upper[j + a, b] -= factor * upper[j, a + b]
-            right[j + a] -= factor * right[j]
-    for j in range(size - 1, -1, -1):
-        total = right[j]
-        for a in range(1, min(BAND, size - j)):
-            total -= upper[j, a] * right[j + a]
-        right[j] = total / upper[j, 0]
+def _move(bodies: Bodies, operator: Operator, motion: Motion, rod: int, rows: Array) -> None:
+    """Add the solution to the places and the tension."""
+    first, end = bodies.first[rod], bodies.first[rod + 1]
+    scale = 1.0 / (operator.step * operator.step)
+    for c in range(3):
+        x = motion.x[c, first:end]
+        for i in range(end - first):
+            x[i] += rows[i, SOLUTION + c]
+    tension = motion.tension[first:end]
+    for i in range(end - first - 1):
+        tension[i] += scale * rows[i + 1, SOLUTION + 3]
 
 
 @compiled
@@ -175,31 +200,20 @@ def keep_lengths(bodies: Bodies, operator: Operator, motion: Motion, scratch: Sc
         Newton iterations; MAX_ITERATIONS + 1 if they did not converge.
     """
     first, end = bodies.first[rod], bodies.first[rod + 1]
-    nodes, size = end - first, 4 * (end - first)
-    start, load, held, work = scratch.start, scratch.load, scratch.held, scratch.system
-    mean, excess = work[: 3 * nodes].reshape(3, nodes), work[3 * nodes : 4 * nodes]
-    right = work[4 * nodes : 8 * nodes]
-    upper = work[8 * nodes : 8 * nodes + ROW * size].reshape(size, ROW)
-    scale = 1.0 / (operator.step * operator.step)
+    start, load, held = scratch.start, scratch.load, scratch.held[first:end]
+    work = _parts(scratch.system, end - first)
+    _find_free(held, work)
     for iteration in range(MAX_ITERATIONS):
-        strain = _directions(bodies, start, motion.x, held, rod, mean, excess)
-        _residual(bodies, operator, motion, start, load, rod, mean, right)
-        if strain < TOLERANCE and _imbalance(bodies, operator, held, rod, right) < BALANCE_TOLERANCE:
-            for i in range(first, end):
+        wrong = _directions(bodies, start, motion.x, rod, work)
+        wrong += _imbalance(bodies, operator, motion, start, load, rod, work)
+        if wrong == 0:
+            for i in range(end - first):
                 if held[i] == IN_HEIGHT:
-                    motion.floor_impulse[2, i] -= right[4 * (i - first) + 2] / operator.step
+                    too_much = work.lack[2, i] / operator.step
+                    motion.floor_impulse[2, first + i] -= too_much
+                    load[2, first + i] -= too_much
             return iteration
-        _assemble(bodies, operator, motion, rod, mean, excess, upper, right)
-        for i in range(nodes):
-            for c in range(3):
-                if held[first + i] == AT_REST or (c == 2 and held[first + i] == IN_HEIGHT):
-                    _hold(upper, right, 4 * i + c)
-            if i > 0 and held[first + i - 1] == AT_REST and held[first + i] == AT_REST:
-                _hold(upper, right, 4 * i + 3)
-        _solve_banded(upper, right, size)
-        for i in range(nodes):
-            for c in range(3):
-                motion.x[c, first + i] += right[4 * i + c]
-            if i > 0:
-                motion.tension[first + i - 1] += scale * right[4 * i + 3]
+        _assemble(bodies, operator, motion, rod, work)
+        solve(work.rows)
+        _move(bodies, operator, motion, rod, work.rows)
     return MAX_ITERATIONS + 1

@@ -78,4 +78,5 @@ class Surroundings:
     friction_floor: float = 0.4
     friction_rods: float = 0.3
     damping_s: float = 0.0
+    resistance: float = 0.0
     breeze: Breeze | None = None

@@ -7,7 +7,7 @@ import numpy as np
 
 from worker.rod.arrays import Bodies, flatten
 from worker.rod.bending import Operator, operator_for
-from worker.rod.broad_phase import find_candidates, no_candidates
+from worker.rod.broad_phase import no_candidates
 from worker.rod.model import Array, Rod, Surroundings
 from worker.rod.step import Bounds, Outcome, Tally, advance, prestress
 from worker.rod.world import world_of
@@ -52,10 +52,9 @@ class RodSimulation:
         self._world = world_of(surroundings)
         self._operators: dict[int, Operator] = {}
         self._least_halvings = self._halvings = _halvings_for_curvature(self._bodies, self.step_s, self._damping)
-        self._tally = Tally(counts=np.zeros(6, np.int64), time=np.zeros(1), quiet=np.zeros(1, np.int64))
+        self._tally = Tally(counts=np.zeros(9, np.int64), time=np.zeros(1), quiet=np.zeros(2, np.int64))
         prestress(self._bodies, self._operator(), self._motion, self._world)
-        skin = 2 * float(self._bodies.radius.max())
-        self._candidates = find_candidates(self._bodies, self._motion.x, skin, no_candidates(self._motion.x))
+        self._candidates = no_candidates(len(self._bodies.mass))
 
     @property
     def time_s(self) -> float:
@@ -70,7 +69,7 @@ class RodSimulation:
     @property
     def counts(self) -> dict[str, int]:
         """What it took, for benchmarks."""
-        names = ("steps", "sweeps", "length_iterations", "lists", "contacts", "length_failures")
+        names = ("steps", "sweeps", "length_iterations", "lists", "contacts", "length_failures", "rounds", "cold", "bad")
         return dict(zip(names, self._tally.counts.tolist(), strict=True))
 
     def nodes_m(self, rod: int) -> Array:
@@ -152,7 +151,7 @@ class RodSimulation:
                 self._bodies, operator, self._motion, self._world, self._candidates, self._tally, bounds
             )
             match Outcome(code):
-                case Outcome.TOO_FAST:
+                case Outcome.TOO_FAST | Outcome.UNSOUND:
                     self._change_step(self._halvings + 1)
                 case Outcome.SLOW_ENOUGH:
                     self._change_step(self._halvings - 1)

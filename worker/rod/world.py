@@ -33,6 +33,7 @@ class World(NamedTuple):
     gusts: Array
     calm_from: float
     drag: bool
+    resistance: float
 
 
 def world_of(surroundings: Surroundings) -> World:
@@ -47,6 +48,7 @@ def world_of(surroundings: Surroundings) -> World:
         gusts=np.zeros((0, 3)) if breeze is None else np.array(breeze.gusts, dtype=np.float64).reshape(-1, 3),
         calm_from=0.0 if breeze is None else float(breeze.until_s),
         drag=breeze is not None,
+        resistance=float(surroundings.resistance),
     )
 
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from worker.bench.stress.scenes import MIN_LENGTH_RADII, SEGMENT_RADII, Case, Start
-from worker.rod.fall import INTERNAL_DAMPING_S, curvature_at_rest
+from worker.rod.fall import INTERNAL_DAMPING_S, RESISTANCE, curvature_at_rest
 from worker.rod.model import Array, Breeze, Rod, Surroundings
 from worker.shapes import bent_rod
 
@@ -54,6 +54,7 @@ def set_up(case: Case) -> Setting:
         friction_floor=case.friction_floor,
         friction_rods=case.friction_cable,
         damping_s=INTERNAL_DAMPING_S,
+        resistance=RESISTANCE,
         breeze=breeze,
     )
     reach, time = _bounds(case, rods, velocities, breeze)

@@ -1,0 +1,68 @@
+"""Which listed pairs are near in a step, and what the others remember."""
+
+import numpy as np
+import pytest
+
+from tests.physics.rods import RADIUS_M, line, rod
+from worker.rod.arrays import Bodies, Integers, Motion, flatten
+from worker.rod.broad_phase import Candidates, find_candidates, no_candidates
+from worker.rod.model import Array
+from worker.rod.narrow_phase import find_near, find_reach
+
+STEP_S = 1e-3
+
+
+def crossed(height_m: float, speed_m_s: float = 0.0) -> tuple[Bodies, Motion]:
+    """Two rods that cross at right angles, one over the other; the upper one comes down."""
+    bodies, motion = flatten(
+        [
+            rod(line((-0.05, 0.0, 0.0), (0.05, 0.0, 0.0), 25)),
+            rod(line((0.0, -0.05, height_m), (0.0, 0.05, height_m), 25)),
+        ]
+    )
+    motion.v[2, 26:] = -speed_m_s
+    return bodies, motion
+
+
+def looked_at(bodies: Bodies, motion: Motion) -> tuple[Candidates, Integers, Array]:
+    """The list, the numbers of those near, and where these are closest."""
+    margin = 2 * STEP_S * float(np.abs(motion.v).max()) + 0.1 * RADIUS_M
+    reach = np.empty(len(bodies.owner))
+    find_reach(bodies, motion.v, np.zeros(3), STEP_S, margin, reach)
+    before = no_candidates(len(bodies.owner))
+    candidates = find_candidates(bodies, motion, np.zeros(3), STEP_S, reach, before)
+    candidates.impulse[:] = 1.0
+    near, at = np.empty(len(candidates.one), np.int64), np.empty((2, len(candidates.one)))
+    count = find_near(bodies, motion, candidates, reach, STEP_S, margin, near, at)
+    return candidates, near[:count], at[:, :count]
+
+
+@pytest.mark.parametrize(
+    ("height_radii", "speed_m_s", "number"),
+    [(2.05, 0.0, 1), (2.4, 0.0, 0), (2.4, 0.5, 1), (4.0, 0.5, 0), (4.0, 1.5, 1)],
+)
+def test_a_pair_is_near_if_it_may_touch_in_the_step(height_radii: float, speed_m_s: float, number: int) -> None:
+    """The middles of two crossed rods: by their distance, and by the speed at which they meet."""
+    candidates, near, at = looked_at(*crossed(height_radii * RADIUS_M, speed_m_s))
+    middle = [k for k in near if (candidates.one[k], candidates.other[k]) == (12, 38)]
+    assert len(middle) == number
+    if number:
+        assert at[:, near.tolist().index(middle[0])] == pytest.approx(0.5)
+
+
+def test_the_others_forget_their_impulses_and_remember_their_sides() -> None:
+    """Each normal points from the lower rod's segment up to the upper one's, by what side they are on."""
+    bodies, motion = crossed(2.4 * RADIUS_M)
+    candidates, near, _ = looked_at(bodies, motion)
+    assert len(candidates.one) > 0
+    assert len(near) == 0
+    assert (candidates.impulse == 0.0).all()
+    assert (candidates.normal[:, 2] < 0).all()
+
+
+def test_those_near_keep_what_they_remember() -> None:
+    """An impulse of the step before is where this step starts from."""
+    candidates, near, _ = looked_at(*crossed(2.05 * RADIUS_M))
+    assert len(near) > 0
+    assert (candidates.impulse[near] == 1.0).all()
+    assert (candidates.normal[near] == 0.0).all()
