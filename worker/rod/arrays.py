@@ -43,6 +43,7 @@ class Motion(NamedTuple):
         v: (3, nodes) m/s.
         tension: (nodes,) N in the segment that starts at each node; 0 at a rod's last node.
         floor_impulse: (3, nodes) N s of the floor on each node in the last step.
+        touched: (rods,) whether anything pushed a rod in the last step.
     """
 
     x: Array
@@ -57,22 +58,28 @@ class Scratch(NamedTuple):
 
     Attributes:
         momentum: (3, nodes) N s, without contact and tension.
-        load: (3, nodes) N s, the same with contact.
-        v: (3, nodes) m/s.
+        free: (3, nodes) m/s, the velocities that this gives.
+        load: (3, nodes) N s, the momentum with contact.
+        v: (3, nodes) m/s, at the end of the step.
         start: (3, nodes) m, where the nodes were at the start of the step.
         bulge: (nodes,) m, how far the curve leaves the chords; see `worker.rod.narrow_phase`.
         reach: (nodes,) m, how far around each node contact is looked for; see `worker.rod.narrow_phase`.
+        stirred: (rods,) number of the sweep that last changed a rod's velocities; see `worker.rod.impulses`.
+        rise: (nodes,) m/s, how fast nodes near the floor must rise at least.
         near_floor: (nodes,) the nodes that the floor may touch, the first ones of these.
         held: (nodes,) which nodes lengths are kept against; see `worker.rod.lengths`.
         system: for the equations of `worker.rod.lengths`.
     """
 
     momentum: Array
+    free: Array
     load: Array
     v: Array
     start: Array
     bulge: Array
     reach: Array
+    stirred: Integers
+    rise: Array
     near_floor: Integers
     held: NDArray[np.int8]
     system: Array

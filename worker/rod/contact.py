@@ -30,10 +30,6 @@ UNDOING_S = 0.03
 DEEP_SHARE = 0.9
 TURN_SHARE = 0.5
 
-SMALL_CHANGE_M_S = 1e-4
-"""A change of velocity is not carried on within the sweeps if over all nodes of a rod it adds up to less: many small
-ones move a stiff rod as a whole."""
-
 SLOP_RADII = 0.002
 """Depth that is left as it is: to lift a rod out would give it energy."""
 
@@ -265,17 +261,25 @@ def allowed_approach(gap: float, step: float, radius: float) -> float:
 
 
 @compiled
-def project_on_cone(impulse: Array, normal: Array, friction: float) -> None:
-    """Nearest admissible impulse in Coulomb's sense: pushing, and rubbing no harder than `friction` times that."""
-    along = impulse[0] * normal[0] + impulse[1] * normal[1] + impulse[2] * normal[2]
+def on_cone(
+    x: float, y: float, z: float, nx: float, ny: float, nz: float, friction: float
+) -> tuple[float, float, float]:
+    """The admissible impulse in Coulomb's sense for one that is wanted: it pushes along the normal n, or is zero, and
+    rubs no harder than `friction` times that."""
+    along = x * nx + y * ny + z * nz
     if along <= 0.0:
-        impulse[:] = 0.0
-        return
-    tx, ty, tz = impulse[0] - along * normal[0], impulse[1] - along * normal[1], impulse[2] - along * normal[2]
-    rubbing = np.sqrt(tx * tx + ty * ty + tz * tz)
-    if rubbing > friction * along:
-        shrink = friction * along / rubbing
-        tx, ty, tz = shrink * tx, shrink * ty, shrink * tz
-    impulse[0] = along * normal[0] + tx
-    impulse[1] = along * normal[1] + ty
-    impulse[2] = along * normal[2] + tz
+        return 0.0, 0.0, 0.0
+    tx, ty, tz = x - along * nx, y - along * ny, z - along * nz
+    rubbing, most = np.sqrt(tx * tx + ty * ty + tz * tz), friction * along
+    share = most / rubbing if rubbing > most else 1.0
+    return along * nx + share * tx, along * ny + share * ty, along * nz + share * tz
+
+
+@compiled
+def push(column: Array, begin: int, low: int, width: int, x: float, y: float, z: float, v: Array) -> None:
+    """Add to the velocities (3, nodes) of so many nodes from `low` on what an impulse does: `column` from `begin` on."""
+    for j in range(width):
+        share = column[begin + j]
+        v[0, low + j] += x * share
+        v[1, low + j] += y * share
+        v[2, low + j] += z * share

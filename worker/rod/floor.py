@@ -5,7 +5,7 @@ import numpy as np
 from worker.rod.arrays import Bodies, Integers, Motion, Scratch
 from worker.rod.bending import Operator
 from worker.rod.compiled import compiled
-from worker.rod.contact import SMALL_CHANGE_M_S, allowed_approach, project_on_cone
+from worker.rod.contact import allowed_approach, on_cone, push
 from worker.rod.lengths import AT_REST, FREE, IN_HEIGHT
 from worker.rod.model import Array
 
@@ -14,94 +14,109 @@ SUNK_RADII = 0.02
 
 
 @compiled
-def find_near_floor(bodies: Bodies, motion: Motion, step: float, friction: float, touching: Integers) -> int:
-    """Nodes that could reach the floor in this step; the others' impulses are forgotten."""
+def find_near_floor(
+    bodies: Bodies, motion: Motion, step: float, friction: float, touching: Integers, rise: Array
+) -> int:
+    """Find the nodes that could reach the floor in this step; the others' impulses are forgotten.
+
+    Args:
+        bodies: the rods.
+        motion: `floor_impulse` is changed.
+        step: s.
+        friction: Coulomb's coefficient.
+        touching: (nodes,) these nodes, ascending, are set.
+        rise: (nodes,) how fast they must rise at least, m/s, is set: to land just so, or to get out of the floor.
+
+    Returns:
+        How many there are.
+    """
     count = 0
-    up = np.array([0.0, 0.0, 1.0])
-    for i in range(len(bodies.owner)):
-        gap = motion.x[2, i] - bodies.radius[bodies.owner[i]]
-        if not bodies.pinned[i] and gap < bodies.radius[bodies.owner[i]] + 2 * step * abs(motion.v[2, i]):
-            touching[count] = i
-            count += 1
-            project_on_cone(motion.floor_impulse[:, i], up, friction)
-        else:
-            motion.floor_impulse[:, i] = 0.0
+    for rod in range(len(bodies.length)):
+        radius = bodies.radius[rod]
+        for i in range(bodies.first[rod], bodies.first[rod + 1]):
+            gap = motion.x[2, i] - radius
+            rise[i] = allowed_approach(gap, step, radius)
+            if not bodies.pinned[i] and gap < radius + 2 * step * abs(motion.v[2, i]):
+                touching[count] = i
+                count += 1
+                x, y, z = on_cone(*_vector(motion.floor_impulse, i), 0.0, 0.0, 1.0, friction)
+            else:
+                x, y, z = 0.0, 0.0, 0.0
+            motion.floor_impulse[0, i], motion.floor_impulse[1, i], motion.floor_impulse[2, i] = x, y, z
     return count
 
 
 @compiled
-def _push(bodies: Bodies, operator: Operator, node: int, impulse: Array, v: Array) -> None:
-    """Add what an impulse on a node does to the velocities of its rod."""
-    rod = bodies.owner[node]
-    reach = operator.reach[rod]
-    centre = (operator.response.shape[1] - 1) // 2
-    low, high = max(bodies.first[rod], node - reach), min(bodies.first[rod + 1], node + reach + 1)
-    shift = centre - node
-    for c in range(3):
-        p = impulse[c]
-        if p != 0.0:
-            for j in range(low, high):
-                v[c, j] += p * operator.response[node, j + shift]
+def _vector(array: Array, i: int) -> tuple[float, float, float]:
+    return array[0, i], array[1, i], array[2, i]
 
 
 @compiled
 def sweep_floor(
     bodies: Bodies,
     operator: Operator,
-    motion: Motion,
-    start: Array,
+    floor_impulse: Array,
+    rise: Array,
     touching: Integers,
     friction: float,
     sweep: int,
+    small: float,
     stirred: Integers,
     v: Array,
 ) -> float:
-    """One pass over all nodes near the floor; returns the largest change, m/s, summed over a rod."""
+    """Give each node near the floor the impulse that it needs, one after the other.
+
+    Args:
+        bodies: the rods.
+        operator: of this time step.
+        floor_impulse: (3, nodes) N s, is changed.
+        rise: (nodes,) m/s, how fast nodes must rise at least.
+        touching: those that the floor may touch.
+        friction: Coulomb's coefficient.
+        sweep: its number in this step. Every other one goes backwards.
+        small: changes below that, in m/s and summed over a rod, are not carried on to other nodes.
+        stirred: (rods,) which sweep last changed a rod. Those that this and the one before it left alone are left out.
+        v: (3, nodes) m/s, is changed by what the impulses do.
+
+    Returns:
+        The largest change, m/s, summed over a rod.
+    """
+    owner, first, reach, coupling = bodies.owner, bodies.first, operator.reach, operator.coupling
+    response, centre = operator.response, (operator.response.shape[1] - 1) // 2
     worst = 0.0
-    centre = (operator.response.shape[1] - 1) // 2
-    change, wanted = np.empty(3), np.empty(3)
-    up = np.array([0.0, 0.0, 1.0])
     for step in range(len(touching)):
-        node = touching[len(touching) - 1 - step] if sweep % 2 == 1 else touching[step]
-        rod = bodies.owner[node]
+        i = touching[len(touching) - 1 - step] if sweep % 2 == 1 else touching[step]
+        rod = owner[i]
         if stirred[rod] < sweep - 1:
             continue
-        compliance = operator.response[node, centre]
-        radius = bodies.radius[rod]
-        gap = start[2, node] - radius
-        approach = allowed_approach(gap, operator.step, radius)
-        impulse = motion.floor_impulse[:, node]
-        for c in range(3):
-            wanted[c] = impulse[c] - v[c, node] / compliance
-        wanted[2] += approach / compliance
-        project_on_cone(wanted, up, friction)
-        moved = 0.0
-        for c in range(3):
-            change[c] = wanted[c] - impulse[c]
-            impulse[c] = wanted[c]
-            moved = max(moved, abs(change[c]))
-        moved *= compliance * operator.coupling[rod]
-        if moved <= SMALL_CHANGE_M_S:
-            for c in range(3):
-                v[c, node] += compliance * change[c]
-        else:
-            _push(bodies, operator, node, change, v)
+        compliance = response[i, centre]
+        px, py, pz = floor_impulse[0, i], floor_impulse[1, i], floor_impulse[2, i]
+        wx, wy, wz = px - v[0, i] / compliance, py - v[1, i] / compliance, pz - (v[2, i] - rise[i]) / compliance
+        wx, wy, wz = on_cone(wx, wy, wz, 0.0, 0.0, 1.0, friction)
+        floor_impulse[0, i], floor_impulse[1, i], floor_impulse[2, i] = wx, wy, wz
+        dx, dy, dz = wx - px, wy - py, wz - pz
+        moved = max(abs(dx), abs(dy), abs(dz)) * compliance * coupling[rod]
+        if moved > small:
+            low, high = max(first[rod], i - reach[rod]), min(first[rod + 1], i + reach[rod] + 1)
+            push(response[i], low - i + centre, low, high - low, dx, dy, dz, v)
             stirred[rod] = sweep
             worst = max(worst, moved)
+        else:
+            v[0, i] += compliance * dx
+            v[1, i] += compliance * dy
+            v[2, i] += compliance * dz
     return worst
 
 
 @compiled
-def hold_on_floor(bodies: Bodies, motion: Motion, scratch: Scratch, step: float, touching: Integers) -> None:
-    """Place the nodes that the floor carries where they end the step; mark them, and pinned ones, as held."""
+def hold_on_floor(bodies: Bodies, motion: Motion, scratch: Scratch, step: float, rod: int) -> None:
+    """Place a rod's nodes that the floor carries where they end the step; mark them, and pinned ones, as held."""
     start, held = scratch.start, scratch.held
-    for i in range(len(held)):
+    for i in range(bodies.first[rod], bodies.first[rod + 1]):
         held[i] = AT_REST if bodies.pinned[i] else FREE
-    for i in touching:
         if motion.floor_impulse[2, i] > 0.0:
-            radius = bodies.radius[bodies.owner[i]]
             held[i] = IN_HEIGHT
-            motion.x[2, i] = start[2, i] + step * allowed_approach(start[2, i] - radius, step, radius)
+            motion.x[2, i] = start[2, i] + step * scratch.rise[i]
 
 
 @compiled
@@ -112,7 +127,7 @@ def catch_sunk(bodies: Bodies, motion: Motion, scratch: Scratch, step: float, ro
     for i in range(bodies.first[rod], bodies.first[rod + 1]):
         if held[i] == FREE and motion.x[2, i] < min((1 - SUNK_RADII) * radius, start[2, i]):
             held[i] = IN_HEIGHT
-            motion.x[2, i] = start[2, i] + step * allowed_approach(start[2, i] - radius, step, radius)
+            motion.x[2, i] = start[2, i] + step * scratch.rise[i]
             found = True
     return found
 

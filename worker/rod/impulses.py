@@ -8,25 +8,29 @@ from worker.rod.arrays import Bodies, Integers, Motion, Scratch
 from worker.rod.bending import Operator, solve
 from worker.rod.broad_phase import Candidates
 from worker.rod.compiled import compiled
-from worker.rod.contact import SMALL_CHANGE_M_S, Contacts, allowed_approach, project_on_cone
+from worker.rod.contact import Contacts, on_cone, push
 from worker.rod.floor import sweep_floor
 from worker.rod.forces import add_tension
 from worker.rod.model import Array
 from worker.rod.world import World
 
-import os
-MAX_ROUNDS = int(os.environ.get('X_ROUNDS','4'))
-"""The sweeps' responses end where they are small; after the sweeps of a round the impulses act in full."""
-
-MAX_SWEEPS = int(os.environ.get('X_SWEEPS','8'))
-"""Of a round. What is missing then is made up for in the next step, which starts from these impulses."""
+MAX_SWEEPS = 8
+"""At a time. What is missing then is made up for in the next step, which starts from these impulses."""
 
 TOLERANCE_M_S = 1.5e-3
 """Sweeps end when none changes velocities by more, summed over a rod: soft rods, of which some five nodes respond to a
 push, are then slower than a third of what counts as resting."""
 
 ENOUGH = 0.02
-"""They also end when none changes a velocity by more than this share of the first one's change."""
+"""They also end when none changes a velocity by more than this share of what the step's first one did."""
+
+
+SMALL_CHANGE_M_S = 1e-4
+"""A change of velocity is not carried on within the sweeps if over all nodes of a rod it adds up to less: many small
+ones move a stiff rod as a whole."""
+
+SMALL_SHARE = 0.05
+"""Nor if it is less than this share of the change below which sweeps end."""
 
 
 class Touch(NamedTuple):
@@ -41,82 +45,71 @@ class Touch(NamedTuple):
 
 
 @compiled
-def _push(contacts: Contacts, side: int, n: int, sign: float, impulse: Array, v: Array) -> None:
-    low, width = contacts.low[side, n], contacts.width[side, n]
-    column = contacts.column[side, n]
-    for c in range(3):
-        p = sign * impulse[c]
-        if p != 0.0:
-            for j in range(width):
-                v[c, low + j] += p * column[j]
-
-
-@compiled
-def _sweep_contacts(  # noqa: PLR0913, PLR0917 - out of nested tuples every access would count references
-    bodies: Bodies,
-    operator: Operator,
+def _sweep_contacts(
+    owner: Integers,
+    coupling: Array,
     contacts: Contacts,
     pairs: int,
-    candidates: Candidates,
+    impulses: Array,
     friction: float,
     sweep: int,
+    small: float,
     stirred: Integers,
     v: Array,
 ) -> float:
-    """One pass over all contacts between rods; returns the largest change, m/s, summed over a rod."""
+    """Give each contact between rods the impulse that it needs, one after the other.
+
+    Args:
+        owner: (nodes,) the rod of each node.
+        coupling: (rods,) how much a push moves a whole rod; see `worker.rod.bending`.
+        contacts: of this step, the first `pairs` of them.
+        pairs: how many.
+        impulses: (candidates, 3) N s, is changed.
+        friction: Coulomb's coefficient.
+        sweep: its number in this step. Every other one goes backwards.
+        small: smaller changes, in m/s and summed over a rod, are not made.
+        stirred: (rods,) which sweep last changed a rod. Those that this and the one before it left alone are left out.
+        v: (3, nodes) m/s, is changed by what the impulses do.
+
+    Returns:
+        The largest change, m/s, summed over a rod.
+    """
+    base, weights, normal, compliance = contacts.base, contacts.weights, contacts.normal, contacts.compliance
     worst = 0.0
-    coupling = operator.coupling
-    change, wanted = np.empty(3), np.empty(3)
     for step in range(pairs):
         n = pairs - 1 - step if sweep % 2 == 1 else step
-        base_i, base_j = contacts.base[0, n], contacts.base[1, n]
-        one, other = bodies.owner[base_i], bodies.owner[base_j]
+        i, j = base[0, n], base[1, n]
+        one, other = owner[i], owner[j]
         if stirred[one] < sweep - 1 and stirred[other] < sweep - 1:
             continue
-        normal, impulse = contacts.normal[n], candidates.impulse[contacts.pair[n]]
-        for c in range(3):
-            u = 0.0
-            for k in range(4):
-                u += contacts.weights[0, n, k] * v[c, base_i + k] - contacts.weights[1, n, k] * v[c, base_j + k]
-            wanted[c] = u
-        for c in range(3):
-            wanted[c] = impulse[c] - (wanted[c] - contacts.approach[n] * normal[c]) / contacts.compliance[n]
-        project_on_cone(wanted, normal, friction)
-        moved = 0.0
-        for c in range(3):
-            change[c] = wanted[c] - impulse[c]
-            moved = max(moved, abs(change[c]))
-        moved *= contacts.compliance[n] * max(coupling[one], coupling[other])
-        if moved > SMALL_CHANGE_M_S:
-            for c in range(3):
-                impulse[c] = wanted[c]
-            _push(contacts, 0, n, 1.0, change, v)
-            _push(contacts, 1, n, -1.0, change, v)
-            stirred[one] = sweep
-            stirred[other] = sweep
+        ux = uy = uz = 0.0
+        for k in range(4):
+            a, b = weights[0, n, k], weights[1, n, k]
+            ux += a * v[0, i + k] - b * v[0, j + k]
+            uy += a * v[1, i + k] - b * v[1, j + k]
+            uz += a * v[2, i + k] - b * v[2, j + k]
+        pair = contacts.pair[n]
+        nx, ny, nz, least = normal[n, 0], normal[n, 1], normal[n, 2], contacts.approach[n]
+        px, py, pz = impulses[pair, 0], impulses[pair, 1], impulses[pair, 2]
+        wx, wy, wz = on_cone(
+            px - (ux - least * nx) / compliance[n],
+            py - (uy - least * ny) / compliance[n],
+            pz - (uz - least * nz) / compliance[n],
+            nx,
+            ny,
+            nz,
+            friction,
+        )
+        dx, dy, dz = wx - px, wy - py, wz - pz
+        moved = max(abs(dx), abs(dy), abs(dz)) * compliance[n] * max(coupling[one], coupling[other])
+        if moved > small:
+            impulses[pair, 0], impulses[pair, 1], impulses[pair, 2] = wx, wy, wz
+            low, width, column = contacts.low, contacts.width, contacts.column
+            push(column[0, n], 0, low[0, n], width[0, n], dx, dy, dz, v)
+            push(column[1, n], 0, low[1, n], width[1, n], -dx, -dy, -dz, v)
+            stirred[one] = stirred[other] = sweep
             worst = max(worst, moved)
     return worst
-
-
-@compiled
-def _sweep(
-    bodies: Bodies, operator: Operator, motion: Motion, world: World, candidates: Candidates, touch: Touch, scratch: Scratch
-) -> int:
-    """Sweep over the contacts until their impulses hardly change; returns how many sweeps it took."""
-    stirred = np.zeros(len(bodies.length), np.int64)
-    v = scratch.v
-    tolerance = TOLERANCE_M_S
-    for sweep in range(MAX_SWEEPS):
-        between = _sweep_contacts(
-            bodies, operator, touch.contacts, touch.pairs, candidates, world.friction_rods, sweep, stirred, v
-        )
-        below = sweep_floor(bodies, operator, motion, scratch.start, touch.floor, world.friction_floor, sweep, stirred, v)
-        worst = max(between, below)
-        if sweep == 0:
-            tolerance = max(TOLERANCE_M_S, ENOUGH * worst)
-        if worst < tolerance:
-            return sweep + 1
-    return MAX_SWEEPS
 
 
 @compiled
@@ -149,12 +142,7 @@ def _velocities(bodies: Bodies, operator: Operator, motion: Motion, load: Array,
 
 @compiled
 def predict(
-    bodies: Bodies,
-    operator: Operator,
-    motion: Motion,
-    candidates: Candidates,
-    touch: Touch,
-    scratch: Scratch,
+    bodies: Bodies, operator: Operator, motion: Motion, candidates: Candidates, touch: Touch, scratch: Scratch
 ) -> None:
     """Velocities at the end of the step if all impulses and tensions were those of the step before.
 
@@ -179,15 +167,72 @@ def gather_load(motion: Motion, candidates: Candidates, touch: Touch, scratch: S
 
 @compiled
 def correct(
-    bodies: Bodies, operator: Operator, motion: Motion, world: World, candidates: Candidates, touch: Touch, scratch: Scratch
-) -> int:
-    """Change the impulses, and `scratch.v` by what a change does nearby, until they hardly change; returns the sweeps."""
-    return _sweep(bodies, operator, motion, world, candidates, touch, scratch)
+    bodies: Bodies,
+    operator: Operator,
+    motion: Motion,
+    world: World,
+    candidates: Candidates,
+    touch: Touch,
+    scratch: Scratch,
+    done: int,
+    tolerance: float,
+) -> tuple[int, float]:
+    """Sweep over the contacts until their impulses hardly change.
+
+    Args:
+        bodies: the rods.
+        operator: of this time step.
+        motion: `floor_impulse` is changed.
+        world: how strong friction is.
+        candidates: `impulse` is changed.
+        touch: what touches.
+        scratch: `start` is read; `v` is changed by what the impulses' changes do nearby. Contacts of rods that neither
+            this nor the last sweep before it has `stirred` are left alone.
+        done: sweeps of this step so far.
+        tolerance: what this returned before, m/s; 0 in the step's first call.
+
+    Returns:
+        The sweeps of this step so far, and the change of velocity below which they end.
+    """
+    last = done + MAX_SWEEPS
+    while done < last:
+        done += 1
+        small = max(SMALL_CHANGE_M_S, SMALL_SHARE * tolerance)
+        between = _sweep_contacts(
+            bodies.owner,
+            operator.coupling,
+            touch.contacts,
+            touch.pairs,
+            candidates.impulse,
+            world.friction_rods,
+            done,
+            small,
+            scratch.stirred,
+            scratch.v,
+        )
+        below = sweep_floor(
+            bodies,
+            operator,
+            motion.floor_impulse,
+            scratch.rise,
+            touch.floor,
+            world.friction_floor,
+            done,
+            small,
+            scratch.stirred,
+            scratch.v,
+        )
+        worst = max(between, below)
+        if tolerance == 0.0:
+            tolerance = max(TOLERANCE_M_S, ENOUGH * worst)
+        if worst < tolerance:
+            break
+    return done, tolerance
 
 
 @compiled
-def work_of_depenetration(bodies: Bodies, operator: Operator, start: Array, motion: Motion, candidates: Candidates, touch: Touch) -> float:
-    """What the impulses of a step do by pushing apart what had cut into each other, J at most."""
+def work_of_depenetration(motion: Motion, candidates: Candidates, touch: Touch, rise: Array) -> float:
+    """What the impulses of a step do at most, J, by pushing apart what had cut into each other."""
     contacts, total = touch.contacts, 0.0
     for n in range(touch.pairs):
         if contacts.approach[n] > 0.0:
@@ -195,9 +240,7 @@ def work_of_depenetration(bodies: Bodies, operator: Operator, start: Array, moti
             along = impulse[0] * normal[0] + impulse[1] * normal[1] + impulse[2] * normal[2]
             total += contacts.approach[n] * along
     for i in touch.floor:
-        radius = bodies.radius[bodies.owner[i]]
-        approach = allowed_approach(start[2, i] - radius, operator.step, radius)
-        total += max(approach, 0.0) * motion.floor_impulse[2, i]
+        total += max(rise[i], 0.0) * motion.floor_impulse[2, i]
     return total
 
 

@@ -97,7 +97,7 @@ def _find_free(held: NDArray[np.int8], work: Work) -> None:
 
 
 @compiled
-def _directions(bodies: Bodies, start: Array, x: Array, rod: int, work: Work) -> int:
+def _directions(bodies: Bodies, start: Array, x: Array, rod: int, slack: float, work: Work) -> int:
     """Mean direction and excess length of each segment; returns how many have not kept their length."""
     first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
     segments, excess, acts = end - first - 1, work.excess, work.free[3, 1:]
@@ -111,20 +111,20 @@ def _directions(bodies: Bodies, start: Array, x: Array, rod: int, work: Work) ->
     wrong = 0
     for i in range(segments):
         excess[i] = acts[i] * (np.sqrt(excess[i]) - length)
-        wrong += not abs(excess[i]) < TOLERANCE * length
+        wrong += not abs(excess[i]) < slack * TOLERANCE * length
     return wrong
 
 
 @compiled
 def _imbalance(
-    bodies: Bodies, operator: Operator, motion: Motion, start: Array, load: Array, rod: int, work: Work
+    bodies: Bodies, operator: Operator, motion: Motion, start: Array, load: Array, rod: int, slack: float, work: Work
 ) -> int:
     """What the balance of momentum lacks; returns in how many coordinates nodes are not where momentum takes them."""
     first, end = bodies.first[rod], bodies.first[rod + 1]
     h, nodes, moved = operator.step, end - first, work.moved
     # The last two are zero where there is no node to couple with.
     diagonal, beside, beyond = operator.bands[0, first:end], operator.bands[1, first:end], operator.bands[2, first:end]
-    tension, limit = motion.tension[first:end], BALANCE_TOLERANCE * bodies.length[rod]
+    tension, limit = motion.tension[first:end], slack * BALANCE_TOLERANCE * bodies.length[rod]
     wrong = 0
     for c in range(3):
         x, x0, p, mean = motion.x[c, first:end], start[c, first:end], load[c, first:end], work.mean[c]
@@ -183,7 +183,9 @@ def _move(bodies: Bodies, operator: Operator, motion: Motion, rod: int, rows: Ar
 
 
 @compiled
-def keep_lengths(bodies: Bodies, operator: Operator, motion: Motion, scratch: Scratch, rod: int) -> int:
+def keep_lengths(
+    bodies: Bodies, operator: Operator, motion: Motion, scratch: Scratch, rod: int, slack: float
+) -> int:
     """Move a rod's nodes to where they are at the end of the step, and find its tension.
 
     Args:
@@ -195,6 +197,7 @@ def keep_lengths(bodies: Bodies, operator: Operator, motion: Motion, scratch: Sc
         scratch: `start`; `load`, the momentum and impulses of all forces but tension; `held`, which nodes stay where
             `x` has them: `FREE`, `IN_HEIGHT`, or `AT_REST` in all directions, as pinned nodes do.
         rod: which.
+        slack: how many times the tolerances will do for now.
 
     Returns:
         Newton iterations; MAX_ITERATIONS + 1 if they did not converge.
@@ -204,8 +207,8 @@ def keep_lengths(bodies: Bodies, operator: Operator, motion: Motion, scratch: Sc
     work = _parts(scratch.system, end - first)
     _find_free(held, work)
     for iteration in range(MAX_ITERATIONS):
-        wrong = _directions(bodies, start, motion.x, rod, work)
-        wrong += _imbalance(bodies, operator, motion, start, load, rod, work)
+        wrong = _directions(bodies, start, motion.x, rod, slack, work)
+        wrong += _imbalance(bodies, operator, motion, start, load, rod, slack, work)
         if wrong == 0:
             for i in range(end - first):
                 if held[i] == IN_HEIGHT:

@@ -9,14 +9,25 @@ from worker.rod.arrays import Bodies, flatten
 from worker.rod.bending import Operator, operator_for
 from worker.rod.broad_phase import no_candidates
 from worker.rod.model import Array, Rod, Surroundings
-from worker.rod.step import Bounds, Outcome, Tally, advance, prestress
+from worker.rod.march import Bounds, Outcome, march, prestress
+from worker.rod.tally import COUNT_NAMES, STEPS, new_tally
 from worker.rod.world import world_of
 
 MAX_HALVINGS = 8
+
+MOVE_RADII = 1.0
+"""How far nodes may move against each other in a step, in the least radius; faster ones get a finer step."""
+
+SLOW_MOVE_RADII = 0.05
+"""The same in a step longer than asked for: what creeps to rest, or falls as one, needs no more."""
+
+WELL_BELOW = 2.2
+"""A step is doubled when nodes move so much less than twice the step allows."""
+
 MAX_EXPLICIT_SHARE = 0.25
 """Of the explicit pull towards the natural shape in the implicit rest; from 1 on it would be unstable."""
 
-NEVER_RESTS = (-1.0, -1.0, 1)
+NEVER_RESTS = (-1.0, -1.0, np.inf)
 
 
 class DivergedError(Exception):
@@ -41,18 +52,28 @@ class RodSimulation:
     """Rods that fall.
 
     Attributes:
-        step_s: the greatest time step; it is halved as long as rods move too far against each other in one.
+        step_s: the time step; it is halved as long as rods move too far against each other in one.
     """
 
-    def __init__(self, rods: Sequence[Rod], surroundings: Surroundings, *, steps_per_s: float) -> None:
-        """Place the rods at rest where they start."""
+    def __init__(
+        self, rods: Sequence[Rod], surroundings: Surroundings, *, steps_per_s: float, doublings: int = 0
+    ) -> None:
+        """Place the rods at rest where they start.
+
+        Args:
+            rods: at least one.
+            surroundings: what acts on them.
+            steps_per_s: time steps.
+            doublings: how often a step may be doubled while no rods move against each other, or hardly.
+        """
         self.step_s = 1.0 / steps_per_s
         self._bodies, self._motion = flatten(rods)
         self._damping = surroundings.damping_s
         self._world = world_of(surroundings)
         self._operators: dict[int, Operator] = {}
-        self._least_halvings = self._halvings = _halvings_for_curvature(self._bodies, self.step_s, self._damping)
-        self._tally = Tally(counts=np.zeros(9, np.int64), time=np.zeros(1), quiet=np.zeros(2, np.int64))
+        self._least_halvings = _halvings_for_curvature(self._bodies, self.step_s, self._damping, -doublings)
+        self._halvings = max(self._least_halvings, 0)
+        self._tally = new_tally()
         prestress(self._bodies, self._operator(), self._motion, self._world)
         self._candidates = no_candidates(len(self._bodies.mass))
 
@@ -64,13 +85,12 @@ class RodSimulation:
     @property
     def steps(self) -> int:
         """Time steps made."""
-        return int(self._tally.counts[0])
+        return int(self._tally.counts[STEPS])
 
     @property
     def counts(self) -> dict[str, int]:
-        """What it took, for benchmarks."""
-        names = ("steps", "sweeps", "length_iterations", "lists", "contacts", "length_failures", "rounds", "cold", "bad")
-        return dict(zip(names, self._tally.counts.tolist(), strict=True))
+        """What it took, for benchmarks; see `worker.rod.tally`."""
+        return dict(zip(COUNT_NAMES, self._tally.counts.tolist(), strict=True))
 
     def nodes_m(self, rod: int) -> Array:
         """(N, 3) where a rod's nodes are."""
@@ -117,12 +137,12 @@ class RodSimulation:
         )
 
     def advance(self, steps: int) -> None:
-        """Make so many steps of `step_s`, or of its halves where it had to be halved.
+        """Make so many steps of `step_s`, or of its halves or doubles where it is halved or doubled.
 
         Raises:
             DivergedError: if the state is no longer finite.
         """
-        self._loop(steps, NEVER_RESTS, np.inf)
+        self._march(steps, NEVER_RESTS, np.inf)
 
     def settle(self, *, rms_m_s: float, fastest_m_s: float, quiet_s: float, max_time_s: float) -> bool:
         """Go on until all nodes have been slow for `quiet_s`; returns whether that was reached by `max_time_s`.
@@ -130,25 +150,14 @@ class RodSimulation:
         Raises:
             DivergedError: if the state is no longer finite.
         """
-        quiet = max(1, round(quiet_s / self.step_s))
-        return self._loop(1 << 40, (rms_m_s, fastest_m_s, quiet), max_time_s) is Outcome.RESTED
+        return self._march(1 << 40, (rms_m_s, fastest_m_s, quiet_s), max_time_s) is Outcome.RESTED
 
-    def _loop(self, steps: int, rest: tuple[float, float, int], max_time_s: float) -> Outcome:
+    def _march(self, steps: int, rest: tuple[float, float, float], max_time_s: float) -> Outcome:
         end = self.steps + steps
         while self.steps < end and self.time_s < max_time_s:
-            operator = self._operator()
-            left = (max_time_s - self.time_s) / operator.step
-            bounds = Bounds(
-                steps=min(end - self.steps, int(np.ceil(left))) if np.isfinite(left) else end - self.steps,
-                rest_rms=rest[0],
-                rest_fastest=rest[1],
-                rest_steps=rest[2],
-                horizon=2 * self.step_s,
-                coarsest=self._halvings == self._least_halvings,
-                finest=self._halvings >= MAX_HALVINGS,
-            )
-            code, self._candidates = advance(
-                self._bodies, operator, self._motion, self._world, self._candidates, self._tally, bounds
+            bounds = self._bounds(end - self.steps, rest, max_time_s)
+            code, self._candidates = march(
+                self._bodies, self._operator(), self._motion, self._world, self._candidates, self._tally, bounds
             )
             match Outcome(code):
                 case Outcome.TOO_FAST | Outcome.UNSOUND:
@@ -159,7 +168,28 @@ class RodSimulation:
                     raise DivergedError(f"after {self.time_s:.4g} s")
                 case Outcome.RESTED:
                     return Outcome.RESTED
+                case Outcome.STEPS_DONE:
+                    pass
         return Outcome.STEPS_DONE
+
+    def _bounds(self, steps: int, rest: tuple[float, float, float], max_time_s: float) -> Bounds:
+        left = (max_time_s - self.time_s) / self._operator().step
+        finest, coarsest = self._halvings >= MAX_HALVINGS, self._halvings <= self._least_halvings
+        return Bounds(
+            steps=min(steps, int(np.ceil(left))) if np.isfinite(left) else steps,
+            rest_rms=rest[0],
+            rest_fastest=rest[1],
+            rest_s=rest[2],
+            horizon=2 * self.step_s / 2 ** min(self._least_halvings, 0),
+            most_move=np.inf if finest else self._move_allowed(self._halvings),
+            few_move=-1.0 if coarsest else self._move_allowed(self._halvings - 1) / WELL_BELOW,
+            alone=self._halvings >= 0,
+            finest=finest,
+        )
+
+    def _move_allowed(self, halvings: int) -> float:
+        """How far nodes may move against each other in a step so often halved, m."""
+        return float((MOVE_RADII if halvings >= 0 else SLOW_MOVE_RADII) * self._bodies.radius.min())
 
     def _change_step(self, halvings: int) -> None:
         ratio = 2.0 ** (self._halvings - halvings)
@@ -177,8 +207,8 @@ class RodSimulation:
         return slice(int(self._bodies.first[rod]), int(self._bodies.first[rod + 1]))
 
 
-def _halvings_for_curvature(bodies: Bodies, step_s: float, damping_s: float) -> int:
-    """How often the step must be halved for the explicit pull towards the natural shape to be stable.
+def _halvings_for_curvature(bodies: Bodies, step_s: float, damping_s: float, least: int) -> int:
+    """How often the step must be halved, at least `least` times, for the explicit pull towards the natural shape to be stable.
 
     Against rho A + h (h + tau) EI q^4, the implicit part, a wave of number q is pulled by h^2 EI k q^3. The ratio is
     greatest at q = 3^(1/4) / a, where it is 0.57 k a h / (h + tau); a = (h (h + tau) EI / rho A)^(1/4) is the length
@@ -188,7 +218,7 @@ def _halvings_for_curvature(bodies: Bodies, step_s: float, damping_s: float) -> 
         [np.abs(bodies.curvature[a:b]).max() for a, b in zip(bodies.first[:-1], bodies.first[1:], strict=True)]
     )
     mass_per_length = bodies.mass[bodies.first[:-1] + 1] / bodies.length
-    for halvings in range(MAX_HALVINGS):
+    for halvings in range(least, MAX_HALVINGS):
         h = step_s / 2**halvings
         response_length = (bodies.stiffness * h * (h + damping_s) / mass_per_length) ** 0.25
         if np.max(0.57 * h / (h + damping_s) * owner_curvature * response_length) <= MAX_EXPLICIT_SHARE:
