@@ -25,7 +25,7 @@ from worker.rod.narrow_phase import find_near
 DEPENETRATION_SHARE = 0.2
 """Of a penetration that is undone in a step."""
 
-UNDOING_S = 0.03
+UNDOING_S = 0.01
 
 DEEP_SHARE = 0.9
 TURN_SHARE = 0.5

@@ -9,7 +9,7 @@ from worker.rod.contact import allowed_approach, on_cone, push
 from worker.rod.lengths import AT_REST, FREE, IN_HEIGHT
 from worker.rod.model import Array
 
-SUNK_RADII = 0.02
+SUNK_RADII = 0.004
 """How deep keeping the lengths may press a node into the floor before the floor is asked again."""
 
 
@@ -35,6 +35,8 @@ def find_near_floor(
         radius = bodies.radius[rod]
         for i in range(bodies.first[rod], bodies.first[rod + 1]):
             gap = motion.x[2, i] - radius
+            if gap < radius:
+                gap -= max(_dip(motion.x, i - 1, bodies.first, rod), _dip(motion.x, i, bodies.first, rod))
             rise[i] = allowed_approach(gap, step, radius)
             if not bodies.pinned[i] and gap < radius + 2 * step * abs(motion.v[2, i]):
                 touching[count] = i
@@ -44,6 +46,22 @@ def find_near_floor(
                 x, y, z = 0.0, 0.0, 0.0
             motion.floor_impulse[0, i], motion.floor_impulse[1, i], motion.floor_impulse[2, i] = x, y, z
     return count
+
+
+@compiled
+def _dip(x: Array, i: int, first: Integers, rod: int) -> float:
+    """How far the smooth curve goes below the lower end of the segment that starts at node i, m; 0 if it does not."""
+    if i < first[rod] or i + 1 >= first[rod + 1]:
+        return 0.0
+    here, there = x[2, i], x[2, i + 1]
+    before = x[2, i - 1] if i > first[rod] else 2 * here - there
+    after = x[2, i + 2] if i + 2 < first[rod + 1] else 2 * there - here
+    bend, next_bend = before - 2 * here + there, here - 2 * there + after
+    deepest = 0.0
+    for t in (0.25, 0.5, 0.75):
+        height = here + t * (there - here) - 0.5 * t * (1 - t) * ((1 - t) * bend + t * next_bend)
+        deepest = max(deepest, min(here, there) - height)
+    return deepest
 
 
 @compiled

@@ -21,7 +21,7 @@ TOLERANCE_M_S = 1.5e-3
 """Sweeps end when none changes velocities by more, summed over a rod: soft rods, of which some five nodes respond to a
 push, are then slower than a third of what counts as resting."""
 
-ENOUGH = 0.02
+ENOUGH = 0.1
 """They also end when none changes a velocity by more than this share of what the step's first one did."""
 
 

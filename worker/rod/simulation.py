@@ -15,7 +15,7 @@ from worker.rod.world import world_of
 
 MAX_HALVINGS = 8
 
-MOVE_RADII = 1.0
+MOVE_RADII = 2.0
 """How far nodes may move against each other in a step, in the least radius; faster ones get a finer step."""
 
 SLOW_MOVE_RADII = 0.05
