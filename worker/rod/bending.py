@@ -180,7 +180,7 @@ def operator_for(bodies: Bodies, step_s: float, damping_s: float) -> Operator:
 
 @compiled
 def energy_of(bodies: Bodies, bands: Array, v: Array) -> float:
-    """v A v / 2 of velocities (3, nodes), J: kinetic energy, and what bending takes up within a step."""
+    """V A v / 2 of velocities (3, nodes), J: kinetic energy, and what bending takes up within a step."""
     total = 0.0
     for rod in range(len(bodies.length)):
         for i in range(bodies.first[rod], bodies.first[rod + 1]):

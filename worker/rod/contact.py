@@ -8,7 +8,8 @@ there. As the operator is the same in x, y and z, a contact's own block is a mul
 cone a true cone.
 
 Contacts are speculative: a pair that would meet within the step is stopped at the touch, whatever its speed, so that
-nothing tunnels. A pair remembers which side it was on; a curve that got to the wrong side is pushed back.
+nothing tunnels. A pair remembers which side it was on; a curve that got to the wrong side is pushed back. Rods that
+start within each other have no side: the first of them is taken for the lower one, wherever they cross.
 """
 
 from typing import NamedTuple
@@ -23,12 +24,17 @@ from worker.rod.model import Array
 from worker.rod.narrow_phase import find_near
 
 DEPENETRATION_SHARE = 0.2
-"""Of a penetration that is undone in a step."""
+"""Of a penetration that is undone in a step at most."""
 
-UNDOING_S = 0.01
+UNDOING_S = 0.03
+"""Time constant of undoing a penetration: what is pushed out faster keeps moving, falls back, and never rests."""
 
 DEEP_SHARE = 0.9
+"""Of the distance at which two rods touch. Nearer ones have cut into each other so deep that the way between their
+axes may not be the way out."""
+
 TURN_SHARE = 0.5
+"""Cosine of the greatest angle between the way between the axes of such rods and the last one that was remembered."""
 
 SLOP_RADII = 0.002
 """Depth that is left as it is: to lift a rod out would give it energy."""
@@ -209,7 +215,7 @@ def _point(x: Array, base: Integers, weights: Array, n: int, normal: Array) -> N
 
 @compiled
 def _turn(normal: Array, n: int, memory: Array, pair: int, touching: float) -> float:
-    """Make the way `normal[n]` a unit vector; returns its length, m, negative if the first side is on the wrong one.
+    """Make the way `normal[n]` a unit vector, and the way out; returns how far the first side is along it, m.
 
     Args:
         normal: (n, 3) ways from the second side to the first, m.
@@ -217,6 +223,9 @@ def _turn(normal: Array, n: int, memory: Array, pair: int, touching: float) -> f
         memory: (pairs, 3) such ways or unit vectors as last seen; 0 if never. The pair's becomes the unit vector.
         pair: its number.
         touching: the distance at which the two touch, m.
+
+    Returns:
+        The distance, negative if the first side is on the wrong one.
     """
     squared = known = side = 0.0
     for c in range(3):
@@ -264,8 +273,10 @@ def allowed_approach(gap: float, step: float, radius: float) -> float:
 def on_cone(
     x: float, y: float, z: float, nx: float, ny: float, nz: float, friction: float
 ) -> tuple[float, float, float]:
-    """The admissible impulse in Coulomb's sense for one that is wanted: it pushes along the normal n, or is zero, and
-    rubs no harder than `friction` times that."""
+    """The admissible impulse in Coulomb's sense for one that is wanted.
+
+    It pushes along the normal n, or is zero, and rubs no harder than `friction` times that.
+    """
     along = x * nx + y * ny + z * nz
     if along <= 0.0:
         return 0.0, 0.0, 0.0
@@ -277,7 +288,7 @@ def on_cone(
 
 @compiled
 def push(column: Array, begin: int, low: int, width: int, x: float, y: float, z: float, v: Array) -> None:
-    """Add to the velocities (3, nodes) of so many nodes from `low` on what an impulse does: `column` from `begin` on."""
+    """Add what an impulse does, `column` from `begin` on, to velocities (3, nodes) of so many nodes from `low` on."""
     for j in range(width):
         share = column[begin + j]
         v[0, low + j] += x * share

@@ -1,7 +1,5 @@
 """The floor: which nodes it may touch, its impulses, and the heights at which it carries them."""
 
-import numpy as np
-
 from worker.rod.arrays import Bodies, Integers, Motion, Scratch
 from worker.rod.bending import Operator
 from worker.rod.compiled import compiled
@@ -70,7 +68,7 @@ def _vector(array: Array, i: int) -> tuple[float, float, float]:
 
 
 @compiled
-def sweep_floor(
+def sweep_floor(  # noqa: PLR0913, PLR0917 - out of nested tuples every access would count references
     bodies: Bodies,
     operator: Operator,
     floor_impulse: Array,

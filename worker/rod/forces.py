@@ -13,7 +13,7 @@ DRAG_COEFFICIENT = 1.1
 
 
 SKIN_COEFFICIENT = 0.02
-"""Of a long cylinder along the flow, on its diameter: pi 1.328 / sqrt(Re) of a laminar skin, Re = 4e4 (ibid., ch. 2)."""
+"""Of a long cylinder along the flow, on its diameter: pi 1.328 / sqrt(Re) for a laminar skin at Re = 4e4 (ch. 2)."""
 
 
 @compiled
@@ -128,4 +128,4 @@ def momentum_to_be(bodies: Bodies, motion: Motion, world: World, step: float, ti
         for i in range(len(bodies.mass)):
             momentum[c, i] = bodies.mass[i] * motion.v[c, i] + step * force[c, i]
     if world.resistance > 0.0:
-        _resist(bodies, motion, world.resistance * np.sqrt(np.sum(world.gravity ** 2)), step, momentum)
+        _resist(bodies, motion, world.resistance * np.sqrt(np.sum(world.gravity**2)), step, momentum)

@@ -2,11 +2,8 @@
 
 from typing import NamedTuple
 
-import numpy as np
-
 from worker.rod.arrays import Bodies, Integers, Motion, Scratch
 from worker.rod.bending import Operator, solve
-from worker.rod.broad_phase import Candidates
 from worker.rod.compiled import compiled
 from worker.rod.contact import Contacts, on_cone, push
 from worker.rod.floor import sweep_floor
@@ -21,7 +18,7 @@ TOLERANCE_M_S = 1.5e-3
 """Sweeps end when none changes velocities by more, summed over a rod: soft rods, of which some five nodes respond to a
 push, are then slower than a third of what counts as resting."""
 
-ENOUGH = 0.1
+ENOUGH = 0.05
 """They also end when none changes a velocity by more than this share of what the step's first one did."""
 
 
@@ -34,18 +31,25 @@ SMALL_SHARE = 0.05
 
 
 class Touch(NamedTuple):
-    """What touches in this step: the first `pairs` of the contacts, and nodes near the floor.
+    """What touches in this step.
 
     Loops take its parts as arguments: out of a nested tuple, compiled code would count references at every access.
+
+    Attributes:
+        contacts: between rods, the first `pairs` of them.
+        pairs: how many.
+        impulse: (candidates, 3) N s, of all pairs that may touch.
+        floor: nodes that the floor may touch.
     """
 
     contacts: Contacts
     pairs: int
+    impulse: Array
     floor: Integers
 
 
 @compiled
-def _sweep_contacts(
+def _sweep_contacts(  # noqa: PLR0913, PLR0917 - out of nested tuples every access would count references
     owner: Integers,
     coupling: Array,
     contacts: Contacts,
@@ -114,18 +118,18 @@ def _sweep_contacts(
 
 @compiled
 def _add_impulses(
-    motion: Motion, candidates: Candidates, contacts: Contacts, pairs: int, floor: Integers, load: Array
+    floor_impulse: Array, floor: Integers, impulse: Array, contacts: Contacts, pairs: int, load: Array
 ) -> None:
     """Add the impulses of the floor and between rods, N s, to `load` (3, nodes)."""
     for i in floor:
         for c in range(3):
-            load[c, i] += motion.floor_impulse[c, i]
+            load[c, i] += floor_impulse[c, i]
     for n in range(pairs):
-        push = candidates.impulse[contacts.pair[n]]
+        pair, i, j = contacts.pair[n], contacts.base[0, n], contacts.base[1, n]
         for k in range(4):
             for c in range(3):
-                load[c, contacts.base[0, n] + k] += contacts.weights[0, n, k] * push[c]
-                load[c, contacts.base[1, n] + k] -= contacts.weights[1, n, k] * push[c]
+                load[c, i + k] += contacts.weights[0, n, k] * impulse[pair, c]
+                load[c, j + k] -= contacts.weights[1, n, k] * impulse[pair, c]
 
 
 @compiled
@@ -141,28 +145,25 @@ def _velocities(bodies: Bodies, operator: Operator, motion: Motion, load: Array,
 
 
 @compiled
-def predict(
-    bodies: Bodies, operator: Operator, motion: Motion, candidates: Candidates, touch: Touch, scratch: Scratch
-) -> None:
+def predict(bodies: Bodies, operator: Operator, motion: Motion, touch: Touch, scratch: Scratch) -> None:
     """Velocities at the end of the step if all impulses and tensions were those of the step before.
 
     Args:
         bodies: the rods.
         operator: of this time step.
         motion: where they are, and their tension.
-        candidates: the impulses between rods.
         touch: what touches.
         scratch: `momentum` is read; `load` and `v` receive it with all impulses, and the velocities that it gives.
     """
-    gather_load(motion, candidates, touch, scratch)
+    gather_load(motion, touch, scratch)
     _velocities(bodies, operator, motion, scratch.load, scratch.v)
 
 
 @compiled
-def gather_load(motion: Motion, candidates: Candidates, touch: Touch, scratch: Scratch) -> None:
+def gather_load(motion: Motion, touch: Touch, scratch: Scratch) -> None:
     """Put `momentum` and the impulses of all contacts, N s, into `load`."""
     scratch.load[:] = scratch.momentum
-    _add_impulses(motion, candidates, touch.contacts, touch.pairs, touch.floor, scratch.load)
+    _add_impulses(motion.floor_impulse, touch.floor, touch.impulse, touch.contacts, touch.pairs, scratch.load)
 
 
 @compiled
@@ -171,7 +172,6 @@ def correct(
     operator: Operator,
     motion: Motion,
     world: World,
-    candidates: Candidates,
     touch: Touch,
     scratch: Scratch,
     done: int,
@@ -184,8 +184,7 @@ def correct(
         operator: of this time step.
         motion: `floor_impulse` is changed.
         world: how strong friction is.
-        candidates: `impulse` is changed.
-        touch: what touches.
+        touch: what touches; `impulse` is changed.
         scratch: `start` is read; `v` is changed by what the impulses' changes do nearby. Contacts of rods that neither
             this nor the last sweep before it has `stirred` are left alone.
         done: sweeps of this step so far.
@@ -203,7 +202,7 @@ def correct(
             operator.coupling,
             touch.contacts,
             touch.pairs,
-            candidates.impulse,
+            touch.impulse,
             world.friction_rods,
             done,
             small,
@@ -231,12 +230,12 @@ def correct(
 
 
 @compiled
-def work_of_depenetration(motion: Motion, candidates: Candidates, touch: Touch, rise: Array) -> float:
+def work_of_depenetration(motion: Motion, touch: Touch, rise: Array) -> float:
     """What the impulses of a step do at most, J, by pushing apart what had cut into each other."""
     contacts, total = touch.contacts, 0.0
     for n in range(touch.pairs):
         if contacts.approach[n] > 0.0:
-            normal, impulse = contacts.normal[n], candidates.impulse[contacts.pair[n]]
+            normal, impulse = contacts.normal[n], touch.impulse[contacts.pair[n]]
             along = impulse[0] * normal[0] + impulse[1] * normal[1] + impulse[2] * normal[2]
             total += contacts.approach[n] * along
     for i in touch.floor:
@@ -245,14 +244,30 @@ def work_of_depenetration(motion: Motion, candidates: Candidates, touch: Touch, 
 
 
 @compiled
-def find_touched(bodies: Bodies, motion: Motion, candidates: Candidates, touch: Touch) -> None:
+def find_touched(bodies: Bodies, motion: Motion, touch: Touch) -> None:
     """Note which rods were pushed by anything in this step."""
     motion.touched[:] = False
     for i in touch.floor:
         if motion.floor_impulse[2, i] > 0.0:
             motion.touched[bodies.owner[i]] = True
     for n in range(touch.pairs):
-        push = candidates.impulse[touch.contacts.pair[n]]
+        push = touch.impulse[touch.contacts.pair[n]]
         if push[0] != 0.0 or push[1] != 0.0 or push[2] != 0.0:
             motion.touched[bodies.owner[touch.contacts.base[0, n]]] = True
             motion.touched[bodies.owner[touch.contacts.base[1, n]]] = True
+
+
+@compiled
+def worst_miss(contacts: Contacts, pairs: int, v: Array) -> float:
+    """How much faster rods approach at velocities `v` (3, nodes) than any of the first `pairs` contacts allows, m/s."""
+    base, weights, normal = contacts.base, contacts.weights, contacts.normal
+    worst = 0.0
+    for n in range(pairs):
+        i, j = base[0, n], base[1, n]
+        along = 0.0
+        for k in range(4):
+            a, b = weights[0, n, k], weights[1, n, k]
+            for c in range(3):
+                along += normal[n, c] * (a * v[c, i + k] - b * v[c, j + k])
+        worst = max(worst, contacts.approach[n] - along)
+    return worst

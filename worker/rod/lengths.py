@@ -183,9 +183,7 @@ def _move(bodies: Bodies, operator: Operator, motion: Motion, rod: int, rows: Ar
 
 
 @compiled
-def keep_lengths(
-    bodies: Bodies, operator: Operator, motion: Motion, scratch: Scratch, rod: int, slack: float
-) -> int:
+def keep_lengths(bodies: Bodies, operator: Operator, motion: Motion, scratch: Scratch, rod: int, slack: float) -> int:
     """Move a rod's nodes to where they are at the end of the step, and find its tension.
 
     Args:

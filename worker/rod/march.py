@@ -43,10 +43,10 @@ class Bounds(NamedTuple):
         rest_rms: root mean square speed below which the rods rest, m/s.
         rest_fastest: largest speed below which they do, m/s.
         rest_s: how long they must have rested, s.
-        horizon: how long before rods land they count as landing, s.
-        most_move: how far nodes may move against each other in a step, m; inf if no smaller step can be had.
+        horizon: how long before rods land they count as landing, s; whatever the time step is.
+        most_move: how far nodes may move in a step against others that they may meet, m; inf if no smaller step can be
+            had.
         few_move: how little they must move for a greater step, m; negative if none can be had.
-        alone: whether rods that can meet no other may move farther than that.
         finest: whether no smaller step can be had.
     """
 
@@ -57,7 +57,6 @@ class Bounds(NamedTuple):
     horizon: float
     most_move: float
     few_move: float
-    alone: bool
     finest: bool
 
 
@@ -102,13 +101,13 @@ def march(
             tally.counts[LISTS] += 1
             if len(contacts.pair) < len(candidates.one) + 1:
                 contacts = room_for_contacts(len(candidates.one) + 1, operator)
-        if move > bounds.most_move and not (bounds.alone and len(candidates.one) == 0):
+        if move > bounds.most_move and len(candidates.one) > 0:
             return Outcome.TOO_FAST.value, candidates
         if move < bounds.few_move and tally.wary[0] <= 0:
             return Outcome.SLOW_ENOUGH.value, candidates
         momentum_to_be(bodies, motion, world, step, tally.time[0] + step, scratch.momentum)
         touch = _find_touch(bodies, operator, motion, world, candidates, contacts, near, scratch)
-        if not make_step(bodies, operator, motion, world, candidates, touch, scratch, tally, bounds.finest):
+        if not make_step(bodies, operator, motion, world, touch, scratch, tally, bounds.finest):
             tally.wary[0] = WARY_STEPS
             return Outcome.UNSOUND.value, candidates
         _count(tally, step, touch.pairs)
@@ -169,7 +168,7 @@ def _find_touch(
         touching = find_near_floor(
             bodies, motion, operator.step, world.friction_floor, scratch.near_floor, scratch.rise
         )
-    return Touch(contacts, count, scratch.near_floor[:touching])
+    return Touch(contacts, count, candidates.impulse, scratch.near_floor[:touching])
 
 
 @compiled

@@ -39,9 +39,7 @@ def find_bulge(bodies: Bodies, x: Array, bulge: Array) -> None:
 
 
 @compiled
-def find_reach(
-    bodies: Bodies, v: Array, frame: Array, step: float, margin: float, bulge: Array, reach: Array
-) -> None:
+def find_reach(bodies: Bodies, v: Array, frame: Array, step: float, margin: float, bulge: Array, reach: Array) -> None:
     """Find how far around each node contact must be looked for in a step, in m.
 
     Args:
@@ -62,7 +60,7 @@ def find_reach(
 
 
 @compiled
-def find_near(
+def find_near(  # noqa: PLR0913, PLR0917 - all of it is needed for each pair
     bodies: Bodies,
     motion: Motion,
     candidates: Candidates,

@@ -8,21 +8,18 @@ import numpy as np
 from worker.rod.arrays import Bodies, flatten
 from worker.rod.bending import Operator, operator_for
 from worker.rod.broad_phase import no_candidates
-from worker.rod.model import Array, Rod, Surroundings
 from worker.rod.march import Bounds, Outcome, march, prestress
+from worker.rod.model import Array, Rod, Surroundings
 from worker.rod.tally import COUNT_NAMES, STEPS, new_tally
 from worker.rod.world import world_of
 
 MAX_HALVINGS = 8
 
-MOVE_RADII = 2.0
+MOVE_RADII = 1.0
 """How far nodes may move against each other in a step, in the least radius; faster ones get a finer step."""
 
-SLOW_MOVE_RADII = 0.05
-"""The same in a step longer than asked for: what creeps to rest, or falls as one, needs no more."""
-
 WELL_BELOW = 2.2
-"""A step is doubled when nodes move so much less than twice the step allows."""
+"""A halved step is doubled again when nodes move so many times less than they may."""
 
 MAX_EXPLICIT_SHARE = 0.25
 """Of the explicit pull towards the natural shape in the implicit rest; from 1 on it would be unstable."""
@@ -55,24 +52,14 @@ class RodSimulation:
         step_s: the time step; it is halved as long as rods move too far against each other in one.
     """
 
-    def __init__(
-        self, rods: Sequence[Rod], surroundings: Surroundings, *, steps_per_s: float, doublings: int = 0
-    ) -> None:
-        """Place the rods at rest where they start.
-
-        Args:
-            rods: at least one.
-            surroundings: what acts on them.
-            steps_per_s: time steps.
-            doublings: how often a step may be doubled while no rods move against each other, or hardly.
-        """
+    def __init__(self, rods: Sequence[Rod], surroundings: Surroundings, *, steps_per_s: float) -> None:
+        """Place the rods at rest where they start."""
         self.step_s = 1.0 / steps_per_s
         self._bodies, self._motion = flatten(rods)
         self._damping = surroundings.damping_s
         self._world = world_of(surroundings)
         self._operators: dict[int, Operator] = {}
-        self._least_halvings = _halvings_for_curvature(self._bodies, self.step_s, self._damping, -doublings)
-        self._halvings = max(self._least_halvings, 0)
+        self._least_halvings = self._halvings = _halvings_for_curvature(self._bodies, self.step_s, self._damping)
         self._tally = new_tally()
         prestress(self._bodies, self._operator(), self._motion, self._world)
         self._candidates = no_candidates(len(self._bodies.mass))
@@ -137,7 +124,7 @@ class RodSimulation:
         )
 
     def advance(self, steps: int) -> None:
-        """Make so many steps of `step_s`, or of its halves or doubles where it is halved or doubled.
+        """Make so many steps of `step_s`, or of its halves where it had to be halved.
 
         Raises:
             DivergedError: if the state is no longer finite.
@@ -175,21 +162,17 @@ class RodSimulation:
     def _bounds(self, steps: int, rest: tuple[float, float, float], max_time_s: float) -> Bounds:
         left = (max_time_s - self.time_s) / self._operator().step
         finest, coarsest = self._halvings >= MAX_HALVINGS, self._halvings <= self._least_halvings
+        move = MOVE_RADII * float(self._bodies.radius.min())
         return Bounds(
             steps=min(steps, int(np.ceil(left))) if np.isfinite(left) else steps,
             rest_rms=rest[0],
             rest_fastest=rest[1],
             rest_s=rest[2],
-            horizon=2 * self.step_s / 2 ** min(self._least_halvings, 0),
-            most_move=np.inf if finest else self._move_allowed(self._halvings),
-            few_move=-1.0 if coarsest else self._move_allowed(self._halvings - 1) / WELL_BELOW,
-            alone=self._halvings >= 0,
+            horizon=2 * self.step_s,
+            most_move=np.inf if finest else move,
+            few_move=-1.0 if coarsest else move / WELL_BELOW,
             finest=finest,
         )
-
-    def _move_allowed(self, halvings: int) -> float:
-        """How far nodes may move against each other in a step so often halved, m."""
-        return float((MOVE_RADII if halvings >= 0 else SLOW_MOVE_RADII) * self._bodies.radius.min())
 
     def _change_step(self, halvings: int) -> None:
         ratio = 2.0 ** (self._halvings - halvings)
@@ -207,8 +190,8 @@ class RodSimulation:
         return slice(int(self._bodies.first[rod]), int(self._bodies.first[rod + 1]))
 
 
-def _halvings_for_curvature(bodies: Bodies, step_s: float, damping_s: float, least: int) -> int:
-    """How often the step must be halved, at least `least` times, for the explicit pull towards the natural shape to be stable.
+def _halvings_for_curvature(bodies: Bodies, step_s: float, damping_s: float) -> int:
+    """How often the step must be halved for the explicit pull towards the natural shape to be stable.
 
     Against rho A + h (h + tau) EI q^4, the implicit part, a wave of number q is pulled by h^2 EI k q^3. The ratio is
     greatest at q = 3^(1/4) / a, where it is 0.57 k a h / (h + tau); a = (h (h + tau) EI / rho A)^(1/4) is the length
@@ -218,7 +201,7 @@ def _halvings_for_curvature(bodies: Bodies, step_s: float, damping_s: float, lea
         [np.abs(bodies.curvature[a:b]).max() for a, b in zip(bodies.first[:-1], bodies.first[1:], strict=True)]
     )
     mass_per_length = bodies.mass[bodies.first[:-1] + 1] / bodies.length
-    for halvings in range(least, MAX_HALVINGS):
+    for halvings in range(MAX_HALVINGS):
         h = step_s / 2**halvings
         response_length = (bodies.stiffness * h * (h + damping_s) / mass_per_length) ** 0.25
         if np.max(0.57 * h / (h + damping_s) * owner_curvature * response_length) <= MAX_EXPLICIT_SHARE:

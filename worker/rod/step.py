@@ -6,14 +6,11 @@ finds nothing more to do. Impulses and tensions both do only what costs energy, 
 found them: it is made again from no impulses at all, then as two steps of half the time.
 """
 
-import numpy as np
-
 from worker.rod.arrays import Bodies, Motion, Scratch
 from worker.rod.bending import Operator, energy_of, solve
-from worker.rod.broad_phase import Candidates
 from worker.rod.compiled import compiled
 from worker.rod.floor import catch_sunk, hold_on_floor, let_go_pulled
-from worker.rod.impulses import Touch, correct, find_touched, gather_load, predict, work_of_depenetration
+from worker.rod.impulses import Touch, correct, find_touched, gather_load, predict, work_of_depenetration, worst_miss
 from worker.rod.lengths import MAX_ITERATIONS, keep_lengths
 from worker.rod.tally import ITERATIONS, RETRIES, ROUNDS, STOPS, SWEEPS, UNKEPT, Tally
 from worker.rod.world import World
@@ -33,6 +30,9 @@ SLACK = 1e3
 ENERGY_SPARE = 1e-3
 """Of the energy that a step may have; more is a gain."""
 
+MISS_RADII = 0.1
+"""How far a step may push a rod into another, in the least radius, because impulses are not quite found."""
+
 SPEED_SPARE_M_S = 1e-3
 """A gain of less than all rods have at this speed does not count either."""
 
@@ -43,7 +43,6 @@ def make_step(
     operator: Operator,
     motion: Motion,
     world: World,
-    candidates: Candidates,
     touch: Touch,
     scratch: Scratch,
     tally: Tally,
@@ -56,8 +55,7 @@ def make_step(
         operator: of the time step.
         motion: is changed.
         world: what acts on them.
-        candidates: the impulses between rods are changed.
-        touch: what touches.
+        touch: what touches; the impulses are changed.
         scratch: `momentum` is read: what all else than contact and tension makes of it.
         tally: counts on.
         finest: whether no smaller step can be had. Then, rods for which no sound end is found stop where they are.
@@ -71,11 +69,13 @@ def make_step(
         solve(bodies, operator.factors, rod, scratch.free)
     spare = 0.5 * bodies.mass.sum() * SPEED_SPARE_M_S**2
     most = energy_of(bodies, operator.bands, scratch.free) * (1 + ENERGY_SPARE) + spare
+    may_miss = MISS_RADII * bodies.radius.min() / operator.step
     rounds, sound = MAX_ROUNDS, False
     for _ in range(2):
-        kept = _take_turns(bodies, operator, motion, world, candidates, touch, scratch, tally, rounds)
-        given = work_of_depenetration(motion, candidates, touch, scratch.rise)
-        sound = kept and energy_of(bodies, operator.bands, scratch.v) <= most + given
+        kept = _take_turns(bodies, operator, motion, world, touch, scratch, tally, rounds)
+        given = work_of_depenetration(motion, touch, scratch.rise)
+        missed = worst_miss(touch.contacts, touch.pairs, scratch.v)
+        sound = kept and missed <= may_miss and energy_of(bodies, operator.bands, scratch.v) <= most + given
         if sound:
             break
         tally.counts[RETRIES] += 1
@@ -83,14 +83,14 @@ def make_step(
         motion.x[:] = scratch.start
         motion.tension[:] = 0.0
         motion.floor_impulse[:] = 0.0
-        candidates.impulse[:] = 0.0
+        touch.impulse[:] = 0.0
     if not sound:
         if not finest:
             return False
         tally.counts[STOPS] += 1
         scratch.v[:] = 0.0
     motion.v[:] = scratch.v
-    find_touched(bodies, motion, candidates, touch)
+    find_touched(bodies, motion, touch)
     return True
 
 
@@ -100,7 +100,6 @@ def _take_turns(
     operator: Operator,
     motion: Motion,
     world: World,
-    candidates: Candidates,
     touch: Touch,
     scratch: Scratch,
     tally: Tally,
@@ -108,22 +107,22 @@ def _take_turns(
 ) -> bool:
     """Find impulses, and places with tensions, in turn; returns whether all lengths are kept in the end."""
     rods, stirred = len(bodies.length), scratch.stirred
-    predict(bodies, operator, motion, candidates, touch, scratch)
+    predict(bodies, operator, motion, touch, scratch)
     stirred[:] = 0
     sweeps, tolerance = 0, 0.0
     for turn in range(rounds):
         before = sweeps
         if touch.pairs > 0 or len(touch.floor) > 0:
-            sweeps, tolerance = correct(bodies, operator, motion, world, candidates, touch, scratch, sweeps, tolerance)
+            sweeps, tolerance = correct(bodies, operator, motion, world, touch, scratch, sweeps, tolerance)
             if turn > 0 and sweeps == before + 1:
                 break
         elif turn > 0:
             break
         tally.counts[ROUNDS] += 1
-        gather_load(motion, candidates, touch, scratch)
+        gather_load(motion, touch, scratch)
         for rod in range(rods):
             if turn == 0 or stirred[rod] > before:
-                _place(bodies, operator, motion, scratch, tally, rod)
+                _place(bodies, operator, motion, world, scratch, tally, rod)
                 stirred[rod] = sweeps
     tally.counts[SWEEPS] += sweeps
     kept = True
@@ -133,7 +132,7 @@ def _take_turns(
 
 
 @compiled
-def _place(bodies: Bodies, operator: Operator, motion: Motion, scratch: Scratch, tally: Tally, rod: int) -> None:
+def _place(bodies: Bodies, operator: Operator, motion: Motion, world: World, scratch: Scratch, tally: Tally, rod: int) -> None:
     """Find about where a rod ends the step under the load that it has, from the velocities `scratch.v`, and these."""
     h, start, v, x = operator.step, scratch.start, scratch.v, motion.x
     for c in range(3):
@@ -141,6 +140,11 @@ def _place(bodies: Bodies, operator: Operator, motion: Motion, scratch: Scratch,
             x[c, i] = start[c, i] + h * v[c, i]
     hold_on_floor(bodies, motion, scratch, h, rod)
     tally.counts[ITERATIONS] += keep_lengths(bodies, operator, motion, scratch, rod, SLACK)
+    for _ in range(MAX_FLOOR_CHANGES if world.floor else 0):
+        let_go = let_go_pulled(bodies, motion, scratch, rod)
+        if not catch_sunk(bodies, motion, scratch, h, rod) and not let_go:
+            break
+        tally.counts[ITERATIONS] += keep_lengths(bodies, operator, motion, scratch, rod, SLACK)
     _find_velocities(bodies, motion, scratch, h, rod)
 
 

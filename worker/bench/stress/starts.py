@@ -173,8 +173,9 @@ def _bounds(case: Case, rods: list[Rod], velocities: Array, breeze: Breeze | Non
 
     - It falls from its height, and from as much more as the throw and the wind can lift it, no slower than at its
       terminal speed where there is air; lying on its end it takes several times sqrt(L/g) to topple.
-    - It moves sideways at what the throw and the wind gave it, and what a fall can turn sideways. Then it slides,
-      braked by friction and, while faster than its terminal speed, by drag, which takes that speed over g.
+    - It moves sideways at what the throw and the wind gave it, and what a fall can turn sideways. Then it slides, on
+      the floor or on others, braked by friction, by the dry resistance of what touches and, while faster than its
+      terminal speed, by drag, which takes that speed over g.
     - A cable that bridges others swings. A beam lifted by d off a floor leaves it over a half-length (72 EI d/w)^1/4,
       so the period of its slowest mode is 2.4 sqrt(d/g), whatever its stiffness and weight. Its internal damping tau
       lets the swing decay at a rate of omega^2 tau / 2; from 3 m/s to rest takes ln(6000) = 8.7 time constants.
@@ -198,7 +199,7 @@ def _bounds(case: Case, rods: list[Rod], velocities: Array, breeze: Breeze | Non
         top = highest + throw**2 / (2 * GRAVITY_M_S2) + np.sin(np.radians(WIND_TILT_DEG)) * gained * blow_s
         air_s = throw / GRAVITY_M_S2 + np.sqrt(2 * top / GRAVITY_M_S2) + top / terminal
         aside = gained + throw + np.sqrt(2 * GRAVITY_M_S2 * highest)
-        braking = case.friction_floor * GRAVITY_M_S2
+        braking = (min(case.friction_floor, case.friction_cable) + RESISTANCE) * GRAVITY_M_S2
         slide_s = aside / braking
         if aside > terminal:
             slide_s = min(slide_s, terminal / GRAVITY_M_S2 + terminal / braking)
