@@ -168,6 +168,14 @@ def _breeze(case: Case, rng: np.random.Generator, highest_m: float) -> Breeze | 
     return Breeze(case.wind * direction, gusts, until_s=float(np.sqrt(2 * highest_m / GRAVITY_M_S2)))
 
 
+def _slide_s(speed_m_s: float, terminal_m_s: float, braking_m_s2: float) -> float:
+    """How long it takes at most to stop."""
+    slide_s = speed_m_s / braking_m_s2
+    if speed_m_s > terminal_m_s:
+        slide_s = min(slide_s, terminal_m_s / GRAVITY_M_S2 + terminal_m_s / braking_m_s2)
+    return float(slide_s)
+
+
 def _bounds(case: Case, rods: list[Rod], velocities: Array, breeze: Breeze | None) -> tuple[float, float]:
     """How far a rod can come, and how long it can take.
 
@@ -199,12 +207,11 @@ def _bounds(case: Case, rods: list[Rod], velocities: Array, breeze: Breeze | Non
         top = highest + throw**2 / (2 * GRAVITY_M_S2) + np.sin(np.radians(WIND_TILT_DEG)) * gained * blow_s
         air_s = throw / GRAVITY_M_S2 + np.sqrt(2 * top / GRAVITY_M_S2) + top / terminal
         aside = gained + throw + np.sqrt(2 * GRAVITY_M_S2 * highest)
-        braking = (min(case.friction_floor, case.friction_cable) + RESISTANCE) * GRAVITY_M_S2
-        slide_s = aside / braking
-        if aside > terminal:
-            slide_s = min(slide_s, terminal / GRAVITY_M_S2 + terminal / braking)
-        reach = max(reach, extent + longest + aside * (air_s + slide_s))
-        time = max(time, air_s + slide_s)
+        resisted = RESISTANCE * GRAVITY_M_S2
+        far_s = _slide_s(aside, terminal, case.friction_floor * GRAVITY_M_S2 + resisted)
+        long_s = _slide_s(aside, terminal, min(case.friction_floor, case.friction_cable) * GRAVITY_M_S2 + resisted)
+        reach = max(reach, extent + longest + aside * (air_s + far_s))
+        time = max(time, air_s + long_s)
     if case.start is Start.UPRIGHT:
         time += 5 * float(np.sqrt(longest / GRAVITY_M_S2))
     pile = sum(2 * rod.radius_m for rod in rods)
