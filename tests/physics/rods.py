@@ -47,6 +47,16 @@ def rod(
     )
 
 
+def curve_m(nodes_m: Array, parts: int) -> Array:
+    """(n, 3) points on the Catmull-Rom curve through nodes, so many a segment; beyond the ends it goes on straight."""
+    before, after = 2 * nodes_m[:1] - nodes_m[1:2], 2 * nodes_m[-1:] - nodes_m[-2:-1]
+    p = np.concatenate([before, nodes_m, after])[:, None]
+    p0, p1, p2, p3 = p[:-3], p[1:-2], p[2:-1], p[3:]
+    t = np.arange(parts)[:, None] / parts
+    cubic = 2 * p1 + (p2 - p0) * t + (2 * p0 - 5 * p1 + 4 * p2 - p3) * t**2 + (3 * p1 - p0 - 3 * p2 + p3) * t**3
+    return np.concatenate([cubic.reshape(-1, 3) / 2, nodes_m[-1:]])
+
+
 def modulus_pa(slenderness: float, length_m: float) -> float:
     """Young's modulus at which 4 rho g L^3 / (E r^2) is the slenderness."""
     return 4 * DENSITY_KG_M3 * GRAVITY_M_S2 * length_m**3 / (slenderness * RADIUS_M**2)

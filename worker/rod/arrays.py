@@ -64,7 +64,7 @@ class Scratch(NamedTuple):
         start: (3, nodes) m, where the nodes were at the start of the step.
         bulge: (nodes,) m, how far the curve leaves the chords; see `worker.rod.narrow_phase`.
         reach: (nodes,) m, how far around each node contact is looked for; see `worker.rod.narrow_phase`.
-        stirred: (rods,) number of the sweep that last changed a rod's velocities; see `worker.rod.impulses`.
+        stirred: (stretches,) number of the sweep that last changed velocities there; see `worker.rod.contact`.
         rise: (nodes,) m/s, how fast nodes near the floor must rise at least.
         near_floor: (nodes,) the nodes that the floor may touch, the first ones of these.
         held: (nodes,) which nodes lengths are kept against; see `worker.rod.lengths`.

@@ -36,6 +36,9 @@ axes may not be the way out."""
 TURN_SHARE = 0.5
 """Cosine of the greatest angle between the way between the axes of such rods and the last one that was remembered."""
 
+STRETCH = 8
+"""So many nodes in a row are looked at together when sweeps ask where anything has changed."""
+
 SLOP_RADII = 0.002
 """Depth that is left as it is: to lift a rod out would give it energy."""
 
@@ -294,3 +297,22 @@ def push(column: Array, begin: int, low: int, width: int, x: float, y: float, z:
         v[0, low + j] += x * share
         v[1, low + j] += y * share
         v[2, low + j] += z * share
+
+
+@compiled
+def stir(stirred: Integers, low: int, width: int, sweep: int) -> None:
+    """Note that a sweep has changed the velocities of so many nodes from `low` on, by stretches of nodes."""
+    for stretch in range(low // STRETCH, (low + width - 1) // STRETCH + 1):
+        stirred[stretch] = sweep
+
+
+@compiled
+def is_calm(stirred: Integers, low: int, high: int, sweep: int) -> bool:
+    """Whether neither this sweep nor the one before it has changed nodes `low` or `high`, or others close to them."""
+    return bool(stirred[low // STRETCH] < sweep - 1 and stirred[high // STRETCH] < sweep - 1)
+
+
+@compiled
+def was_stirred(stirred: Integers, first: int, end: int, sweep: int) -> bool:
+    """Whether a sweep after `sweep` has changed nodes from `first` to before `end`, or others close to them."""
+    return bool(stirred[first // STRETCH : (end - 1) // STRETCH + 1].max() > sweep)

@@ -3,7 +3,7 @@
 from worker.rod.arrays import Bodies, Integers, Motion, Scratch
 from worker.rod.bending import Operator
 from worker.rod.compiled import compiled
-from worker.rod.contact import allowed_approach, on_cone, push
+from worker.rod.contact import allowed_approach, is_calm, on_cone, push, stir
 from worker.rod.lengths import AT_REST, FREE, IN_HEIGHT
 from worker.rod.model import Array
 
@@ -91,7 +91,8 @@ def sweep_floor(  # noqa: PLR0913, PLR0917 - out of nested tuples every access w
         friction: Coulomb's coefficient.
         sweep: its number in this step. Every other one goes backwards.
         small: changes below that, in m/s and summed over a rod, are not carried on to other nodes.
-        stirred: (rods,) which sweep last changed a rod. Those that this and the one before it left alone are left out.
+        stirred: (stretches,) which sweep last changed a stretch of nodes. Nodes of those that this sweep and the one
+            before it left alone are left out.
         v: (3, nodes) m/s, is changed by what the impulses do.
 
     Returns:
@@ -102,9 +103,9 @@ def sweep_floor(  # noqa: PLR0913, PLR0917 - out of nested tuples every access w
     worst = 0.0
     for step in range(len(touching)):
         i = touching[len(touching) - 1 - step] if sweep % 2 == 1 else touching[step]
-        rod = owner[i]
-        if stirred[rod] < sweep - 1:
+        if is_calm(stirred, i, i, sweep):
             continue
+        rod = owner[i]
         compliance = response[i, centre]
         px, py, pz = floor_impulse[0, i], floor_impulse[1, i], floor_impulse[2, i]
         wx, wy, wz = px - v[0, i] / compliance, py - v[1, i] / compliance, pz - (v[2, i] - rise[i]) / compliance
@@ -115,7 +116,7 @@ def sweep_floor(  # noqa: PLR0913, PLR0917 - out of nested tuples every access w
         if moved > small:
             low, high = max(first[rod], i - reach[rod]), min(first[rod + 1], i + reach[rod] + 1)
             push(response[i], low - i + centre, low, high - low, dx, dy, dz, v)
-            stirred[rod] = sweep
+            stir(stirred, low, high - low, sweep)
             worst = max(worst, moved)
         else:
             v[0, i] += compliance * dx

@@ -5,7 +5,7 @@ from typing import NamedTuple
 from worker.rod.arrays import Bodies, Integers, Motion, Scratch
 from worker.rod.bending import Operator, solve
 from worker.rod.compiled import compiled
-from worker.rod.contact import Contacts, on_cone, push
+from worker.rod.contact import Contacts, is_calm, on_cone, push, stir
 from worker.rod.floor import sweep_floor
 from worker.rod.forces import add_tension
 from worker.rod.model import Array
@@ -72,7 +72,8 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - out of nested tuples every acce
         friction: Coulomb's coefficient.
         sweep: its number in this step. Every other one goes backwards.
         small: smaller changes, in m/s and summed over a rod, are not made.
-        stirred: (rods,) which sweep last changed a rod. Those that this and the one before it left alone are left out.
+        stirred: (stretches,) which sweep last changed a stretch of nodes. Contacts between two that this sweep and the
+            one before it left alone are left out.
         v: (3, nodes) m/s, is changed by what the impulses do.
 
     Returns:
@@ -83,8 +84,7 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - out of nested tuples every acce
     for step in range(pairs):
         n = pairs - 1 - step if sweep % 2 == 1 else step
         i, j = base[0, n], base[1, n]
-        one, other = owner[i], owner[j]
-        if stirred[one] < sweep - 1 and stirred[other] < sweep - 1:
+        if is_calm(stirred, i, i + 3, sweep) and is_calm(stirred, j, j + 3, sweep):
             continue
         ux = uy = uz = 0.0
         for k in range(4):
@@ -105,13 +105,14 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - out of nested tuples every acce
             friction,
         )
         dx, dy, dz = wx - px, wy - py, wz - pz
-        moved = max(abs(dx), abs(dy), abs(dz)) * compliance[n] * max(coupling[one], coupling[other])
+        moved = max(abs(dx), abs(dy), abs(dz)) * compliance[n] * max(coupling[owner[i]], coupling[owner[j]])
         if moved > small:
             impulses[pair, 0], impulses[pair, 1], impulses[pair, 2] = wx, wy, wz
             low, width, column = contacts.low, contacts.width, contacts.column
             push(column[0, n], 0, low[0, n], width[0, n], dx, dy, dz, v)
             push(column[1, n], 0, low[1, n], width[1, n], -dx, -dy, -dz, v)
-            stirred[one] = stirred[other] = sweep
+            stir(stirred, low[0, n], width[0, n], sweep)
+            stir(stirred, low[1, n], width[1, n], sweep)
             worst = max(worst, moved)
     return worst
 
@@ -185,8 +186,8 @@ def correct(
         motion: `floor_impulse` is changed.
         world: how strong friction is.
         touch: what touches; `impulse` is changed.
-        scratch: `start` is read; `v` is changed by what the impulses' changes do nearby. Contacts of rods that neither
-            this nor the last sweep before it has `stirred` are left alone.
+        scratch: `v` is changed by what the impulses' changes do nearby. Contacts where neither this sweep nor the one
+            before it has `stirred` anything are left alone.
         done: sweeps of this step so far.
         tolerance: what this returned before, m/s; 0 in the step's first call.
 

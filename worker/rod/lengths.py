@@ -31,8 +31,8 @@ from worker.rod.model import Array
 TOLERANCE = 1e-8
 """Of a segment's strain."""
 
-BALANCE_TOLERANCE = 1e-7
-"""Of a node's place, over a segment's length."""
+BALANCE_TOLERANCE_M_S = 2e-6
+"""Of a node's speed, if all that its momentum lacks were to move it alone: a stiff rod moves so as a whole."""
 
 FREE, IN_HEIGHT, AT_REST = 0, 1, 2
 
@@ -124,7 +124,7 @@ def _imbalance(
     h, nodes, moved = operator.step, end - first, work.moved
     # The last two are zero where there is no node to couple with.
     diagonal, beside, beyond = operator.bands[0, first:end], operator.bands[1, first:end], operator.bands[2, first:end]
-    tension, limit = motion.tension[first:end], slack * BALANCE_TOLERANCE * bodies.length[rod]
+    tension, mass, limit = motion.tension[first:end], bodies.mass[first:end], slack * BALANCE_TOLERANCE_M_S * h
     wrong = 0
     for c in range(3):
         x, x0, p, mean = motion.x[c, first:end], start[c, first:end], load[c, first:end], work.mean[c]
@@ -140,7 +140,7 @@ def _imbalance(
         for i in range(nodes - 2):
             lack[i + 2] -= beyond[i] * moved[i]
         for i in range(nodes):
-            wrong += not free[i] * abs(lack[i]) < limit * diagonal[i]
+            wrong += not free[i] * abs(lack[i]) < limit * mass[i]
     return wrong
 
 

@@ -9,7 +9,7 @@ from worker.rod.arrays import Bodies, Motion, Scratch
 from worker.rod.bending import Operator
 from worker.rod.broad_phase import Candidates, find_candidates, middle_of, still_hold
 from worker.rod.compiled import compiled
-from worker.rod.contact import Contacts, gather_contacts, room_for_contacts
+from worker.rod.contact import STRETCH, Contacts, gather_contacts, room_for_contacts
 from worker.rod.floor import find_near_floor
 from worker.rod.forces import momentum_to_be
 from worker.rod.impulses import Touch
@@ -85,7 +85,7 @@ def march(
         The value of an `Outcome`, and the candidates.
     """
     smallest, step = bodies.radius.min(), operator.step
-    scratch = _room(len(bodies.mass), len(bodies.length))
+    scratch = _room(len(bodies.mass))
     contacts = room_for_contacts(len(candidates.one) + 1, operator)
     for _ in range(bounds.steps):
         landing = world.floor and _is_landing(bodies, motion, bounds.horizon)
@@ -123,7 +123,7 @@ def march(
 @compiled
 def prestress(bodies: Bodies, operator: Operator, motion: Motion, world: World) -> None:
     """Find the tension that balances the rods where they start: a curved rod at rest is under some."""
-    scratch = _room(len(bodies.mass), len(bodies.length))
+    scratch = _room(len(bodies.mass))
     momentum_to_be(bodies, motion, world, operator.step, 0.0, scratch.load)
     scratch.start[:] = motion.x
     for i in range(len(bodies.mass)):
@@ -134,7 +134,7 @@ def prestress(bodies: Bodies, operator: Operator, motion: Motion, world: World) 
 
 
 @compiled
-def _room(nodes: int, rods: int) -> Scratch:
+def _room(nodes: int) -> Scratch:
     return Scratch(
         momentum=np.empty((3, nodes)),
         free=np.empty((3, nodes)),
@@ -143,7 +143,7 @@ def _room(nodes: int, rods: int) -> Scratch:
         start=np.empty((3, nodes)),
         bulge=np.empty(nodes),
         reach=np.empty(nodes),
-        stirred=np.empty(rods, np.int64),
+        stirred=np.empty(nodes // STRETCH + 1, np.int64),
         rise=np.empty(nodes),
         near_floor=np.empty(nodes, np.int64),
         held=np.empty(nodes, np.int8),

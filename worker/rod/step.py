@@ -6,9 +6,12 @@ finds nothing more to do. Impulses and tensions both do only what costs energy, 
 found them: it is made again from no impulses at all, then as two steps of half the time.
 """
 
+import numpy as np
+
 from worker.rod.arrays import Bodies, Motion, Scratch
 from worker.rod.bending import Operator, energy_of, solve
 from worker.rod.compiled import compiled
+from worker.rod.contact import stir, was_stirred
 from worker.rod.floor import catch_sunk, hold_on_floor, let_go_pulled
 from worker.rod.impulses import Touch, correct, find_touched, gather_load, predict, work_of_depenetration, worst_miss
 from worker.rod.lengths import MAX_ITERATIONS, keep_lengths
@@ -24,7 +27,7 @@ MAX_ROUNDS_FROM_NOTHING = 16
 MAX_FLOOR_CHANGES = 4
 """How often the nodes that the floor holds are chosen anew when keeping the lengths has pressed or pulled others."""
 
-SLACK = 1e3
+SLACK = 50.0
 """How many times the tolerances of lengths do while sweeps may still change the load."""
 
 ENERGY_SPARE = 1e-3
@@ -107,6 +110,7 @@ def _take_turns(
 ) -> bool:
     """Find impulses, and places with tensions, in turn; returns whether all lengths are kept in the end."""
     rods, stirred = len(bodies.length), scratch.stirred
+    due = np.empty(rods, np.bool_)
     predict(bodies, operator, motion, touch, scratch)
     stirred[:] = 0
     sweeps, tolerance = 0, 0.0
@@ -120,10 +124,13 @@ def _take_turns(
             break
         tally.counts[ROUNDS] += 1
         gather_load(motion, touch, scratch)
+        # A stretch may reach from one rod into the next, so all are asked before any is placed.
         for rod in range(rods):
-            if turn == 0 or stirred[rod] > before:
+            due[rod] = turn == 0 or was_stirred(stirred, bodies.first[rod], bodies.first[rod + 1], before)
+        for rod in range(rods):
+            if due[rod]:
                 _place(bodies, operator, motion, world, scratch, tally, rod)
-                stirred[rod] = sweeps
+                stir(stirred, bodies.first[rod], bodies.first[rod + 1] - bodies.first[rod], sweeps)
     tally.counts[SWEEPS] += sweeps
     kept = True
     for rod in range(rods):
@@ -132,7 +139,9 @@ def _take_turns(
 
 
 @compiled
-def _place(bodies: Bodies, operator: Operator, motion: Motion, world: World, scratch: Scratch, tally: Tally, rod: int) -> None:
+def _place(
+    bodies: Bodies, operator: Operator, motion: Motion, world: World, scratch: Scratch, tally: Tally, rod: int
+) -> None:
     """Find about where a rod ends the step under the load that it has, from the velocities `scratch.v`, and these."""
     h, start, v, x = operator.step, scratch.start, scratch.v, motion.x
     for c in range(3):

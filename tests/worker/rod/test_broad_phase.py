@@ -18,7 +18,7 @@ from worker.rod.broad_phase import (
     still_hold,
 )
 from worker.rod.model import Array
-from worker.rod.narrow_phase import APPROACH_SHARE, NEARBY_SHARE, SPARE_SHARE, closest, find_reach
+from worker.rod.narrow_phase import APPROACH_SHARE, NEARBY_SHARE, SPARE_SHARE, closest, find_bulge, find_reach
 from worker.shapes import bent_rod
 
 STEP_S = 1e-3
@@ -40,25 +40,33 @@ def heap(seed: int, rods: int = 4, speed_m_s: float = 0.5) -> tuple[Bodies, Moti
 
 
 def margin_m(bodies: Bodies, v: Array, frame: Array, step_s: float) -> float:
-    """As `worker.rod.step` has it."""
+    """As `worker.rod.march` has it."""
     fastest = np.linalg.norm(v - frame[:, None], axis=0).max()
     return float(2 * step_s * fastest + 0.1 * bodies.radius.min())
 
 
-def reach_m(bodies: Bodies, v: Array, frame: Array = AT_REST, step_s: float = STEP_S) -> Array:
+def bulge_m(bodies: Bodies, x: Array) -> Array:
+    """Of each node."""
+    bulge = np.empty(len(bodies.owner))
+    find_bulge(bodies, x, bulge)
+    return bulge
+
+
+def reach_m(bodies: Bodies, v: Array, bulge: Array, frame: Array = AT_REST, step_s: float = STEP_S) -> Array:
     """Of each node."""
     reach = np.empty(len(bodies.owner))
-    find_reach(bodies, v, frame, step_s, margin_m(bodies, v, frame, step_s), reach)
+    find_reach(bodies, v, frame, step_s, margin_m(bodies, v, frame, step_s), bulge, reach)
     return reach
 
 
 def listed(bodies: Bodies, motion: Motion, frame: Array = AT_REST, before: Candidates | None = None) -> Candidates:
     """A new list."""
     before = no_candidates(len(bodies.owner)) if before is None else before
-    return find_candidates(bodies, motion, frame, STEP_S, reach_m(bodies, motion.v, frame), before)
+    reach = reach_m(bodies, motion.v, bulge_m(bodies, motion.x), frame)
+    return find_candidates(bodies, motion, frame, STEP_S, reach, before)
 
 
-def near_pairs(bodies: Bodies, x: Array, v: Array, step_s: float = STEP_S) -> set[tuple[int, int]]:
+def near_pairs(bodies: Bodies, x: Array, v: Array, bulge: Array, step_s: float = STEP_S) -> set[tuple[int, int]]:
     """All pairs of segments that are near in a step, by a search of everything."""
     starts = np.flatnonzero(bodies.owner[1:] == bodies.owner[:-1]).tolist()
     margin = margin_m(bodies, v, AT_REST, step_s)
@@ -75,7 +83,8 @@ def near_pairs(bodies: Bodies, x: Array, v: Array, step_s: float = STEP_S) -> se
                 )
                 radii = bodies.radius[[one, other]]
                 near = min(margin, APPROACH_SHARE * way + NEARBY_SHARE * margin)
-                if apart <= radii.sum() + SPARE_SHARE * radii.min() + near:
+                bulges = bulge[i : i + 2].max() + bulge[j : j + 2].max()
+                if apart <= radii.sum() + SPARE_SHARE * radii.min() + near + bulges:
                     pairs.add((i, j))
     return pairs
 
@@ -91,7 +100,7 @@ def test_all_pairs_that_are_near_are_listed_once_in_ascending_order(seed: int) -
     """No pair is missed, none is named twice, none is of neighbours or of the gap between two rods."""
     bodies, motion = heap(seed)
     pairs = pairs_of(listed(bodies, motion))
-    assert near_pairs(bodies, motion.x, motion.v) <= set(pairs)
+    assert near_pairs(bodies, motion.x, motion.v, bulge_m(bodies, motion.x)) <= set(pairs)
     assert pairs == sorted(set(pairs))
     for i, j in pairs:
         assert i < j
@@ -106,9 +115,12 @@ def test_all_pairs_that_are_near_are_listed_once_in_ascending_order(seed: int) -
 @settings(max_examples=15, deadline=None)
 @given(seed=SEED, shake=st.floats(0, 0.3))
 def test_a_list_that_still_holds_misses_none(seed: int, shake: float) -> None:
-    """Nodes stop sooner or later on their ways, leave these a little, and change their speeds."""
+    """Nodes stop sooner or later on their ways, leave these a little, and change their speeds.
+
+    That tears the rods apart, so that they have no curve; its bulge is taken to be that of the start.
+    """
     bodies, motion = heap(seed)
-    candidates = listed(bodies, motion)
+    candidates, bulge = listed(bodies, motion), bulge_m(bodies, motion.x)
     draw = np.random.default_rng(seed)
     farthest = SWEEP_RADII * bodies.radius.max()
     ways = np.clip(HORIZON_STEPS * STEP_S * motion.v, -farthest, farthest)
@@ -117,8 +129,8 @@ def test_a_list_that_still_holds_misses_none(seed: int, shake: float) -> None:
         x += shake * bodies.radius.min() * draw.uniform(-1, 1, x.shape)
         v = motion.v * draw.uniform(0, 1, ways.shape[1])
         step_s = STEP_S * draw.choice([0.5, 1.0])
-        assert still_hold(candidates, x, reach_m(bodies, v, AT_REST, step_s), together=False)
-        assert near_pairs(bodies, x, v, step_s) <= set(pairs_of(candidates))
+        assert still_hold(candidates, x, reach_m(bodies, v, bulge, AT_REST, step_s), together=False)
+        assert near_pairs(bodies, x, v, bulge, step_s) <= set(pairs_of(candidates))
 
 
 def test_a_list_lasts_while_some_rods_land_and_others_rest() -> None:
@@ -129,7 +141,7 @@ def test_a_list_lasts_while_some_rods_land_and_others_rest() -> None:
     for steps in range(5):
         x = motion.x + motion.v * min(steps, 3) * STEP_S
         v = motion.v if steps < 3 else np.zeros_like(motion.v)
-        assert still_hold(candidates, x, reach_m(bodies, v), together=False)
+        assert still_hold(candidates, x, reach_m(bodies, v, bulge_m(bodies, x)), together=False)
 
 
 @pytest.mark.parametrize("node", [0, 7, 30])
@@ -137,7 +149,7 @@ def test_a_node_that_leaves_its_way_ends_the_list(node: int) -> None:
     """By a radius, to the side."""
     bodies, motion = heap(0, speed_m_s=0.1)
     candidates = listed(bodies, motion)
-    reach = reach_m(bodies, motion.v)
+    reach = reach_m(bodies, motion.v, bulge_m(bodies, motion.x))
     assert still_hold(candidates, motion.x, reach, together=False)
     motion.x[1, node] += bodies.radius.max()
     assert not still_hold(candidates, motion.x, reach, together=False)
@@ -148,7 +160,7 @@ def test_more_speed_or_a_longer_step_ends_the_list() -> None:
     bodies, motion = heap(0)
     candidates = listed(bodies, motion)
     for faster, longer, holds in [(1, 1, True), (0.5, 1, True), (1, 0.5, True), (5, 1, False), (1, 5, False)]:
-        reach = reach_m(bodies, faster * motion.v, AT_REST, longer * STEP_S)
+        reach = reach_m(bodies, faster * motion.v, bulge_m(bodies, motion.x), AT_REST, longer * STEP_S)
         assert still_hold(candidates, motion.x, reach, together=False) is holds
 
 
@@ -161,14 +173,16 @@ def test_a_common_motion_does_not_matter_before_rods_land() -> None:
     candidates = listed(bodies, motion, frame)
     assert pairs_of(candidates) == still
     far = motion.x + np.array([[0.9], [0.0], [-6.0]])
-    assert still_hold(candidates, far, reach_m(bodies, motion.v, frame), together=True)
-    assert not still_hold(candidates, far, reach_m(bodies, motion.v, frame), together=False)
+    reach = reach_m(bodies, motion.v, bulge_m(bodies, far), frame)
+    assert still_hold(candidates, far, reach, together=True)
+    assert not still_hold(candidates, far, reach, together=False)
 
 
 def test_an_empty_list_does_not_hold() -> None:
     """So the first step makes one."""
     bodies, motion = heap(0)
-    assert not still_hold(no_candidates(len(bodies.owner)), motion.x, reach_m(bodies, motion.v), together=False)
+    reach = reach_m(bodies, motion.v, bulge_m(bodies, motion.x))
+    assert not still_hold(no_candidates(len(bodies.owner)), motion.x, reach, together=False)
 
 
 def test_a_new_list_remembers_what_the_old_one_did() -> None:
@@ -192,9 +206,10 @@ def test_a_new_list_remembers_what_the_old_one_did() -> None:
 def test_a_node_that_flies_off_neither_hides_pairs_nor_makes_impossible_ones(place: float, speed_m_s: float) -> None:
     """Pairs of segments that it is not in are listed as ever, and all listed are of segments that there are."""
     bodies, motion = heap(2)
-    expected = {pair for pair in near_pairs(bodies, motion.x, motion.v) if not {4, 5} & set(pair)}
+    bulge = bulge_m(bodies, motion.x)
+    expected = {pair for pair in near_pairs(bodies, motion.x, motion.v, bulge) if not {4, 5} & set(pair)}
     motion.x[:, 5], motion.v[:, 5] = place, speed_m_s
-    reach = reach_m(bodies, np.where(np.arange(len(bodies.owner)) == 5, 0.0, motion.v))
+    reach = reach_m(bodies, np.where(np.arange(len(bodies.owner)) == 5, 0.0, motion.v), bulge)
     reach[5] = np.abs(speed_m_s)
     candidates = find_candidates(bodies, motion, AT_REST, STEP_S, reach, no_candidates(len(bodies.owner)))
     assert expected <= set(pairs_of(candidates))
