@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from farm.fall import RodFall
-from tests.physics.rods import RADIUS_M, line, rod, shapes
+from tests.physics.rods import RADIUS_M, curve_m, line, rod, shapes
 from worker.gates import Gate, StressFault, measure, stress_fault
+from worker.rod.contact import UNDOING_S
 from worker.rod.fall import INTERNAL_DAMPING_S
 from worker.rod.model import Rod, Surroundings
 from worker.rod.simulation import RodSimulation
@@ -84,3 +85,29 @@ def test_a_bad_start_comes_to_rest_apart(start: Callable[[], list[Rod]]) -> None
     assert Gate.CABLE_PENETRATION.on_target(figures.cable_penetration)
     assert Gate.FLOOR_PENETRATION.on_target(figures.floor_penetration)
     assert Gate.FLOOR_PASS_THROUGH.on_target(figures.floor_pass_throughs)
+
+
+@pytest.mark.parametrize("modulus", [1e7, 1e9])
+@pytest.mark.parametrize(("rise_radii", "first_on_top"), [(0.0, False), (-0.5, False), (0.5, True)])
+def test_crossed_rods_within_each_other_come_to_rest_one_on_the_other(
+    rise_radii: float, first_on_top: bool, modulus: float
+) -> None:
+    """At r + r, within gate 2; the higher one comes on top, and of two at exactly one height the second.
+
+    What they are deeper than the slop goes down as exp(-t / tau) with the time constant of undoing it, so half a second
+    leaves nothing of it.
+    """
+    height = 0.01 + rise_radii * RADIUS_M
+    rods = [
+        rod(line((-0.1, 0, height), (0.1, 0, height), 40), modulus_pa=modulus),
+        rod(line((0, -0.1, 0.01), (0, 0.1, 0.01), 40), modulus_pa=modulus),
+    ]
+    simulation = RodSimulation(rods, Surroundings(damping_s=INTERNAL_DAMPING_S), steps_per_s=RodFall().steps_per_s)
+    simulation.advance(round(15 * UNDOING_S * RodFall().steps_per_s))
+    one, other = (curve_m(simulation.nodes_m(k), 32) for k in range(2))
+    ways = one[:, None] - other[None]
+    distances = np.linalg.norm(ways, axis=2)
+    closest = np.unravel_index(distances.argmin(), distances.shape)
+    assert distances[closest] == pytest.approx(2 * RADIUS_M, abs=Gate.CABLE_PENETRATION.value.target * RADIUS_M)
+    assert (ways[closest][2] > 0) is np.bool_(first_on_top)
+    assert max(np.abs(simulation.velocities_m_s(k)).max() for k in range(2)) * 1000 < Gate.SPEED_MAX.value.target

@@ -11,9 +11,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tests.physics.rods import GRAVITY_M_S2, RADIUS_M, line, rod, weight_per_length_n_m
+from tests.physics.rods import GRAVITY_M_S2, RADIUS_M, curve_m, line, rod, weight_per_length_n_m
 from worker.gates import Gate, crossing_error
 from worker.physics.ridge import RidgeCrossing, fit_lifted
+from worker.rod.contact import SLOP_RADII
+from worker.rod.floor import SUNK_RADII
 from worker.rod.model import Array, Rod, Surroundings
 from worker.rod.simulation import RodSimulation
 
@@ -79,3 +81,23 @@ def test_a_stiff_rod_bridges_where_a_soft_one_drapes() -> None:
         nodes, _, _ = settled(modulus, 4)
         lengths.append(fit_lifted(nodes[:, 0], nodes[:, 2] - RADIUS_M).lift_off_m)
     assert lengths[1] / lengths[0] == pytest.approx((STIFF_PA / SOFT_PA) ** 0.25, rel=2 * Gate.LIFT_OFF.value.target)
+
+
+@pytest.mark.parametrize("friction_floor", [0.0, 0.4])
+@pytest.mark.parametrize("modulus", [1e5, 1e6])
+def test_a_soft_rod_at_the_foot_of_its_rise_does_not_dip_below_the_floor(modulus: float, friction_floor: float) -> None:
+    """The smooth curve between nodes on the floor and in the air is no deeper than the floor lets any node be.
+
+    That is its slop and what keeping the lengths may press in, 0.006 r together, and a tenth more that is hidden from
+    the floor, which looks at quarters of each segment. With these nodes on the floor itself it would be deeper.
+    """
+    cable = rod(line((-0.06, 0, 3.05 * RADIUS_M), (0.06, 0, 3.05 * RADIUS_M), 30), modulus_pa=modulus)
+    ridge = rod(line((0.001, -0.02, RADIUS_M), (0.001, 0.02, RADIUS_M), 10), pinned=range(11))
+    surroundings = Surroundings(friction_floor=friction_floor, friction_rods=0, damping_s=0.02)
+    simulation = RodSimulation([cable, ridge], surroundings, steps_per_s=1000)
+    simulation.advance(1000)
+    nodes = simulation.nodes_m(0)
+    lowest = (1 - 1.1 * (SLOP_RADII + SUNK_RADII)) * RADIUS_M
+    assert curve_m(nodes, 16)[:, 2].min() > lowest
+    nodes[:, 2] = np.where(nodes[:, 2] < 1.05 * RADIUS_M, RADIUS_M, nodes[:, 2])
+    assert curve_m(nodes, 16)[:, 2].min() < lowest

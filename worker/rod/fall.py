@@ -13,6 +13,7 @@ INTERNAL_DAMPING_S = 0.01
 """Time constant of the cables' internal damping: stranded ones swing hardly more than once."""
 
 RESISTANCE = 0.01
+"""Dry resistance of what touches, as a share of its weight: about that of rubber rolling on a hard floor."""
 
 REST_RMS_M_S = 0.5e-3
 REST_FASTEST_M_S = 2.5e-3

@@ -100,15 +100,15 @@ def _damped(drag: float, step: float, mass: float) -> float:
 
 
 @compiled
-def _resist(bodies: Bodies, motion: Motion, resistance: float, step: float, momentum: Array) -> None:
-    """Take the momentum that dry resistance stops within the step, N s, off rods that touch something."""
+def _resist(bodies: Bodies, motion: Motion, slower: float, momentum: Array) -> None:
+    """Take what makes each node slower by so much, m/s, or stops it, off the momentum of rods that touch something."""
     for rod in range(len(bodies.length)):
         if not motion.touched[rod]:
             continue
         for i in range(bodies.first[rod], bodies.first[rod + 1]):
             speed = np.sqrt(motion.v[0, i] ** 2 + motion.v[1, i] ** 2 + motion.v[2, i] ** 2)
             if speed > 0.0:
-                share = min(resistance * step / speed, 1.0)
+                share = min(slower / speed, 1.0)
                 for c in range(3):
                     momentum[c, i] -= share * bodies.mass[i] * motion.v[c, i]
 
@@ -128,4 +128,4 @@ def momentum_to_be(bodies: Bodies, motion: Motion, world: World, step: float, ti
         for i in range(len(bodies.mass)):
             momentum[c, i] = bodies.mass[i] * motion.v[c, i] + step * force[c, i]
     if world.resistance > 0.0:
-        _resist(bodies, motion, world.resistance * np.sqrt(np.sum(world.gravity**2)), step, momentum)
+        _resist(bodies, motion, world.resistance * step, momentum)

@@ -70,6 +70,8 @@ class Surroundings:
         friction_floor: Coulomb's coefficient of a rod on the floor.
         friction_rods: the same between rods.
         damping_s: bending stress is E (strain + damping_s * strain rate): Kelvin and Voigt's internal damping.
+        resistance: dry resistance to any motion of a rod that touches something, as a share of its weight: what rolling
+            and the friction between a cable's strands take. Without it a rod that rocks upon another never stops.
         breeze: the wind, or None for still air without drag.
     """
 

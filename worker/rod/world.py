@@ -23,6 +23,7 @@ class World(NamedTuple):
         gusts: (K, 3) share of the mean, angular frequency and phase of each swing.
         calm_from: when the wind begins to die down, s.
         drag: whether the air resists.
+        resistance: m/s^2, at which dry resistance slows rods that touch something.
     """
 
     gravity: Array
@@ -48,7 +49,7 @@ def world_of(surroundings: Surroundings) -> World:
         gusts=np.zeros((0, 3)) if breeze is None else np.array(breeze.gusts, dtype=np.float64).reshape(-1, 3),
         calm_from=0.0 if breeze is None else float(breeze.until_s),
         drag=breeze is not None,
-        resistance=float(surroundings.resistance),
+        resistance=float(surroundings.resistance * np.linalg.norm(surroundings.gravity_m_s2)),
     )
 
 

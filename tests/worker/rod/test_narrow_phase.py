@@ -82,7 +82,7 @@ def test_those_near_keep_what_they_remember() -> None:
 def test_the_curve_leaves_its_chord_by_no_more_than_the_bulges_of_its_ends(seed: int, bend: float) -> None:
     """|C(t) - chord(t)| <= max(bulge[i], bulge[i + 1]) at every t, however the rod turns, to rounding."""
     draw = np.random.default_rng(seed)
-    edges = np.cumsum(draw.normal(0, bend, (12, 3)), axis=0) + [1, 0, 0]
+    edges = np.cumsum(draw.normal(0, bend, (12, 3)), axis=0) + np.array([1, 0, 0])
     edges *= 0.004 / np.linalg.norm(edges, axis=1, keepdims=True)
     nodes = np.concatenate([np.zeros((1, 3)), np.cumsum(edges, axis=0)])
     bulge = bulge_m(*flatten([rod(nodes)]))
