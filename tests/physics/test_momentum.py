@@ -19,10 +19,11 @@ def test_rods_that_collide_keep_their_momentum(offset_m: float, speed_m_s: float
     """The sum of m v is constant: impulses are equal and opposite and bending and tension act between nodes.
 
     Newton's method takes a node for balanced when it lacks no more than 2e-6 m/s times its mass. But the columns of A
-    sum to the masses, and what else couples nodes sums to 0, so that after an iteration all nodes of a rod together lack
-    nothing, whatever each of them does. What is left is rounding: 3e4 additions over steps, nodes and iterations, of 1e-16 each and of
-    terms A_ii / m = 1 + 6 EI h^2 / (l^3 m) = 640 times the momentum's, 1e-11 if they are random. Only a rod that is
-    within the tolerance at once, without an iteration, could lose more: up to 2e-6 m/s times its mass a step.
+    sum to the masses, and what else couples nodes sums to 0, so that after an iteration all nodes of a rod together
+    lack nothing, whatever each of them does. What is left is rounding: 3e4 additions over steps, nodes and iterations,
+    of 1e-16 each and of terms A_ii / m = 1 + 6 EI h^2 / (l^3 m) = 640 times the momentum's, 1e-11 if they are random.
+    Only a rod that is within the tolerance at once, without an iteration, could lose more: up to 2e-6 m/s times its
+    mass a step.
     """
     one = rod(line((-0.1, 0, 0.0), (0.1, 0, 0.0), 40))
     other = rod(line((offset_m, -0.1, 0.01), (offset_m, 0.1, 0.012), 40), radius_m=0.002, modulus_pa=1e8)

@@ -86,15 +86,15 @@ SWING_S = np.pi / np.sqrt(12 * GRAVITY_M_S2 * PIVOT_M) * LENGTH_M
 def test_a_rod_that_rocks_on_another_comes_to_rest_with_it() -> None:
     """Each swing is 2 a0 smaller than the one before, with a0 = R L / (4 s), until one is below that.
 
-    So says L^2 / 12 a'' = -g s a -+ R g L / 4, with s the sum of the radii. With R = 0.002 that is after three of 0.05, 0.033 and 0.017. What then drives it within a0 is stopped only by the
-    step after, so that it creeps at up to the tips' acceleration at a0, 12 g s a0 / L^2 L / 2 = 3/2 R g, times h.
+    So says L^2 / 12 a'' = -g s a -+ R g L / 4, with s the sum of the radii. With R = 0.002 that is after three of 0.05,
+    0.033 and 0.017. What then drives it within a0 is stopped only by the step after, so that it creeps at up to the
+    tips' acceleration at a0, 12 g s a0 / L^2 L / 2 = 3/2 R g, times h.
     """
     resistance = 0.002
     stop = resistance * LENGTH_M / (4 * PIVOT_M)
     assert pytest.approx(6 * stop) == TILT
     simulation = rocking(resistance)
     steps = round(SWING_S * STEPS_PER_S)
-    # The middle of the swing is left at +a0 and -a0 in turn.
     found = [tilts(simulation, steps)[-1] for _ in range(3)]
     assert found == pytest.approx([-(TILT - 2 * stop), TILT - 4 * stop, 0.0], abs=0.3 * stop)
     simulation.advance(100)
@@ -102,7 +102,7 @@ def test_a_rod_that_rocks_on_another_comes_to_rest_with_it() -> None:
 
 
 def test_a_rod_that_rocks_on_another_goes_on_without_it() -> None:
-    """After six swings it has lost what implicit Euler takes, exp(-w h / 2) a radian, and a tenth at most to contact."""
+    """After six swings it has lost what implicit Euler takes, exp(-w h / 2) a radian, and 10 % at most to contact."""
     simulation = rocking(0.0)
     swing = round(SWING_S * STEPS_PER_S)
     simulation.advance(4 * swing)

@@ -7,6 +7,9 @@ from worker.rod.contact import allowed_approach, is_calm, on_cone, push, stir
 from worker.rod.lengths import AT_REST, FREE, IN_HEIGHT
 from worker.rod.model import Array
 
+NEAR_FLOOR_RADII = 0.25
+"""Nodes that come no nearer to the floor in a step are not asked for; others may push them down, but hardly so far."""
+
 SUNK_RADII = 0.004
 """How deep keeping the lengths may press a node into the floor before the floor is asked again."""
 
@@ -36,7 +39,7 @@ def find_near_floor(
             if gap < radius:
                 gap -= max(_dip(motion.x, i - 1, bodies.first, rod), _dip(motion.x, i, bodies.first, rod))
             rise[i] = allowed_approach(gap, step, radius)
-            if not bodies.pinned[i] and gap < radius + 2 * step * abs(motion.v[2, i]):
+            if not bodies.pinned[i] and gap < NEAR_FLOOR_RADII * radius + 2 * step * abs(motion.v[2, i]):
                 touching[count] = i
                 count += 1
                 x, y, z = on_cone(*_vector(motion.floor_impulse, i), 0.0, 0.0, 1.0, friction)

@@ -14,7 +14,7 @@ from worker.rod.world import World
 MAX_SWEEPS = 8
 """At a time. What is missing then is made up for in the next step, which starts from these impulses."""
 
-TOLERANCE_M_S = 1.5e-3
+TOLERANCE_M_S = 3e-3
 """Sweeps end when none changes velocities by more, summed over a rod: soft rods, of which some five nodes respond to a
 push, are then slower than a third of what counts as resting."""
 
