@@ -58,7 +58,6 @@ class Scratch(NamedTuple):
 
     Attributes:
         momentum: (3, nodes) N s, without contact and tension.
-        free: (3, nodes) m/s, the velocities that this gives.
         load: (3, nodes) N s, the momentum with contact.
         v: (3, nodes) m/s, at the end of the step.
         start: (3, nodes) m, where the nodes were at the start of the step.
@@ -72,7 +71,6 @@ class Scratch(NamedTuple):
     """
 
     momentum: Array
-    free: Array
     load: Array
     v: Array
     start: Array

@@ -137,7 +137,6 @@ def prestress(bodies: Bodies, operator: Operator, motion: Motion, world: World) 
 def _room(nodes: int) -> Scratch:
     return Scratch(
         momentum=np.empty((3, nodes)),
-        free=np.empty((3, nodes)),
         load=np.empty((3, nodes)),
         v=np.empty((3, nodes)),
         start=np.empty((3, nodes)),

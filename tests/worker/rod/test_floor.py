@@ -6,7 +6,7 @@ import pytest
 from tests.physics.rods import RADIUS_M, curve_m, line, rod
 from worker.rod.arrays import flatten
 from worker.rod.contact import SLOP_RADII, UNDOING_S
-from worker.rod.floor import find_near_floor
+from worker.rod.floor import NEAR_FLOOR_RADII, find_near_floor
 from worker.rod.model import Array
 
 STEP_S = 1e-3
@@ -21,9 +21,9 @@ def near_floor(heights_m: Array) -> tuple[list[int], Array]:
     return touching[:count].tolist(), rise
 
 
-def test_nodes_within_a_radius_of_the_floor_are_near() -> None:
-    """At rest, with the lowest point of the rod less than a radius above it."""
-    heights = RADIUS_M * np.array([1.0, 1.5, 1.9, 2.5, 3.1, 3.7])
+def test_nodes_close_to_the_floor_are_near() -> None:
+    """At rest, with the lowest point of the rod less than a share of the radius above it."""
+    heights = RADIUS_M * (1 + NEAR_FLOOR_RADII * np.array([0.0, 0.5, 0.9, 1.5, 2.1, 2.7]))
     touching, rise = near_floor(heights)
     assert touching == [0, 1, 2]
     # They may close the gap within the step.
