@@ -15,6 +15,9 @@ INTERNAL_DAMPING_S = 0.01
 RESISTANCE = 0.01
 """Dry resistance of what touches, as a share of its weight: about that of rubber rolling on a hard floor."""
 
+FINEST_RADII = 2.0
+"""The shortest segments, in radii."""
+
 REST_RMS_M_S = 0.5e-3
 REST_FASTEST_M_S = 2.5e-3
 """Half of what gate 4 asks for."""
@@ -65,9 +68,19 @@ def surroundings_of(scene: Scene) -> Surroundings:
     )
 
 
+def segment_m(radius_m: float, youngs_modulus_pa: float, density_kg_m3: float, segment_radii: float) -> float:
+    """How long segments are: so many radii, or half the length over which a rod bends under its weight if that is less.
+
+    That length is (EI / rho g A)^(1/3). It is below eight radii only for rods much softer than any cable.
+    """
+    bending_m = (youngs_modulus_pa * radius_m**2 / (4 * density_kg_m3 * 9.81)) ** (1 / 3)
+    return float(min(segment_radii * radius_m, max(bending_m / 2, FINEST_RADII * radius_m)))
+
+
 def _rod(cable: Cable, segment_radii: float) -> Rod:
     radius = cable.diameter_m / 2
-    segments = int(np.clip(round(cable.length_m / (segment_radii * radius)), 8, 2000))
+    length = segment_m(radius, cable.youngs_modulus_pa, cable.density_kg_m3, segment_radii)
+    segments = int(np.clip(round(cable.length_m / length), 8, 2000))
     level = bent_rod(cable.length_m, cable.bends_per_m, segments + 1)
     turn = np.radians(cable.rotation_deg)
     cosine, sine = np.cos(turn), np.sin(turn)

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from worker.bench.stress.scenes import MIN_LENGTH_RADII, SEGMENT_RADII, Case, Start
-from worker.rod.fall import INTERNAL_DAMPING_S, RESISTANCE, curvature_at_rest
+from worker.rod.fall import INTERNAL_DAMPING_S, RESISTANCE, curvature_at_rest, segment_m
 from worker.rod.model import Array, Breeze, Rod, Surroundings
 from worker.shapes import bent_rod
 
@@ -75,7 +75,7 @@ def _level_rod(case: Case, rng: np.random.Generator, common: Array) -> Rod:
     bends = case.turn / length * (0.7 * common + 0.3 * rng.uniform(-1, 1, BEND_KNOTS))
     if not case.aligned:
         bends = case.turn / length * rng.uniform(-1, 1, BEND_KNOTS)
-    segments = max(round(length / (SEGMENT_RADII * radius)), 6)
+    segments = max(round(length / segment_m(radius, modulus, density, SEGMENT_RADII)), 6)
     nodes = np.zeros((segments + 1, 3))
     nodes[:, :2] = bent_rod(length, tuple(bends.tolist()), segments + 1)
     return Rod(nodes, radius, modulus, density, natural_curvature_per_m=curvature_at_rest(nodes))
