@@ -16,7 +16,7 @@ from matplotlib import pyplot as plt  # the backend must be chosen first
 from matplotlib.axes import Axes
 
 _MARKS = {Simulator.ROD: "o", Simulator.CLOTH: "s", Simulator.CLOTH_PUBLISHED: "^"}
-_LABELS = {Simulator.ROD: (60, -48), Simulator.CLOTH: (45, 42), Simulator.CLOTH_PUBLISHED: (0, -36)}
+_LABELS = {Simulator.ROD: (60, 36), Simulator.CLOTH: (45, 42), Simulator.CLOTH_PUBLISHED: (0, -36)}
 """Where a default's label stands from its mark, in points: where no other marks are."""
 
 _COLOURS = dict(zip(COUNTS, mpl.colormaps["viridis"](np.linspace(0.9, 0.0, len(COUNTS))), strict=True))
