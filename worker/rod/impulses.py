@@ -16,11 +16,10 @@ MAX_SWEEPS = 8
 
 TOLERANCE_M_S = 3e-3
 """Sweeps end when none changes velocities by more, summed over a rod: soft rods, of which some five nodes respond to a
-push, are then slower than a third of what counts as resting."""
+push, then move by a quarter of what counts as resting."""
 
 ENOUGH = 0.05
 """They also end when none changes a velocity by more than this share of what the step's first one did."""
-
 
 SMALL_CHANGE_M_S = 1e-4
 """A change of velocity is not carried on within the sweeps if over all nodes of a rod it adds up to less: many small
@@ -118,13 +117,8 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - out of nested tuples every acce
 
 
 @compiled
-def _add_impulses(
-    floor_impulse: Array, floor: Integers, impulse: Array, contacts: Contacts, pairs: int, load: Array
-) -> None:
-    """Add the impulses of the floor and between rods, N s, to `load` (3, nodes)."""
-    for i in floor:
-        for c in range(3):
-            load[c, i] += floor_impulse[c, i]
+def _add_impulses(impulse: Array, contacts: Contacts, pairs: int, load: Array) -> None:
+    """Add the impulses between rods, (candidates, 3) N s, to `load` (3, nodes)."""
     for n in range(pairs):
         pair, i, j = contacts.pair[n], contacts.base[0, n], contacts.base[1, n]
         for k in range(4):
@@ -163,8 +157,10 @@ def predict(bodies: Bodies, operator: Operator, motion: Motion, touch: Touch, sc
 @compiled
 def gather_load(motion: Motion, touch: Touch, scratch: Scratch) -> None:
     """Put `momentum` and the impulses of all contacts, N s, into `load`."""
-    scratch.load[:] = scratch.momentum
-    _add_impulses(motion.floor_impulse, touch.floor, touch.impulse, touch.contacts, touch.pairs, scratch.load)
+    for c in range(3):
+        for i in range(scratch.load.shape[1]):
+            scratch.load[c, i] = scratch.momentum[c, i] + motion.floor_impulse[c, i]
+    _add_impulses(touch.impulse, touch.contacts, touch.pairs, scratch.load)
 
 
 @compiled

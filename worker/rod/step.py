@@ -150,7 +150,9 @@ def _take_turns(
     tally.counts[SWEEPS] += sweeps
     kept = True
     for rod in range(rods):
-        kept &= _settle_lengths(bodies, operator, motion, world, scratch, tally, rod)
+        if not _keep_lengths_on_floor(bodies, operator, motion, world, scratch, tally, rod, 1.0):
+            tally.counts[UNKEPT] += 1
+            kept = False
     return kept
 
 
@@ -164,33 +166,35 @@ def _place(
         for i in range(bodies.first[rod], bodies.first[rod + 1]):
             x[c, i] = start[c, i] + h * v[c, i]
     hold_on_floor(bodies, motion, scratch, h, rod)
-    tally.counts[ITERATIONS] += keep_lengths(bodies, operator, motion, scratch, rod, SLACK)
-    for _ in range(MAX_FLOOR_CHANGES if world.floor else 0):
-        let_go = let_go_pulled(bodies, motion, scratch, rod)
-        if not catch_sunk(bodies, motion, scratch, h, rod) and not let_go:
-            break
-        tally.counts[ITERATIONS] += keep_lengths(bodies, operator, motion, scratch, rod, SLACK)
-    _find_velocities(bodies, motion, scratch, h, rod)
+    _keep_lengths_on_floor(bodies, operator, motion, world, scratch, tally, rod, SLACK)
 
 
 @compiled
-def _settle_lengths(
-    bodies: Bodies, operator: Operator, motion: Motion, world: World, scratch: Scratch, tally: Tally, rod: int
+def _keep_lengths_on_floor(
+    bodies: Bodies,
+    operator: Operator,
+    motion: Motion,
+    world: World,
+    scratch: Scratch,
+    tally: Tally,
+    rod: int,
+    slack: float,
 ) -> bool:
-    """Find exactly where a rod ends the step, and what the floor does to it; returns whether it kept its length."""
-    iterations = keep_lengths(bodies, operator, motion, scratch, rod, 1.0)
+    """Keep a rod's lengths with the nodes held that the floor then pushes, and no others; find its velocities.
+
+    Returns:
+        Whether the lengths are kept to `slack` times the tolerances.
+    """
+    iterations = keep_lengths(bodies, operator, motion, scratch, rod, slack)
     tally.counts[ITERATIONS] += iterations
     for _ in range(MAX_FLOOR_CHANGES if world.floor else 0):
         let_go = let_go_pulled(bodies, motion, scratch, rod)
         if not catch_sunk(bodies, motion, scratch, operator.step, rod) and not let_go:
             break
-        iterations = keep_lengths(bodies, operator, motion, scratch, rod, 1.0)
+        iterations = keep_lengths(bodies, operator, motion, scratch, rod, slack)
         tally.counts[ITERATIONS] += iterations
     _find_velocities(bodies, motion, scratch, operator.step, rod)
-    if iterations > MAX_ITERATIONS:
-        tally.counts[UNKEPT] += 1
-        return False
-    return True
+    return iterations <= MAX_ITERATIONS
 
 
 @compiled
