@@ -190,10 +190,10 @@ def keep_lengths(bodies: Bodies, operator: Operator, motion: Motion, scratch: Sc
         bodies: the rods.
         operator: of this time step.
         motion: `x` is a guess of the end, `tension` that of the step before; both are changed. So is the height's
-            part of `floor_impulse`, where nodes are held, to what holding them takes. A pull lets the node go in the
-            next step.
-        scratch: `start`; `load`, the momentum and impulses of all forces but tension; `held`, which nodes stay where
-            `x` has them: `FREE`, `IN_HEIGHT`, or `AT_REST` in all directions, as pinned nodes do.
+            part of `floor_impulse`, where nodes are held, to what holding them takes, be it a pull.
+        scratch: `start`; `load`, the momentum and impulses of all forces but tension, changed with `floor_impulse`;
+            `held`, which nodes stay where `x` has them: `FREE`, `IN_HEIGHT`, or `AT_REST` in all directions, as pinned
+            nodes do.
         rod: which.
         slack: how many times the tolerances will do for now.
 
