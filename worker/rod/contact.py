@@ -26,7 +26,7 @@ from worker.rod.narrow_phase import find_near
 DEPENETRATION_SHARE = 0.2
 """Of a penetration that is undone in a step at most."""
 
-UNDOING_S = 0.03
+UNDOING_S = 0.01
 """Time constant of undoing a penetration: what is pushed out faster keeps moving, falls back, and never rests."""
 
 DEEP_SHARE = 0.9
