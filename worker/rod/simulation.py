@@ -49,7 +49,7 @@ class RodSimulation:
     """Rods that fall.
 
     Attributes:
-        step_s: the time step; it is halved as long as rods move too far against each other in one.
+        step_s: the time step; it is halved while rods move too far against each other in one, or it has no sound end.
     """
 
     def __init__(self, rods: Sequence[Rod], surroundings: Surroundings, *, steps_per_s: float) -> None:
