@@ -1,0 +1,32 @@
+"""A Redis that can't be used ends a command before anything is written."""
+
+from pathlib import Path
+
+import pytest
+
+from farm.errors import BrokerError
+from tests.farm.cli.result import Farm, assert_refused
+
+NO_REDIS = "redis://127.0.0.1:1/0"
+
+
+@pytest.mark.parametrize("command", ["submit", "worker", "flower"])
+def test_no_redis(farm: Farm, tmp_path: Path, command: str) -> None:
+    """A Redis that is not there is named, with what to do, before anything is written."""
+    options = {"submit": ["--images", "1", "--out", "data"], "worker": ["--store", "."], "flower": []}[command]
+    result = farm(command, *options, "--broker", NO_REDIS)
+    assert_refused(result, BrokerError.exit_code, "127.0.0.1:1", "--broker")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_password_is_not_shown(farm: Farm) -> None:
+    """An address is told without its password."""
+    result = farm("submit", "--images", "1", "--out", "data", "--broker", "redis://:hush@127.0.0.1:1/0")
+    assert_refused(result, BrokerError.exit_code, "redis://***@127.0.0.1:1")
+    assert "hush" not in result.stderr
+
+
+def test_broker_that_is_no_redis(farm: Farm) -> None:
+    """Another kind of broker is refused."""
+    result = farm("submit", "--images", "1", "--out", "data", "--broker", "amqp://localhost")
+    assert_refused(result, BrokerError.exit_code, "amqp://localhost", "redis://")

@@ -1,0 +1,51 @@
+"""`farm run`, and what `farm submit` and `farm worker` refuse as it does."""
+
+from pathlib import Path
+
+import pytest
+import redis
+
+from farm.dataset import Dataset
+from farm.errors import ConflictError, DestinationError, EnvironmentMissingError
+from tests.farm.cli.result import Farm, assert_refused
+
+
+@pytest.mark.redis
+@pytest.mark.parametrize("command", ["run", "submit"])
+def test_destination_that_cannot_be_written(
+    farm: Farm, tmp_path: Path, redis_url: str, redis_client: "redis.Redis", command: str
+) -> None:
+    """A place below a file can't be written, which is told before anything is queued."""
+    (tmp_path / "file").write_text("")
+    broker = ["--broker", redis_url] if command == "submit" else []
+    result = farm(command, "--quota", "far=1", "--out", "file/data", *broker)
+    assert_refused(result, DestinationError.exit_code, "file/data")
+    assert redis_client.keys() == []
+
+
+@pytest.mark.parametrize("command", ["run", "submit"])
+def test_place_of_another_dataset(farm: Farm, redis_url: str, dataset: Dataset, command: str) -> None:
+    """A place that holds another dataset is refused with the first difference, and stays as it is."""
+    before = dataset.storage.files()
+    broker = ["--broker", redis_url] if command == "submit" else []
+    result = farm(command, "--quota", "far=1", "--out", dataset.storage.location, *broker)
+    assert_refused(result, ConflictError.exit_code, "holds another dataset", "spec.quotas", "another --out")
+    assert dataset.storage.files() == before
+
+
+@pytest.mark.blender
+@pytest.mark.redis
+@pytest.mark.skipif(any(Path("/dev").glob("kfd")), reason="needs a machine without an AMD GPU")
+@pytest.mark.parametrize("command", ["run", "worker"])
+def test_device_that_is_not_there(farm: Farm, tmp_path: Path, redis_url: str, command: str) -> None:
+    """A device that this machine lacks is refused before surfaces are drawn or a job is taken."""
+    options = {"run": ["--images", "1", "--out", "data"], "worker": ["--store", ".", "--broker", redis_url]}[command]
+    result = farm(command, *options, "--device", "hip", "--logs", "logs")
+    assert_refused(result, EnvironmentMissingError.exit_code, "--device hip")
+    assert not (tmp_path / "data").exists()
+    assert list(tmp_path.rglob("*.png")) == []
+
+
+def test_name_that_is_none(farm: Farm) -> None:
+    """A place whose last part can't name a dataset is refused."""
+    assert_refused(farm("run", "--images", "1", "--out", ".data"), DestinationError.exit_code, ".data")

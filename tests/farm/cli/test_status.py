@@ -1,0 +1,79 @@
+"""`farm status` and `farm watch`."""
+
+import json
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+import redis
+
+from farm.dataset import Dataset
+from farm.errors import DestinationError, IncompleteError
+from farm.layout import INDEX_FILE, REPORT_FILE
+from farm.ledger.redis import RedisLedger
+from tests.farm.cli.result import Farm, assert_refused
+
+submit_command = import_module("farm.cli.submit")  # the package's own `submit` is the command
+
+
+@pytest.mark.parametrize("command", ["status", "verify", "report"])
+def test_no_dataset(farm: Farm, tmp_path: Path, command: str) -> None:
+    """Commands on a dataset say when there is none."""
+    assert_refused(farm(command, "data"), DestinationError.exit_code, "no dataset here")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_status(farm: Farm, made: Dataset) -> None:
+    """Without Redis the folder alone tells how far a dataset is."""
+    result = farm("status", made.storage.location, "--json")
+    progress = json.loads(result.stdout)
+    assert progress["categories"]["far"] == {"done": 2, "quota": 2}
+    assert progress["running"] is None
+    assert "all" in farm("status", made.storage.location).stdout
+
+
+@pytest.mark.redis
+def test_status_names_the_last_picture(farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
+    """Of a finished dataset, too, the newest picture is told by a path that can be opened from anywhere."""
+    ledger = RedisLedger(redis_client, made.name, made.header.spec_sha256)
+    ledger.record_done("far-000001", "far/images/far-000001.png")
+    result = farm("status", made.storage.location, "--broker", redis_url)
+    line = next(line for line in result.stdout.splitlines() if line.startswith("last "))
+    assert Path(line.split()[1]).is_absolute()
+    assert Path(line.split()[1]).is_file()
+
+
+@pytest.mark.redis
+def test_watch_and_submit_leave_index_and_report(
+    farm: Farm, made: Dataset, redis_url: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whoever waits for the end of a dataset finds its index and page, as after `farm run`."""
+    monkeypatch.setattr(submit_command, "make_header", lambda *_: made.header)
+    commands = [("watch", made.storage.location), ("submit", "--images", "1", "--out", made.storage.location, "--wait")]
+    for arguments in commands:
+        result = farm(*arguments, "--broker", redis_url)
+        assert result.returncode == 0, result.stderr
+        for name in (INDEX_FILE, REPORT_FILE):
+            assert made.storage.read(name)
+            made.storage.remove(name)
+
+
+@pytest.mark.redis
+def test_watch_of_a_failure_leaves_index_and_report(
+    farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis"
+) -> None:
+    """What could be made is listed though the rest failed."""
+    made.storage.remove("far/manifests/far-000001.json")
+    RedisLedger(redis_client, made.name, made.header.spec_sha256).record_failure("far-000001", "no scene passed")
+    result = farm("watch", made.storage.location, "--broker", redis_url)
+    assert result.returncode == IncompleteError.exit_code
+    assert len(made.storage.read(INDEX_FILE).splitlines()) == 3
+    assert made.storage.read(REPORT_FILE)
+
+
+@pytest.mark.redis
+def test_watch_ends_with_the_dataset(farm: Farm, made: Dataset, redis_url: str) -> None:
+    """Watching a finished dataset ends at once."""
+    result = farm("watch", made.storage.location, "--broker", redis_url)
+    assert result.returncode == 0
+    assert "4 of 4 done" in result.stderr

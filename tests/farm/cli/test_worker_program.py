@@ -1,0 +1,37 @@
+"""The worker's program, started by a command: its errors stay what they are."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from farm.cli import worker_program
+from farm.errors import DestinationError, FarmError, PermanentError, RetryableError
+from farm.header import DatasetHeader
+
+KINDS = [
+    kind
+    for kind in (*RetryableError.__subclasses__(), *PermanentError.__subclasses__())
+    if kind.exit_code != FarmError.exit_code
+]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_worker_program_keeps_its_kind_of_error(
+    kind: type[FarmError], header: DatasetHeader, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each of the farm's errors crosses from the worker's program to the command line, with its code and words."""
+    program = [sys.executable, "-c", f"import sys; sys.stderr.write('why'); sys.exit({kind.exit_code})"]
+    monkeypatch.setattr(worker_program, "WORKER_COMMAND", program)
+    with pytest.raises(kind, match="why") as refused:
+        worker_program.ask_worker([], header, tmp_path)
+    assert type(refused.value) is kind
+
+
+@pytest.mark.parametrize("command", ["check", "preview"])
+def test_worker_program_without_a_place_for_logs(command: str, header: DatasetHeader, tmp_path: Path) -> None:
+    """A log folder that can't be made is one clear line, not a traceback."""
+    (tmp_path / "file").write_text("")
+    options = ["--job", "far-000000", "--out", "x.png"] if command == "preview" else []
+    with pytest.raises(DestinationError, match=r"^\S*file/logs: can't write logs[^\n]*$"):
+        worker_program.ask_worker([command, *options], header, tmp_path / "file/logs")
