@@ -11,7 +11,8 @@ from typing import Protocol
 from farm import __version__
 from farm.errors import AssetError, SpecError, TemplateError
 from farm.header import DatasetHeader, HdriRef, SurfaceRef, TemplateRef
-from farm.spec import DatasetSpec
+from farm.quality import settings_for
+from farm.spec import DatasetSpec, Engine
 
 # A .blend file is plain, or compressed by Zstandard or (older ones) gzip.
 _BLEND_STARTS = (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b")
@@ -82,6 +83,9 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
         template=template_ref(inputs.template),
         surfaces=tuple(surfaces),
         hdris=tuple(hdris),
+        rendering={category: settings_for(spec.quality, category) for category in spec.quotas}
+        if spec.engine is Engine.CYCLES
+        else {},
     )
 
 

@@ -7,7 +7,9 @@ from typing import Annotated, Literal
 import pydantic_core
 from pydantic import Field
 
+from farm.category import Category
 from farm.model import Model, Sha256
+from farm.quality import ChosenSettings
 from farm.spec import DatasetSpec
 
 
@@ -69,7 +71,12 @@ SurfaceRef = Annotated[BuiltinSurfaceRef | FolderSurfaceRef, Field(discriminator
 
 
 class DatasetHeader(Model):
-    """What `dataset.json` holds."""
+    """What `dataset.json` holds.
+
+    Attributes:
+        rendering: what the spec's quality means for each category, so that a farm with another calibration does not mix
+            pictures of two kinds; empty for other engines than Cycles.
+    """
 
     format: Literal[1] = 1
     farm_version: str
@@ -77,6 +84,7 @@ class DatasetHeader(Model):
     template: TemplateRef
     surfaces: Annotated[tuple[SurfaceRef, ...], Field(min_length=1)]
     hdris: Annotated[tuple[HdriRef, ...], Field(min_length=1)]
+    rendering: Mapping[Category, ChosenSettings] = {}
 
     @property
     def spec_sha256(self) -> str:

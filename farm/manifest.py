@@ -8,6 +8,7 @@ from pydantic import Field
 from farm.job import DatasetName
 from farm.layout import FileRole
 from farm.model import Model, Sha256
+from farm.rendering import PictureSettings
 from farm.scene import Scene
 
 Seconds = Annotated[float, Field(ge=0)]
@@ -67,13 +68,20 @@ class SettleFigures(Model):
 
 
 class RenderSettings(Model):
-    """How the picture was rendered, as acted on, not as asked for."""
+    """How the picture was rendered, as acted on, not as asked for.
+
+    Attributes:
+        samples: a pixel.
+        settings: of Cycles; None for another engine.
+        expected_flip: mean FLIP against a picture without noise, as calibrated; None where it is not known.
+    """
 
     engine: str
     device: str
-    samples: int
-    denoiser: str | None
     resolution: int
+    samples: int
+    settings: PictureSettings | None = None
+    expected_flip: float | None = None
 
 
 class Manifest(Model):

@@ -14,6 +14,7 @@ from farm.errors import SpecError
 from farm.fall import Fall, Simulator
 from farm.job import Job
 from farm.model import Model
+from farm.quality import Preset, Quality, settings_for
 from farm.quotas import split_total
 from farm.ranges import Ranges
 
@@ -27,14 +28,6 @@ class Engine(StrEnum):
     EEVEE = "eevee"
 
 
-class Quality(StrEnum):
-    """How much time a picture may take for how little noise."""
-
-    DRAFT = "draft"
-    STANDARD = "standard"
-    REFERENCE = "reference"
-
-
 class DatasetSpec(Model):
     """A dataset: how many images of which category, from which seed, made how.
 
@@ -46,7 +39,7 @@ class DatasetSpec(Model):
     quotas: Mapping[Category, Quota]
     resolution: Annotated[int, Field(ge=32, le=8192)] = 512
     engine: Engine = Engine.CYCLES
-    quality: Quality = Quality.STANDARD
+    quality: Quality = Preset.STANDARD
     close_distributed_hdri: str | None = None
     simulator: Simulator = Simulator.ROD
     fall: Fall = Fall()
@@ -56,6 +49,15 @@ class DatasetSpec(Model):
     def _asks_for_something(self) -> "DatasetSpec":
         if self.total == 0:
             raise ValueError("the quotas add up to zero images; ask for at least one")
+        return self
+
+    @model_validator(mode="after")
+    def _can_be_rendered_so_well(self) -> "DatasetSpec":
+        if isinstance(self.quality, float) and self.engine is not Engine.CYCLES:
+            raise ValueError("quality as a number is measured for engine 'cycles' alone; name a preset")
+        if self.engine is Engine.CYCLES:
+            for category in (category for category, quota in self.quotas.items() if quota):
+                settings_for(self.quality, category)  # raises if there are none
         return self
 
     @property

@@ -110,7 +110,7 @@ class StandInMaker:
             scene=stand_in_scene(job),
             settled=SETTLED,
             rejected=(RejectedAttempt(attempt=0, reason="one for the show"),),
-            render=RenderSettings(engine="none", device="CPU", samples=1, denoiser=None, resolution=size),
+            render=RenderSettings(engine="none", device="CPU", samples=1, resolution=size),
             timings_s={"render": 0.01},
             versions={"farm": __version__},
         )

@@ -1,12 +1,20 @@
 """What Eevee needs that Cycles does not: a lamp whose shadows are fine enough for cables."""
 
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, Final
 
 import bpy
 import numpy as np
 from mathutils import Vector
 
 from blend import names
+from farm.quality import Preset, Quality
+from farm.rendering import CyclesSettings, PictureSettings
+
+_SAMPLES: Final[Mapping[Quality, int]] = {Preset.DRAFT: 8, Preset.STANDARD: 16, Preset.REFERENCE: 128}
+
+PICTURE: Final = PictureSettings(cycles=CyclesSettings(samples=1))
+"""How cables and textures are realized for it; what is for Cycles does not count."""
 
 _NAME = f"{names.POINT_LAMP}.eevee"
 
@@ -18,6 +26,11 @@ _LIT_RADIUS_M = 0.4
 
 _AREA_TO_POINT = 4.0
 """An area light of power P shines P / pi per steradian along its axis, a point light P / (4 pi)."""
+
+
+def samples_of(quality: Quality) -> int:
+    """Samples a pixel of a preset; numbers are not calibrated for Eevee, and the spec refuses them."""
+    return _SAMPLES[quality]
 
 
 def light_with_a_spot(scene: Any) -> None:

@@ -1,4 +1,4 @@
-"""The images that a process holds: each loaded once, the least used let go when there are too many."""
+"""The images that a process holds: each file read once, the least used let go when there are too many."""
 
 from collections import OrderedDict
 from dataclasses import dataclass
@@ -6,55 +6,130 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from farm.errors import AssetError
+from worker.texture_window import Texels, TextureWindow
 
-Key = tuple[str, bool, bool, bool]
+Pixels = NDArray[np.uint8] | NDArray[np.float32]
+
+_FLOAT_SUFFIXES = frozenset({".exr", ".hdr"})
+
+_IN_USE = 5
+"""A picture needs five images at most; those stay, however large."""
 
 
 @dataclass(frozen=True, slots=True)
-class _Loaded:
-    """An image and its size, noted once: asking Blender for it later decodes the file again."""
+class TextureFile:
+    """A floor's map in a file, and how to read it.
 
-    image: Any
-    bytes: int
+    Attributes:
+        colour: sRGB, as against plain numbers.
+        invert: turn glossiness into roughness.
+        flip_green: turn a normal map from DirectX to OpenGL convention.
+    """
+
+    path: Path
+    colour: bool = False
+    invert: bool = False
+    flip_green: bool = False
 
 
 class ImageShelf:
-    """Blender images by file, up to a number of bytes in all."""
+    """Images by file, up to a number of bytes in all.
+
+    Args:
+        capacity_bytes: of what is kept for later pictures.
+    """
 
     def __init__(self, capacity_bytes: int = 2**30) -> None:
-        """Start empty."""
         self._capacity_bytes = capacity_bytes
-        self._loaded: OrderedDict[Key, _Loaded] = OrderedDict()
+        self._held: OrderedDict[tuple[str, object], tuple[Any, int]] = OrderedDict()
         self._constants: dict[str, Any] = {}
+        self._of_picture: list[Any] = []
 
-    def load(self, path: Path, *, colour: bool = False, invert: bool = False, flip_green: bool = False) -> Any:
-        """An image from a file.
+    def begin_picture(self) -> None:
+        """Let go what was made for the picture before alone."""
+        for image in self._of_picture:
+            bpy.data.images.remove(image)
+        self._of_picture.clear()
 
-        Args:
-            path: of the file.
-            colour: sRGB, as against plain numbers; HDR files are linear either way.
-            invert: turn glossiness into roughness.
-            flip_green: turn a normal map from DirectX to OpenGL convention.
+    def forget(self) -> None:
+        """Let go all that is kept for later pictures."""
+        while self._held:
+            _release(self._held.popitem()[1][0])
+
+    def panorama(self, path: Path) -> Any:
+        """An HDRI as a Blender image.
 
         Raises:
             AssetError: if Blender can't read it.
         """
-        key = (str(path), colour, invert, flip_green)
-        if key in self._loaded:
-            self._loaded.move_to_end(key)
-            return self._loaded[key].image
-        image = self._read(path, colour=colour)
-        if invert or flip_green:
-            _alter(image, invert=invert, flip_green=flip_green)
-        self._loaded[key] = _Loaded(image, _bytes(image))
-        # A picture needs five images at most; those stay, however large.
-        while len(self._loaded) > _IN_USE and sum(each.bytes for each in self._loaded.values()) > self._capacity_bytes:
-            _, oldest = self._loaded.popitem(last=False)
-            bpy.data.images.remove(oldest.image)
-        return image
+        return self._hold((str(path), "panorama"), lambda: _sized(_load(path)))
+
+    def radiance(self, path: Path) -> NDArray[np.float32]:
+        """An HDRI as (H, W, 3) linear light, the top row first; don't write to it.
+
+        Raises:
+            AssetError: if Blender can't read it.
+        """
+
+        def read() -> tuple[NDArray[np.float32], int]:
+            image = _load(path)
+            pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
+            image.pixels.foreach_get(pixels)
+            rgb = np.ascontiguousarray(pixels.reshape(image.size[1], image.size[0], 4)[::-1, :, :3])
+            bpy.data.images.remove(image)
+            return rgb, rgb.nbytes
+
+        light: NDArray[np.float32] = self._hold((str(path), "radiance"), read)
+        return light
+
+    def texels(self, file: TextureFile) -> Texels | None:
+        """A map's texels, (H, W) or (H, W, 3) with red first, the top row first; don't write to them.
+
+        Returns:
+            None if the file is none of grey or RGB with 8 bits a channel.
+
+        Raises:
+            AssetError: if it can't be read.
+        """
+        if file.path.suffix.lower() in _FLOAT_SUFFIXES:
+            return None
+        texels: Texels | None = self._hold((str(file.path), file), lambda: _decode(file))
+        return texels
+
+    def whole(self, file: TextureFile) -> Any:
+        """A map as a Blender image, read by Blender.
+
+        Raises:
+            AssetError: if Blender can't read it.
+        """
+
+        def read() -> tuple[Any, int]:
+            image = _load(file.path)
+            if file.path.suffix.lower() not in _FLOAT_SUFFIXES:
+                image.colorspace_settings.name = "sRGB" if file.colour else "Non-Color"
+            if file.invert or file.flip_green:
+                pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
+                image.pixels.foreach_get(pixels)
+                _alter(pixels.reshape(-1, 4), 1.0, invert=file.invert, flip_green=file.flip_green)
+                image.pixels.foreach_set(pixels)
+                image.update()
+            return _sized(image)
+
+        return self._hold((str(file.path), ("whole", file)), read)
+
+    def window(self, file: TextureFile, texels: Texels, window: TextureWindow) -> Any:
+        """A part of a map as a Blender image, for this picture alone."""
+        part = window.cut(texels, colour=file.colour)
+        return self._new(file.path.name, part, colour=file.colour)
+
+    def light(self, name: str, radiance: NDArray[np.float32]) -> Any:
+        """A panorama (H, W, 3) of linear light, the top row first, as a Blender image for this picture alone."""
+        return self._new(name, radiance, colour=True)
 
     def constant(self, value: float, *, colour: bool = False) -> Any:
         """An image of one grey value, linear."""
@@ -64,6 +139,19 @@ class ImageShelf:
         """A normal map without relief."""
         return self._constant("flat normal", (0.5, 0.5, 1.0), colour=False)
 
+    def _new(self, name: str, pixels: Pixels, *, colour: bool) -> Any:
+        rows, columns = pixels.shape[:2]
+        scale = 1.0 if pixels.dtype == np.float32 else 255.0
+        image = bpy.data.images.new(name, columns, rows, float_buffer=scale == 1.0, is_data=not colour)
+        channels = np.ones((rows, columns, 4), np.float32)
+        # Blender counts rows from below.
+        channels[:, :, :3] = (pixels if pixels.ndim == 3 else pixels[:, :, None])[::-1]
+        channels[:, :, :3] /= np.float32(scale)
+        image.pixels.foreach_set(channels.ravel())
+        image.update()
+        self._of_picture.append(image)
+        return image
+
     def _constant(self, name: str, value: tuple[float, float, float], *, colour: bool) -> Any:
         if name not in self._constants:
             image = bpy.data.images.new(name, 1, 1, float_buffer=True, is_data=not colour)
@@ -72,36 +160,52 @@ class ImageShelf:
             self._constants[name] = image
         return self._constants[name]
 
-    @staticmethod
-    def _read(path: Path, *, colour: bool) -> Any:
-        try:
-            image = bpy.data.images.load(str(path), check_existing=False)
-        except RuntimeError as error:
-            raise AssetError(f"{path}: Blender can't read this image") from error
-        if not image.size[0]:
-            bpy.data.images.remove(image)
-            raise AssetError(f"{path}: Blender can't decode this image; replace the file")
-        if path.suffix.lower() not in {".exr", ".hdr"}:
-            image.colorspace_settings.name = "sRGB" if colour else "Non-Color"
-        return image
+    def _hold(self, key: tuple[str, object], read: Any) -> Any:
+        if key in self._held:
+            self._held.move_to_end(key)
+            return self._held[key][0]
+        self._held[key] = read()
+        while len(self._held) > _IN_USE and sum(size for _, size in self._held.values()) > self._capacity_bytes:
+            _release(self._held.popitem(last=False)[1][0])
+        return self._held[key][0]
 
 
-_IN_USE = 5
+def _release(held: Any) -> None:
+    if isinstance(held, bpy.types.Image):
+        bpy.data.images.remove(held)
 
 
-def _bytes(image: Any) -> int:
-    """Memory of an image's pixels: four channels of a byte or a float."""
+def _sized(image: Any) -> tuple[Any, int]:
+    """With its bytes: four channels of a byte or a float. Asked once, since asking later decodes the file again."""
     width, height = image.size
-    return int(width * height * 4 * (4 if image.is_float else 1))
+    return image, int(width * height * 4 * (4 if image.is_float else 1))
 
 
-def _alter(image: Any, *, invert: bool, flip_green: bool) -> None:
-    pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
-    image.pixels.foreach_get(pixels)
-    channels = pixels.reshape(-1, 4)
+def _load(path: Path) -> Any:
+    try:
+        image = bpy.data.images.load(str(path), check_existing=False)
+    except RuntimeError as error:
+        raise AssetError(f"{path}: Blender can't read this image") from error
+    if not image.size[0]:
+        bpy.data.images.remove(image)
+        raise AssetError(f"{path}: Blender can't decode this image; replace the file")
+    return image
+
+
+def _decode(file: TextureFile) -> tuple[Texels | None, int]:
+    pixels = cv2.imread(str(file.path), cv2.IMREAD_UNCHANGED)
+    if pixels is None:
+        raise AssetError(f"{file.path}: can't decode this image; replace the file")
+    if pixels.dtype != np.uint8 or (pixels.ndim == 3 and pixels.shape[2] != 3):
+        return None, 0
+    texels = np.ascontiguousarray(pixels[:, :, ::-1] if pixels.ndim == 3 else pixels).astype(np.uint8, copy=False)
+    _alter(texels, 255, invert=file.invert, flip_green=file.flip_green)
+    return texels, texels.nbytes
+
+
+def _alter(pixels: NDArray[Any], most: float, *, invert: bool, flip_green: bool) -> None:
+    """Change pixels (..., channels), the first three of them colours, with values from 0 to `most`, in place."""
     if invert:
-        channels[:, :3] = 1.0 - channels[:, :3]
-    if flip_green:
-        channels[:, 1] = 1.0 - channels[:, 1]
-    image.pixels.foreach_set(pixels)
-    image.update()
+        pixels[..., :3] = most - pixels[..., :3]
+    if flip_green and pixels.ndim > 1 and pixels.shape[-1] >= 3:
+        pixels[..., 1] = most - pixels[..., 1]

@@ -3,44 +3,67 @@
 from typing import Any
 
 import bpy
-import numpy as np
 
 from blend import names
+from farm.category import Background, CategoryTraits, Light
 from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
-from farm.scene import AreaLamp, Cable, CableMaterial, Camera, Floor, HdriWorld, PointLamp, Rgb, Scene
+from farm.rendering import CableDetail, Economy
+from farm.scene import Cable, CableMaterial, Camera, Rgb, Scene
+from worker.floor import set_floor, set_unseen_floor
 from worker.images import ImageShelf
+from worker.label import View
 from worker.library import AssetLibrary
-from worker.shapes import Points
-from worker.tube import sweep
-
-TUBE_SIDES = 20
-"""Corners of a cable's cross-section; its silhouette is then within half a per cent of the radius."""
+from worker.shapes import Points, parts_near, smooth
+from worker.surroundings import set_lamps, set_world
+from worker.tube import Tube, sweep
 
 DIRT_EDGE = 0.05
 """Distance of the two stops of the dirt ramp: how soft the edge of a spot is."""
 
+SHADOW_SLOPE = 3.0
+"""How far a shadow reaches, in the height of what throws it: that of the lowest lamp, 15 m away at a height of 5."""
+
 
 def realize(
-    scene: Scene, curves: list[Points], library: AssetLibrary, shelf: ImageShelf, *, camera_sees_floor: bool
+    scene: Scene,
+    nodes_m: tuple[Points, ...],
+    library: AssetLibrary,
+    shelf: ImageShelf,
+    *,
+    traits: CategoryTraits,
+    resolution: int,
+    detail: CableDetail,
+    economy: Economy,
 ) -> None:
     """Set the picture's scene to `scene`, with settled cables.
 
     Args:
         scene: what was drawn.
-        curves: the settled centrelines, finely sampled (N, 3), metres, one a cable.
+        nodes_m: the settled centrelines, nodes (N, 3), metres, one a cable.
         library: where the textures and HDRIs are.
         shelf: the images that this process holds.
-        camera_sees_floor: False hides the floor from the camera alone.
+        traits: of the scene's category.
+        resolution: pixels along an edge of the picture.
+        detail: how finely cables are modelled.
+        economy: what is left out.
 
     Raises:
         AssetError: if a texture or HDRI can't be had.
     """
+    shelf.begin_picture()
+    if not economy.keep_loaded:
+        shelf.forget()
     remove_cables()
-    for number, (cable, curve) in enumerate(zip(scene.cables, curves, strict=True), start=1):
-        _add_cable(number, cable, curve)
-    _set_floor(scene.floor, library, shelf, seen=camera_sees_floor)
-    _set_lamps(scene.lamp)
-    _set_world(scene.hdri_world, library, shelf)
+    view = View(height_m=scene.camera.height_m, resolution=resolution)
+    for number, (cable, nodes) in enumerate(zip(scene.cables, nodes_m, strict=True), start=1):
+        _add_cable(number, cable, nodes, detail, view if economy.cables_in_view else None)
+    if scene.floor is None:
+        set_unseen_floor(shelf)
+    else:
+        set_floor(scene.floor, library.surface(scene.floor.texture), shelf, view if economy.texture_window else None)
+    set_lamps(scene.lamp)
+    only_lights = traits.background is Background.FLOOR and traits.light is Light.DISTRIBUTED
+    set_world(scene.hdri_world, library, shelf, above_floor=economy.upper_world and only_lights)
     _set_camera(scene.camera)
 
 
@@ -52,20 +75,32 @@ def remove_cables() -> None:
             collection.remove(block)
 
 
-def _add_cable(number: int, cable: Cable, curve: Points) -> None:
-    name = f"{names.CABLE}.{number}"
-    tube = sweep(curve, cable.diameter_m / 2, TUBE_SIDES)
+def _add_cable(number: int, cable: Cable, nodes: Points, detail: CableDetail, view: View | None) -> None:
+    """Add a cable; of one that leaves the view, the parts that are seen or may throw a shadow into it."""
+    material = _cable_material(f"{names.CABLE}.{number}", cable.material)
+    curve = smooth(nodes, detail.points_per_segment)
+    if view is None:
+        parts = [slice(0, len(curve))]
+    else:
+        half_m = 0.5 * view.height_m * SENSOR_MM / FOCAL_LENGTH_MM
+        parts = parts_near(curve, half_m + SHADOW_SLOPE * float(curve[:, 2].max()) + cable.diameter_m)
+    for part in parts:
+        start_m = cable.length_m * part.start / (len(curve) - 1)
+        tube = sweep(curve[part], cable.diameter_m / 2, detail.sides, start_m=start_m)
+        _add_tube(f"{names.CABLE}.{number}.{part.start}", tube, material)
+
+
+def _add_tube(name: str, tube: Tube, material: Any) -> None:
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(len(tube.vertices_m))
     mesh.vertices.foreach_set("co", tube.vertices_m.ravel())
     mesh.loops.add(len(tube.corners))
     mesh.loops.foreach_set("vertex_index", tube.corners)
-    mesh.polygons.add(len(tube.face_sizes))
-    mesh.polygons.foreach_set("loop_start", np.concatenate([[0], np.cumsum(tube.face_sizes)[:-1]]).astype(np.int32))
+    mesh.polygons.add(len(tube.face_starts))
+    mesh.polygons.foreach_set("loop_start", tube.face_starts)
     mesh.uv_layers.new(name="along").uv.foreach_set("vector", tube.uvs.ravel())
     mesh.update(calc_edges=True)
-    mesh.normals_split_custom_set(tube.normals)
-    mesh.materials.append(_cable_material(name, cable.material))
+    mesh.materials.append(material)
     bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
 
 
@@ -88,82 +123,6 @@ def _linear(colour: Rgb) -> tuple[float, float, float, float]:
     """Levels as shares of linear light, which is how the published set-up reads them: the colours come out pastel."""
     red, green, blue = (level / 255.0 for level in colour)
     return (red, green, blue, 1.0)
-
-
-def _set_floor(floor: Floor | None, library: AssetLibrary, shelf: ImageShelf, *, seen: bool) -> None:
-    floor_object = bpy.data.objects[names.FLOOR]
-    floor_object.visible_camera = seen
-    nodes = bpy.data.materials[names.FLOOR].node_tree.nodes
-    if floor is None:
-        nodes[names.FLOOR_COLOUR].image = shelf.constant(UNSEEN_FLOOR, colour=True)
-        nodes[names.FLOOR_ROUGHNESS].image = shelf.constant(UNSEEN_FLOOR)
-        nodes[names.FLOOR_METALLIC].image = shelf.constant(0.0)
-        nodes[names.FLOOR_NORMAL].image = shelf.flat_normal()
-        # The map's tangents reach the last bit of the light that the floor throws back, so none may be left over.
-        _place_texture(floor_object.data, UNTEXTURED, 1.0)
-        return
-    files = library.surface(floor.texture)
-    nodes[names.FLOOR_COLOUR].image = shelf.load(files.colour, colour=True)
-    nodes[names.FLOOR_ROUGHNESS].image = (
-        shelf.load(files.roughness, invert=files.gloss) if files.roughness else shelf.constant(0.6)
-    )
-    nodes[names.FLOOR_NORMAL].image = (
-        shelf.load(files.normal, flip_green=files.flip_green) if files.normal else shelf.flat_normal()
-    )
-    nodes[names.FLOOR_METALLIC].image = (
-        shelf.constant(files.metallic) if isinstance(files.metallic, float) else shelf.load(files.metallic)
-    )
-    _place_texture(floor_object.data, floor, files.size_m)
-
-
-UNSEEN_FLOOR = 0.4
-"""Albedo and roughness of a floor that only throws light back at the cables."""
-
-UNTEXTURED = Floor(texture="", offset_x=0.0, offset_y=0.0, rotation_deg=0.0, scale=1.0)
-
-
-def _place_texture(mesh: Any, floor: Floor, size_m: float) -> None:
-    """Write offset, turn and scale into the UV map."""
-    coordinates = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", coordinates)
-    corners = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
-    across = coordinates.reshape(-1, 3)[corners, :2].astype(np.float64) / (size_m * floor.scale)
-    turn = np.radians(floor.rotation_deg)
-    rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
-    # Whole tiles make no difference to the picture, and single precision keeps more of the rest.
-    offset = np.mod([floor.offset_x, floor.offset_y], 1.0)
-    uvs = across @ rotation.T + offset
-    mesh.uv_layers[0].uv.foreach_set("vector", uvs.astype(np.float32).ravel())
-    mesh.update()
-
-
-def _set_lamps(lamp: PointLamp | AreaLamp | None) -> None:
-    point, area = bpy.data.objects[names.POINT_LAMP], bpy.data.objects[names.AREA_LAMP]
-    point.hide_render, area.hide_render = not isinstance(lamp, PointLamp), not isinstance(lamp, AreaLamp)
-    if isinstance(lamp, PointLamp):
-        bearing = np.radians(lamp.bearing_deg)
-        point.location = (lamp.radius_m * np.cos(bearing), lamp.radius_m * np.sin(bearing), lamp.height_m)
-        point.data.energy = lamp.power_w
-        point.data.shadow_soft_size = lamp.size_m
-    elif isinstance(lamp, AreaLamp):
-        area.location.x = lamp.x_m
-        area.data.energy = lamp.power_w
-
-
-def _set_world(world: HdriWorld | None, library: AssetLibrary, shelf: ImageShelf) -> None:
-    nodes = bpy.data.worlds[names.WORLD].node_tree.nodes
-    nodes[names.WORLD_SWITCH].inputs["Fac"].default_value = 1.0 if world is None else 0.0
-    if world is None:
-        nodes[names.WORLD_IMAGE].image = None
-        return
-    nodes[names.WORLD_IMAGE].image = shelf.load(library.hdri(world.hdri))
-    nodes[names.WORLD_BRIGHTNESS].inputs["Fac"].default_value = world.brightness
-    nodes[names.WORLD_MAPPING].inputs["Rotation"].default_value = (
-        np.radians(world.tilt_deg),
-        0.0,
-        np.radians(world.rotation_deg),
-    )
 
 
 def _set_camera(camera: Camera) -> None:

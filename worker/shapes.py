@@ -47,6 +47,15 @@ def tangents(curve: Points) -> Points:
     return unit
 
 
+def parts_near(curve: Points, half_edge_m: float) -> list[slice]:
+    """The parts of a curve (N, 3) within a square about the z axis, each with one point more on either side."""
+    inside = (np.abs(curve[:, :2]) <= half_edge_m).all(axis=1)
+    inside[1:] |= inside[:-1].copy()
+    inside[:-1] |= inside[1:].copy()
+    changes = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(np.int8)))
+    return [slice(int(a), int(b)) for a, b in zip(changes[::2], changes[1::2], strict=True) if b - a > 1]
+
+
 def bent_rod(length_m: float, bends_per_m: tuple[float, ...], nodes: int) -> NDArray[np.float64]:
     """A plane polyline of given length and curvature, its middle at the origin and its mean bearing along x.
 

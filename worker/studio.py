@@ -11,12 +11,12 @@ import numpy as np
 
 from blend.build import TEMPLATE
 from blend.contract import open_template
-from farm.category import Background
 from farm.errors import SceneError
 from farm.header import DatasetHeader, FileRef
 from farm.job import Job
-from farm.manifest import RejectedAttempt, SettleFigures
+from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
 from farm.scene import Scene
+from worker import eevee
 from worker.check import find_fault
 from worker.devices import choose_device
 from worker.gates import measure
@@ -26,12 +26,12 @@ from worker.library import AssetLibrary, checked
 from worker.made import MadeImage
 from worker.randomize import draw_scene
 from worker.realize import realize
-from worker.render import configure, render_picture
+from worker.render import configure_cycles, configure_eevee, configure_picture, render_picture
 from worker.shapes import CableShapes, smooth
 from worker.simulate import let_fall
 
 CURVE_SAMPLES = 5
-"""Points of the rendered curve per segment of the fall: one a millimetre for a 2 mm cable."""
+"""Points of a mask's curve per segment of the fall: one a millimetre for a 2 mm cable."""
 
 
 def open_studio(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> "Studio":
@@ -83,16 +83,12 @@ class Studio:
         timings = {"open": self._open_s, "randomize": 0.0, "simulate": 0.0, "check": 0.0}
         self._open_s = 0.0
         scene, shapes, settled, rejected = self._settle(job, header, timings)
-        curves = [smooth(nodes, CURVE_SAMPLES) for nodes in shapes.nodes_m]
-        traits = job.category.traits
         with _timed(timings, "realize"):
-            realize(scene, curves, self._library, self._shelf, camera_sees_floor=traits.background is Background.FLOOR)
-            settings = configure(
-                header.spec, traits.light, device=self._device, threads=self._threads, seed=scene.render_seed
-            )
+            settings = self._realize(job, header, scene, shapes)
         with _timed(timings, "render"):
             image = render_picture()
         with _timed(timings, "mask"):
+            curves = [smooth(nodes, CURVE_SAMPLES) for nodes in shapes.nodes_m]
             view = View(height_m=scene.camera.height_m, resolution=header.spec.resolution)
             labels = label_cables(curves, shapes.radii_m, view)
         return MadeImage(
@@ -105,6 +101,36 @@ class Studio:
             render=settings,
             timings_s=timings,
             versions=_versions(),
+        )
+
+    def _realize(self, job: Job, header: DatasetHeader, scene: Scene, shapes: CableShapes) -> RenderSettings:
+        """Make the picture ready to render; returns how it will be."""
+        spec = header.spec
+        chosen = header.rendering.get(job.category)
+        settings = chosen.settings if chosen else eevee.PICTURE
+        realize(
+            scene,
+            shapes.nodes_m,
+            self._library,
+            self._shelf,
+            traits=job.category.traits,
+            resolution=spec.resolution,
+            detail=settings.detail,
+            economy=settings.economy,
+        )
+        picture = configure_picture(spec.resolution, self._threads)
+        if chosen is None:
+            samples = eevee.samples_of(spec.quality)
+            configure_eevee(picture, samples)
+            return RenderSettings(engine="eevee", device="opengl", resolution=spec.resolution, samples=samples)
+        configure_cycles(picture, settings, self._device, scene.render_seed)
+        return RenderSettings(
+            engine="cycles",
+            device=self._device,
+            resolution=spec.resolution,
+            samples=settings.cycles.samples,
+            settings=settings,
+            expected_flip=chosen.expected_flip,
         )
 
     @staticmethod

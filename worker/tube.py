@@ -1,6 +1,7 @@
 """A cable's render geometry: a round tube swept along its smooth centreline, cut flat at the ends. Pure numpy."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,22 +13,22 @@ from worker.shapes import Points, tangents
 class Tube:
     """A mesh of quads, with one polygon at either end.
 
+    The ends have vertices of their own, so that a mesh shaded smooth is round along the side and flat at the ends.
+
     Attributes:
-        vertices_m: (rings * sides, 3) float32.
+        vertices_m: ((rings + 2) * sides, 3) float32; the last two rings are those of the ends.
         corners: (loops,) int32, vertex of each face corner, faces one after the other.
-        face_sizes: (faces,) int32, corners of each face: 4, or `sides` for the two ends.
+        face_starts: (faces,) int32, the first corner of each face; 4 corners each, and `sides` for the two ends.
         uvs: (loops, 2) float32: metres along the cable and around it.
-        normals: (loops, 3) float32 unit normals: round along the side, flat at the ends.
     """
 
     vertices_m: NDArray[np.float32]
     corners: NDArray[np.int32]
-    face_sizes: NDArray[np.int32]
+    face_starts: NDArray[np.int32]
     uvs: NDArray[np.float32]
-    normals: NDArray[np.float32]
 
 
-def sweep(curve: Points, radius_m: float, sides: int) -> Tube:
+def sweep(curve: Points, radius_m: float, sides: int, *, start_m: float = 0.0) -> Tube:
     """Sweep a circle along a finely sampled curve.
 
     Args:
@@ -35,50 +36,53 @@ def sweep(curve: Points, radius_m: float, sides: int) -> Tube:
         radius_m: of the cable.
         sides: of the polygon that stands for the circle. Its corners lie outside the circle by as much as the
             middles of its sides lie inside, so that the silhouette is right on average.
+        start_m: how far along the cable the curve starts.
 
     Returns:
         The tube's mesh.
     """
-    along, across, up = _frames(curve)
+    across, up = _frames(curve)
     angle = 2 * np.pi * np.arange(sides) / sides
-    outward = np.cos(angle)[None, :, None] * across[:, None] + np.sin(angle)[None, :, None] * up[:, None]
     corner_radius = 2 * radius_m / (1 + np.cos(np.pi / sides))
-    vertices = (curve[:, None] + corner_radius * outward).reshape(-1, 3)
-    rings = len(curve)
+    circle = corner_radius * np.stack([np.cos(angle), np.sin(angle)])
+    rings = curve[:, None] + circle[0][:, None] * across[:, None] + circle[1][:, None] * up[:, None]
+    vertices = np.concatenate([rings, rings[[0, -1]]]).reshape(-1, 3)
+    corners, face_starts, steps, turns = _topology(len(curve), sides)
+    arc = start_m + np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
+    uvs = np.empty((len(corners), 2), np.float32)
+    uvs[: len(steps), 0] = arc[steps]
+    uvs[: len(steps), 1] = (2 * np.pi * radius_m / sides) * turns
+    end = radius_m * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    uvs[-2 * sides : -sides] = end + np.array([start_m, 0.0])
+    uvs[-sides:] = end[::-1] + np.array([arc[-1], 0.0])
+    return Tube(vertices_m=vertices.astype(np.float32), corners=corners, face_starts=face_starts, uvs=uvs)
+
+
+@lru_cache(maxsize=64)
+def _topology(
+    rings: int, sides: int
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
+    """What does not depend on the curve: `corners`, `face_starts`, and ring and side of each quad's corner."""
     ring, side = np.meshgrid(np.arange(rings - 1), np.arange(sides), indexing="ij")
-    next_side = (side + 1) % sides
-    quads = np.stack(
-        [ring * sides + side, (ring + 1) * sides + side, (ring + 1) * sides + next_side, ring * sides + next_side],
-        axis=-1,
-    ).reshape(-1)
-    first_end = np.arange(sides)
-    last_end = (rings - 1) * sides + np.arange(sides)[::-1]
-    arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
-    girth = 2 * np.pi * radius_m / sides
-    quad_uvs = np.stack(
-        [
-            np.stack([arc[ring], girth * side], axis=-1),
-            np.stack([arc[ring + 1], girth * side], axis=-1),
-            np.stack([arc[ring + 1], girth * (side + 1)], axis=-1),
-            np.stack([arc[ring], girth * (side + 1)], axis=-1),
-        ],
-        axis=2,
-    ).reshape(-1, 2)
-    end_uvs = radius_m * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    return Tube(
-        vertices_m=vertices.astype(np.float32),
-        corners=np.concatenate([quads, first_end, last_end]).astype(np.int32),
-        face_sizes=np.concatenate([np.full((rings - 1) * sides, 4), [sides, sides]]).astype(np.int32),
-        uvs=np.concatenate([quad_uvs, end_uvs, end_uvs[::-1] + np.array([arc[-1], 0.0])]).astype(np.float32),
-        normals=np.concatenate(
-            [outward.reshape(-1, 3)[quads], np.tile(-along[0], (sides, 1)), np.tile(along[-1], (sides, 1))]
-        ).astype(np.float32),
+    ring, side = ring[..., None] + np.array([0, 1, 1, 0]), side[..., None] + np.array([0, 0, 1, 1])
+    quads = (ring * sides + side % sides).reshape(-1)
+    first_end = rings * sides + np.arange(sides)
+    last_end = (rings + 1) * sides + np.arange(sides)[::-1]
+    sizes = np.concatenate([np.full((rings - 1) * sides, 4), [sides, sides]])
+    arrays = (
+        np.concatenate([quads, first_end, last_end]).astype(np.int32),
+        np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int32),
+        ring.reshape(-1).astype(np.int32),
+        side.reshape(-1).astype(np.int32),
     )
+    for array in arrays:
+        array.setflags(write=False)  # they are shared
+    return arrays
 
 
-def _frames(curve: Points) -> tuple[Points, Points, Points]:
-    """Tangent, level sideways direction and the third axis at each point; right-handed, without twist of its own."""
+def _frames(curve: Points) -> tuple[Points, Points]:
+    """Level sideways direction and the one across it and the tangent, at each point; right-handed, without twist."""
     along = tangents(curve)
     across = np.cross(along, [0.0, 0.0, 1.0])
     across /= np.linalg.norm(across, axis=1, keepdims=True)
-    return along, across, np.cross(across, along)
+    return across, np.cross(across, along)

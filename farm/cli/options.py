@@ -14,7 +14,8 @@ import typer
 from farm.description import Description, describe, parse_quotas
 from farm.errors import SpecError
 from farm.fall import Simulator
-from farm.spec import Engine, Quality
+from farm.quality import read_quality
+from farm.spec import Engine
 
 _DATASET = "What to make"
 
@@ -72,7 +73,14 @@ class DatasetOptions:
     seed: Annotated[int | None, typer.Option(help="Decides every random value.", rich_help_panel=_DATASET)] = None
     resolution: Annotated[int | None, typer.Option(help="Edge of a picture, px.", rich_help_panel=_DATASET)] = None
     engine: Annotated[Engine | None, typer.Option(help="Render engine.", rich_help_panel=_DATASET)] = None
-    quality: Annotated[Quality | None, typer.Option(help="Time against noise.", rich_help_panel=_DATASET)] = None
+    quality: Annotated[
+        str | None,
+        typer.Option(
+            metavar="draft|standard|reference|FLIP",
+            help="Time against noise, or the mean FLIP to keep to, such as 0.02.",
+            rich_help_panel=_DATASET,
+        ),
+    ] = None
     simulator: Annotated[Simulator | None, typer.Option(help="What lets cables fall.", rich_help_panel=_DATASET)] = None
     template: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Your own .blend template.", rich_help_panel=_DATASET)
@@ -111,9 +119,11 @@ class DatasetOptions:
             raise SpecError("give either --images or --quota, not both")
         flags: dict[str, object] = {
             name: getattr(self, name)
-            for name in ("images", "seed", "resolution", "engine", "quality", "simulator", "close_distributed_hdri")
+            for name in ("images", "seed", "resolution", "engine", "simulator", "close_distributed_hdri")
             if getattr(self, name) is not None
         }
+        if self.quality is not None:
+            flags["quality"] = read_quality(self.quality)
         if self.quota:
             flags["quotas"] = parse_quotas(self.quota)
         inputs: dict[str, object] = {}

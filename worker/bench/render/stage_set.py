@@ -1,0 +1,80 @@
+"""The fixed scenes that the rendering benchmarks share, settled once, and the open template that shows them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from blend.build import TEMPLATE
+from blend.contract import open_template
+from farm.category import Category
+from farm.header import DatasetHeader
+from farm.job import Job
+from farm.rendering import PictureSettings
+from farm.scene import Scene
+from worker.images import ImageShelf
+from worker.library import AssetLibrary
+from worker.randomize import draw_scene
+from worker.realize import realize
+from worker.render import configure_cycles, configure_picture, render_picture
+from worker.shapes import CableShapes
+from worker.simulate import let_fall
+
+
+@dataclass(frozen=True, slots=True)
+class SettledScene:
+    """A scene of a job's first attempt, with its cables at rest."""
+
+    job: Job
+    scene: Scene
+    shapes: CableShapes
+
+
+def settle(header: DatasetHeader, categories: tuple[Category, ...], count: int) -> Iterator[SettledScene]:
+    """Let the cables of `count` scenes of each category fall, the categories taking turns."""
+    for index in range(count):
+        for category in categories:
+            job = Job(category=category, index=index)
+            scene = draw_scene(header, job, 0)
+            yield SettledScene(job, scene, let_fall(scene, header.spec.simulator, header.spec.fall))
+
+
+class Stage:
+    """The farm's template, open, with the assets that a header names."""
+
+    def __init__(self, header: DatasetHeader, resolution: int) -> None:
+        """Open it in this process."""
+        open_template(TEMPLATE)
+        self._library = AssetLibrary(header, None)
+        self._shelf = ImageShelf()
+        self._resolution = resolution
+
+    def set(
+        self,
+        settled: SettledScene,
+        settings: PictureSettings,
+        *,
+        threads: int = 0,
+        seed: int | None = None,
+        resolution: int | None = None,
+    ) -> None:
+        """Realize a scene and set how it renders, on the CPU; `seed` replaces that of the scene's sampling."""
+        resolution = resolution or self._resolution
+        realize(
+            settled.scene,
+            settled.shapes.nodes_m,
+            self._library,
+            self._shelf,
+            traits=settled.job.category.traits,
+            resolution=resolution,
+            detail=settings.detail,
+            economy=settings.economy,
+        )
+        scene = configure_picture(resolution, threads)
+        configure_cycles(scene, settings, "cpu", settled.scene.render_seed if seed is None else seed)
+
+    @staticmethod
+    def render() -> NDArray[np.uint8]:
+        """The picture (H, W, 3) as set."""
+        return render_picture()

@@ -1,0 +1,127 @@
+"""The part of a floor's texture that the camera sees, no finer than it sees it. Pure numpy and OpenCV.
+
+A map of 2048 texels across 0.4 m is decoded once; Blender then gets the texels under the view alone, at most as many
+as a few for each pixel, in place of four million.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Self
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
+from farm.scene import Floor
+from worker.label import View
+
+MARGIN = 0.06
+"""Of the view's width, on each side: what the pixel filter, blur and a tilt of the floor's normals may reach."""
+
+FINEST_GRID = 64
+"""Windows begin and end at a grid of at least so many lines a tile; maps of other sizes are taken whole."""
+
+Texels = NDArray[np.uint8]
+
+
+@dataclass(frozen=True, slots=True)
+class TextureWindow:
+    """A rectangle of a tile, in tiles, v upwards; it may reach over the tile's edge. All of it is (0, 0, 1, 1).
+
+    Attributes:
+        coarser: how many texels along an edge become one.
+    """
+
+    u: float
+    v: float
+    width: float
+    height: float
+    coarser: int
+
+    @classmethod
+    def whole(cls) -> Self:
+        """All texels of a tile."""
+        return cls(0.0, 0.0, 1.0, 1.0, 1)
+
+    def place(self, uvs: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Coordinates (N, 2) in the window of coordinates in tiles."""
+        return (uvs - [self.u, self.v]) / [self.width, self.height]
+
+    def cut(self, texels: Texels, *, colour: bool) -> Texels:
+        """The window's texels.
+
+        Args:
+            texels: (H, W) or (H, W, channels) of the tile, the top row first.
+            colour: sRGB, which is averaged as light.
+        """
+        rows, columns = texels.shape[:2]
+        if self == self.whole():
+            return texels
+        left, wide = round(self.u * columns), round(self.width * columns)
+        high = round(self.height * rows)
+        top = rows - round(self.v * rows) - high
+        window: Texels = texels.take(np.arange(top, top + high), axis=0, mode="wrap")
+        window = window.take(np.arange(left, left + wide), axis=1, mode="wrap")
+        return _coarsen(window, self.coarser, colour=colour) if self.coarser > 1 else window
+
+
+def tile_coordinates(points_m: NDArray[np.float64], floor: Floor, size_m: float) -> NDArray[np.float64]:
+    """Coordinates (N, 2) in tiles of points (N, 2) of the floor, metres.
+
+    Args:
+        points_m: of the floor.
+        floor: how its texture lies.
+        size_m: edge of a tile at scale 1.
+    """
+    turn = math.radians(floor.rotation_deg)
+    rotation = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
+    # Whole tiles make no difference to the picture, and single precision keeps more of the rest.
+    offset = np.mod([floor.offset_x, floor.offset_y], 1.0)
+    placed: NDArray[np.float64] = points_m / (size_m * floor.scale) @ rotation.T + offset
+    return placed
+
+
+def window_on(floor: Floor, size_m: float, view: View, sizes: tuple[tuple[int, int], ...]) -> TextureWindow:
+    """The window on a surface's maps through which a view is the same as with all of them.
+
+    Args:
+        floor: how the texture lies.
+        size_m: edge of a tile at scale 1.
+        view: what the camera sees.
+        sizes: (rows, columns) of each map.
+    """
+    grid = math.gcd(*(edge for size in sizes for edge in size))
+    seen_m = view.height_m * SENSOR_MM / FOCAL_LENGTH_MM
+    texel_m = size_m * floor.scale / min(edge for size in sizes for edge in size)
+    coarser = 1
+    while 2 * coarser * texel_m <= seen_m / view.resolution and grid % (2 * coarser) == 0:
+        coarser *= 2
+    lines = grid // coarser
+    if lines < FINEST_GRID:
+        return TextureWindow.whole()
+    half = (0.5 + MARGIN) * seen_m
+    seen = tile_coordinates(np.array([[-half, -half], [half, -half], [half, half], [-half, half]]), floor, size_m)
+    low = np.floor(seen.min(axis=0) * lines - 1) / lines
+    extent = np.minimum(np.ceil(seen.max(axis=0) * lines + 1) / lines - low, 1.0)
+    return TextureWindow(float(low[0]), float(low[1]), float(extent[0]), float(extent[1]), coarser)
+
+
+def _coarsen(texels: Texels, factor: int, *, colour: bool) -> Texels:
+    """Average squares of `factor` texels along an edge."""
+    size = (texels.shape[1] // factor, texels.shape[0] // factor)
+    if not colour:
+        average: Texels = cv2.resize(texels, size, interpolation=cv2.INTER_AREA).astype(np.uint8, copy=False)
+        return average
+    light = cv2.resize(_LIGHT_OF_LEVEL[texels], size, interpolation=cv2.INTER_AREA)
+    levels = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
+    return np.round(255.0 * levels).astype(np.uint8)
+
+
+def _light_of_levels() -> NDArray[np.float32]:
+    """Linear light of each 8-bit sRGB level (IEC 61966-2-1)."""
+    level = np.arange(256) / 255.0
+    return np.where(level <= 0.04045, level / 12.92, ((level + 0.055) / 1.055) ** 2.4).astype(np.float32)
+
+
+_LIGHT_OF_LEVEL = _light_of_levels()
