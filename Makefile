@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench bench-physics masks stress flower template clean
+.PHONY: help setup demo test lint bench bench-physics bench-render masks stress flower template clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -52,6 +52,9 @@ stress: setup ## 560 falls over the whole range of everything; writes bench/stre
 
 bench-physics: setup ## time against error of all simulators; writes bench/physics.json and .png
 	$(BIN)/python -m worker.bench physics --out bench
+
+bench-render: setup ## time against error of rendering; writes bench/render.json, .png and calibration.json
+	$(BIN)/python -m worker.bench render --out bench
 
 flower: setup ## watch the tasks of a farm in the browser (FARM_BROKER_URL)
 	$(BIN)/farm flower

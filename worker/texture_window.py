@@ -115,7 +115,8 @@ def _coarsen(texels: Texels, factor: int, *, colour: bool) -> Texels:
         return average
     light = cv2.resize(_LIGHT_OF_LEVEL[texels], size, interpolation=cv2.INTER_AREA)
     levels = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
-    return np.round(255.0 * levels).astype(np.uint8)
+    rounded: Texels = np.round(255.0 * levels).astype(np.uint8)
+    return rounded
 
 
 def _light_of_levels() -> NDArray[np.float32]:

@@ -1,4 +1,4 @@
-"""`python -m worker.bench stages|masks|stress|physics --out DIR`."""
+"""`python -m worker.bench stages|masks|stress|physics|render --out DIR`."""
 
 import argparse
 import sys
@@ -22,6 +22,9 @@ def main(arguments: list[str]) -> int:
     stress.add_argument("--runs", type=int, help="how many scenes")
     stress.add_argument("--only", type=int, help="play this scene alone")
     stress.add_argument("--processes", type=int, help="at the same time")
+    render = commands.add_parser("render", parents=[shared], help="time against error of rendering")
+    render.add_argument("--scenes", type=int, help="of each category, for the ladder of samples")
+    render.add_argument("--turn-scenes", type=int, help="of them, for settings turned one at a time")
     physics = commands.add_parser("physics", parents=[shared], help="time against error of all simulators")
     physics.add_argument("--scenes", type=int, help="most scenes for each setting")
     options = parser.parse_args(arguments)
@@ -46,6 +49,10 @@ def _run(options: argparse.Namespace) -> int:
         from worker.bench.physics.command import run as run_physics  # noqa: PLC0415
 
         return run_physics(options.out, seed=options.seed, scenes=options.scenes)
+    if options.benchmark == "render":
+        from worker.bench.render.command import run as run_render  # noqa: PLC0415
+
+        return run_render(options.out, seed=options.seed, scenes=options.scenes, turn_scenes=options.turn_scenes)
     from worker.bench import masks, stages  # noqa: PLC0415
 
     benchmark = {"stages": stages.run, "masks": masks.run}[options.benchmark]

@@ -13,25 +13,9 @@ from farm.catalogue import template_ref
 from farm.errors import AssetError
 from farm.header import DatasetHeader
 from farm.machine import cache_folder
-from farm.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings
+from farm.quality import REFERENCE
 from worker.bench.render.stage_set import SettledScene, Stage
 from worker.upload import encode_png
-
-NOTHING_LEFT_OUT = Economy(cables_in_view=False, texture_window=False, upper_world=False)
-
-REFERENCE = PictureSettings(
-    cycles=CyclesSettings(
-        samples=1024,
-        bounces=12,
-        diffuse_bounces=4,
-        glossy_bounces=4,
-        caustics=True,
-        denoiser=Denoiser.NONE,
-    ),
-    detail=CableDetail(sides=40, points_per_segment=10),
-    economy=NOTHING_LEFT_OUT,
-)
-"""Blender's own limits of paths; the map of the world's bright parts changes the noise and not the picture."""
 
 VERSION = 1
 """To be raised when references must be rendered anew, since the farm shows the same scene otherwise."""

@@ -1,0 +1,79 @@
+"""`python -m worker.bench render`: time against error of rendering, and the calibration of qualities."""
+
+from pathlib import Path
+
+from rich.progress import track
+
+from farm.category import Category
+from farm.errors import VerificationError
+from worker.bench.bench_dataset import bench_header
+from worker.bench.render.measure import Measurement
+from worker.bench.render.references import References
+from worker.bench.render.report import calibrate, ladder_table, turns_table, verdicts, write_json, write_plot
+from worker.bench.render.rows import idle_settings
+from worker.bench.render.stage_set import Stage, settle
+from worker.bench.render.variants import BASE, Group, Variant, ladder, turns
+from worker.bench.terminal import bench_console, blender_writes_to
+
+DEFAULT_SCENES = 4
+"""Of each category."""
+
+DEFAULT_TURN_SCENES = 1
+"""Of each category, of which single settings are turned."""
+
+RESOLUTION = 512
+
+
+def run(out: Path, *, seed: int, scenes: int | None, turn_scenes: int | None) -> int:
+    """Measure, print, write `render.json`, `render.png` and `calibration.json` into `out`.
+
+    Args:
+        out: a folder that is there.
+        seed: of the scenes.
+        scenes: of each category, for the ladder of samples.
+        turn_scenes: of them, for the settings turned one at a time.
+
+    Raises:
+        VerificationError: if a setting did not act, or changed a picture that it may not.
+        FarmError: if a scene can't be made.
+    """
+    console = bench_console()
+    log_file = out / "render.log"
+    header = bench_header(1, seed)
+    with blender_writes_to(log_file):
+        stage = Stage(header, RESOLUTION)
+        settled = list(settle(header, tuple(Category), scenes or DEFAULT_SCENES))
+    references = References(header, stage, RESOLUTION)
+    missing = sum(not references.path(scene).exists() for scene in settled)
+    if missing:
+        console.print(f"{missing} references are to be rendered first, a few minutes each; they are kept")
+    climbing = Measurement(stage, references, log_file)
+    turning = Measurement(stage, references, log_file)
+    few = len(Category) * (DEFAULT_TURN_SCENES if turn_scenes is None else turn_scenes)
+    for number, scene in enumerate(track(settled, "scenes", console=console, transient=True)):
+        with blender_writes_to(log_file):
+            references.picture(scene)
+            # The scene's textures are read before the clock runs.
+            stage.set(scene, BASE)
+            stage.render()
+        climbing.measure(scene, ladder())
+        if number < few:
+            turning.measure(scene, (_BASE_FIRST, *turns()))
+    rows, turned = climbing.rows(), [row for row in turning.rows() if row.variant is not _BASE_FIRST]
+    console.print(ladder_table(rows))
+    if turned:
+        console.print(turns_table(turned))
+    calibration = calibrate(rows)
+    for line in verdicts(calibration):
+        console.print(line, highlight=False)
+    write_json(out / "render.json", [*rows, *turned], seed=seed)
+    write_plot(out / "render.png", rows)
+    (out / "calibration.json").write_text(calibration.model_dump_json(indent=1) + "\n")
+    wrong = idle_settings(turned)
+    if wrong:
+        raise VerificationError(f"settings that did not act as they must: {'; '.join(wrong)}")
+    return 0
+
+
+_BASE_FIRST = Variant("base first", Group.SAMPLES, BASE)
+"""Rendered before the turns and not counted, so that each of them follows the same."""

@@ -1,0 +1,82 @@
+"""What the rendering benchmark finds for a variant, and which variants are worth having."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from farm.category import Category
+from worker.bench.render.errors import Errors
+from worker.bench.render.variants import Variant
+
+
+@dataclass(frozen=True, slots=True)
+class Shot:
+    """One scene rendered with a variant.
+
+    Attributes:
+        realize_s: seconds to set the scene.
+        render_s: seconds to render it.
+        sha256: of the picture.
+    """
+
+    scene: str
+    realize_s: float
+    render_s: float
+    errors: Errors
+    sha256: str
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A variant on the scenes of a category."""
+
+    variant: Variant
+    category: Category
+    shots: tuple[Shot, ...]
+
+    @property
+    def seconds(self) -> float:
+        """Of realizing and rendering, mean."""
+        return float(np.mean([shot.realize_s + shot.render_s for shot in self.shots]))
+
+    @property
+    def flip(self) -> float:
+        """Mean over the scenes."""
+        return float(np.mean([shot.errors.flip for shot in self.shots]))
+
+    @property
+    def psnr_db(self) -> float:
+        """Mean over the scenes."""
+        return float(np.mean([shot.errors.psnr_db for shot in self.shots]))
+
+
+def front(rows: Iterable[Row]) -> tuple[Row, ...]:
+    """The rows of which none is both faster and better, in FLIP or in PSNR, than any other; the fastest first."""
+    ordered = sorted(rows, key=lambda row: (row.seconds, row.flip))
+    kept: list[Row] = []
+    for row in ordered:
+        if all(row.flip < other.flip or row.psnr_db > other.psnr_db for other in kept):
+            kept.append(row)
+    return tuple(kept)
+
+
+def idle_settings(rows: Sequence[Row]) -> list[str]:
+    """Variants that did not act as they must: gave the base's pictures everywhere, or changed them though they may not.
+
+    Args:
+        rows: of all categories, with those of the variant called "base".
+    """
+    base = _pictures(row for row in rows if row.variant.name == "base")
+    wrong = []
+    for name in dict.fromkeys(row.variant.name for row in rows):
+        those = [row for row in rows if row.variant.name == name]
+        pictures = _pictures(those)
+        same = all(base.get(scene) == digest for scene, digest in pictures.items())
+        if same != those[0].variant.same_picture and name != "base" and base:
+            wrong.append(f"{name}: {'changed nothing' if same else 'changed the picture'}")
+    return wrong
+
+
+def _pictures(rows: Iterable[Row]) -> Mapping[str, str]:
+    return {shot.scene: shot.sha256 for row in rows for shot in row.shots}

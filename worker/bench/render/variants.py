@@ -1,0 +1,105 @@
+"""What the rendering benchmark tries: ladders of samples, and every other setting alone, turned from a base."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+from farm.rendering import (
+    CableDetail,
+    CyclesSettings,
+    Denoiser,
+    Economy,
+    Guides,
+    Pattern,
+    PictureSettings,
+    Prefilter,
+)
+
+LADDER = (1, 2, 4, 8, 16, 32, 64)
+"""Samples a pixel."""
+
+BASE_SAMPLES = 8
+
+BASE = PictureSettings(cycles=CyclesSettings(samples=BASE_SAMPLES))
+"""From which one setting at a time is turned."""
+
+
+class Group(StrEnum):
+    """What a variant is about."""
+
+    SAMPLES = "samples"
+    ADAPTIVE = "adaptive"
+    DENOISER = "denoiser"
+    PATHS = "paths"
+    LIGHTS = "lights"
+    PATTERN = "pattern"
+    DETAIL = "detail"
+    ECONOMY = "left out"
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """Settings with a name.
+
+    Attributes:
+        same_picture: whether it must give the base's picture to the byte; if not, it must give another one somewhere,
+            or the setting did not act.
+    """
+
+    name: str
+    group: Group
+    settings: PictureSettings
+    same_picture: bool = False
+
+
+def ladder() -> Iterator[Variant]:
+    """Samples with and without the denoiser, and adaptive sampling: what a quality chooses from."""
+    for samples in LADDER:
+        for denoiser in (Denoiser.NONE, Denoiser.FAST):
+            name = f"{samples} spp" + (", OIDN fast" if denoiser is Denoiser.FAST else "")
+            yield Variant(name, Group.SAMPLES, _cycles(samples=samples, denoiser=denoiser))
+    for samples, threshold in ((32, 0.05), (64, 0.05), (64, 0.02)):
+        name = f"{samples} spp, adaptive {threshold}, OIDN fast"
+        yield Variant(name, Group.ADAPTIVE, _cycles(samples=samples, adaptive_threshold=threshold))
+
+
+def turns() -> Iterator[Variant]:
+    """The base, and one setting turned at a time."""
+    yield Variant("base", Group.SAMPLES, BASE, same_picture=True)
+    for denoiser in (Denoiser.BALANCED, Denoiser.HIGH):
+        yield Variant(f"OIDN {denoiser}", Group.DENOISER, _cycles(denoiser=denoiser))
+    for guides in (Guides.NONE, Guides.ALBEDO):
+        yield Variant(f"guides {guides}", Group.DENOISER, _cycles(guides=guides))
+    for prefilter in (Prefilter.FAST, Prefilter.ACCURATE):
+        yield Variant(f"prefilter {prefilter}", Group.DENOISER, _cycles(prefilter=prefilter))
+    slowest = {"denoiser": Denoiser.HIGH, "prefilter": Prefilter.ACCURATE}
+    yield Variant("OIDN high, prefilter accurate", Group.DENOISER, _cycles(**slowest))
+    for bounces in (0, 1, 2, 12):
+        limits = {"bounces": bounces, "diffuse_bounces": min(bounces, 4), "glossy_bounces": min(bounces, 4)}
+        yield Variant(f"{bounces} bounces", Group.PATHS, _cycles(**limits))
+    yield Variant("caustics", Group.PATHS, _cycles(caustics=True))
+    for clamp in (0.0, 1.0):
+        yield Variant(f"clamp {clamp:g}", Group.PATHS, _cycles(clamp_indirect=clamp))
+    yield Variant("light tree", Group.LIGHTS, _cycles(light_tree=True))
+    for width in (0, 64, 1024):
+        yield Variant(f"world map {width or 'automatic'}", Group.LIGHTS, _cycles(world_map_px=width))
+    yield Variant("blue noise", Group.PATTERN, _cycles(pattern=Pattern.BLUE_NOISE))
+    for sides, points in ((6, 1), (8, 2), (20, 5), (40, 10)):
+        detail = CableDetail(sides=sides, points_per_segment=points)
+        yield Variant(f"{sides} sides, {points} rings", Group.DETAIL, _picture(detail=detail))
+    for field in Economy.model_fields:
+        value = not getattr(BASE.economy, field)
+        name = f"{'with' if value else 'without'} {field.replace('_', ' ')}"
+        same = field in _CHANGE_NO_PICTURE
+        yield Variant(name, Group.ECONOMY, _picture(economy=BASE.economy.model_copy(update={field: value})), same)
+
+
+_CHANGE_NO_PICTURE = frozenset({"keep_loaded", "persistent_data"})
+
+
+def _cycles(**settings: object) -> PictureSettings:
+    return _picture(cycles=CyclesSettings.model_validate({**BASE.cycles.model_dump(), **settings}))
+
+
+def _picture(**parts: object) -> PictureSettings:
+    return PictureSettings.model_validate({**dict(BASE), **parts})
