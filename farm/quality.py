@@ -98,10 +98,16 @@ _DRAFT_HDRI_FLOOR, _STANDARD_HDRI_FLOOR = Budget(flip=0.09), Budget(flip=0.05, p
 
 REFERENCE = PictureSettings(
     cycles=CyclesSettings(
-        samples=1024, bounces=12, diffuse_bounces=4, glossy_bounces=4, caustics=True, denoiser=Denoiser.NONE
+        samples=1024,
+        bounces=12,
+        diffuse_bounces=4,
+        glossy_bounces=4,
+        caustics=True,
+        denoiser=Denoiser.NONE,
+        world_map_px=0,
     ),
     detail=CableDetail(sides=40, points_per_segment=10),
-    economy=Economy(cables_in_view=False, texture_window=False, upper_world=False),
+    economy=Economy(cables_in_view=False, texture_window=False, upper_world=False, backdrop=False),
 )
 """Nothing left out, and Blender's own limits of paths: what errors are measured against."""
 

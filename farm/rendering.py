@@ -58,7 +58,8 @@ class CyclesSettings(Model):
         prefilter: of them.
         light_tree: lights are sampled by their share at each place, at some cost; of use where there are many.
         pattern: of the samples.
-        world_map_px: width of the map by which the world's bright parts are found; 0 is the HDRI's own.
+        world_map_px: width of the map by which the world's bright parts are found; 0 leaves it to Cycles, which takes
+            0.7 s for a fine one.
     """
 
     samples: Annotated[int, Field(ge=1, le=2**20)]
@@ -73,7 +74,7 @@ class CyclesSettings(Model):
     prefilter: Prefilter = Prefilter.NONE
     light_tree: bool = False
     pattern: Pattern = Pattern.SOBOL
-    world_map_px: Annotated[int, Field(ge=0, le=16384)] = 256
+    world_map_px: Annotated[int, Field(ge=0, le=16384)] = 512
 
 
 class CableDetail(Model):
@@ -94,7 +95,8 @@ class Economy(Model):
     Attributes:
         cables_in_view: cables end a little outside the view.
         texture_window: of a floor's texture only what the camera sees is loaded, no finer than it sees it.
-        upper_world: an HDRI that only lights is reduced, and black where the floor hides it.
+        upper_world: an HDRI lights at low resolution, and is black where the floor hides it.
+        backdrop: what is seen of an HDRI is looked up in it, not sampled by paths.
         keep_loaded: decoded textures stay in memory from picture to picture.
         persistent_data: Cycles keeps what has not changed from picture to picture.
     """
@@ -102,6 +104,7 @@ class Economy(Model):
     cables_in_view: bool = True
     texture_window: bool = True
     upper_world: bool = True
+    backdrop: bool = True
     keep_loaded: bool = True
     persistent_data: bool = False
 

@@ -9,11 +9,11 @@ from mathutils import Vector
 
 from blend import names
 from farm.quality import Preset, Quality
-from farm.rendering import CyclesSettings, PictureSettings
+from farm.rendering import CyclesSettings, Economy, PictureSettings
 
 _SAMPLES: Final[Mapping[Quality, int]] = {Preset.DRAFT: 8, Preset.STANDARD: 16, Preset.REFERENCE: 128}
 
-PICTURE: Final = PictureSettings(cycles=CyclesSettings(samples=1))
+PICTURE: Final = PictureSettings(cycles=CyclesSettings(samples=1), economy=Economy(upper_world=False, backdrop=False))
 """How cables and textures are realized for it; what is for Cycles does not count."""
 
 _NAME = f"{names.POINT_LAMP}.eevee"

@@ -5,7 +5,7 @@ from typing import Any
 import bpy
 
 from blend import names
-from farm.category import Background, CategoryTraits, Light
+from farm.category import Background, CategoryTraits
 from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from farm.rendering import CableDetail, Economy
 from farm.scene import Cable, CableMaterial, Camera, Rgb, Scene
@@ -13,8 +13,9 @@ from worker.floor import set_floor, set_unseen_floor
 from worker.images import ImageShelf
 from worker.label import View
 from worker.library import AssetLibrary
+from worker.panorama import Panorama
 from worker.shapes import Points, parts_near, smooth
-from worker.surroundings import set_lamps, set_world
+from worker.surroundings import backdrop_of, set_grey_world, set_hdri_world, set_lamps
 from worker.tube import Tube, sweep
 
 DIRT_EDGE = 0.05
@@ -34,7 +35,7 @@ def realize(
     resolution: int,
     detail: CableDetail,
     economy: Economy,
-) -> None:
+) -> Panorama | None:
     """Set the picture's scene to `scene`, with settled cables.
 
     Args:
@@ -46,6 +47,9 @@ def realize(
         resolution: pixels along an edge of the picture.
         detail: how finely cables are modelled.
         economy: what is left out.
+
+    Returns:
+        What is behind the cables, (resolution, resolution, 3) linear light, if the renderer is to leave it out.
 
     Raises:
         AssetError: if a texture or HDRI can't be had.
@@ -62,9 +66,16 @@ def realize(
     else:
         set_floor(scene.floor, library.surface(scene.floor.texture), shelf, view if economy.texture_window else None)
     set_lamps(scene.lamp)
-    only_lights = traits.background is Background.FLOOR and traits.light is Light.DISTRIBUTED
-    set_world(scene.hdri_world, library, shelf, above_floor=economy.upper_world and only_lights)
     _set_camera(scene.camera)
+    if scene.hdri_world is None:
+        set_grey_world()
+        return None
+    behind = None
+    if traits.background is Background.HDRI and economy.backdrop and _has_round_aperture():
+        behind = backdrop_of(scene.hdri_world, scene.camera, resolution, library, shelf)
+    is_seen = traits.background is Background.HDRI and behind is None
+    set_hdri_world(scene.hdri_world, library, shelf, only_lights=economy.upper_world and not is_seen)
+    return behind
 
 
 def remove_cables() -> None:
@@ -138,3 +149,9 @@ def _set_camera(camera: Camera) -> None:
     data.shift_x = data.shift_y = 0.0
     data.dof.focus_distance = camera.height_m
     data.dof.aperture_fstop = camera.f_number
+
+
+def _has_round_aperture() -> bool:
+    """Whether the template's lens blurs with a disc, as the farm's own does."""
+    dof = bpy.data.objects[names.CAMERA].data.dof
+    return bool(dof.use_dof and dof.focus_object is None and dof.aperture_blades < 3 and dof.aperture_ratio == 1.0)

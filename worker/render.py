@@ -13,6 +13,7 @@ from blend import names
 from farm.errors import RenderError
 from farm.rendering import CyclesSettings, Denoiser, Pattern, PictureSettings
 from worker.eevee import light_with_a_spot
+from worker.panorama import Panorama
 
 ADAPTIVE_LEAST_SAMPLES = 4
 """Taken of every pixel before noise is looked at."""
@@ -101,21 +102,66 @@ def _find_bright_parts(world: Any, map_px: int) -> None:
         world.cycles.sample_map_resolution = map_px
 
 
-def render_picture() -> NDArray[np.uint8]:
-    """Render the picture's scene as configured: (H, W, 3) uint8 sRGB.
+def render_picture(behind: Panorama | None = None) -> NDArray[np.uint8]:
+    """Render the picture's scene as configured.
+
+    Args:
+        behind: (H, W, 3) linear light of what is behind all that is rendered; None if the scene has it all.
+
+    Returns:
+        (H, W, 3) uint8 sRGB.
 
     Raises:
         RenderError: if Blender gives no picture.
     """
+    scene = bpy.data.scenes[names.PICTURE_SCENE]
     with tempfile.TemporaryDirectory(prefix="cable-farm-") as folder:
         target = Path(folder) / "picture.png"
-        scene = bpy.data.scenes[names.PICTURE_SCENE]
-        scene.render.filepath = str(target)
-        try:
-            bpy.ops.render.render(write_still=True, scene=scene.name)
-        except RuntimeError as error:
-            raise RenderError(f"Blender failed to render: {' '.join(str(error).split())}") from error
+        if behind is None:
+            _render_into(scene, target)
+        else:
+            _render_before(scene, behind, target)
         pixels = cv2.imread(str(target), cv2.IMREAD_COLOR)
     if pixels is None:
         raise RenderError("Blender ended a render without writing a picture; see the worker's log")
     return cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB).astype(np.uint8, copy=False)
+
+
+def _render_into(scene: Any, target: Path) -> None:
+    scene.render.filepath = str(target)
+    try:
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+    except RuntimeError as error:
+        raise RenderError(f"Blender failed to render: {' '.join(str(error).split())}") from error
+
+
+def _render_before(scene: Any, behind: Panorama, target: Path) -> None:
+    """Render without the world, and put it behind in linear light, before Blender's view transform."""
+    light = target.with_suffix(".exr")
+    settings = scene.render.image_settings
+    scene.render.film_transparent = True
+    settings.file_format, settings.color_mode, settings.color_depth, settings.exr_codec = (
+        "OPEN_EXR",
+        "RGBA",
+        "32",
+        "NONE",
+    )
+    try:
+        _render_into(scene, light)
+    finally:
+        scene.render.film_transparent = False
+        settings.file_format, settings.color_mode, settings.color_depth, settings.compression = "PNG", "RGB", "8", 0
+    image = bpy.data.images.load(str(light))
+    try:
+        pixels = np.empty(behind.shape[0] * behind.shape[1] * 4, np.float32)
+        if tuple(image.size) != (behind.shape[1], behind.shape[0]):
+            raise RenderError("Blender ended a render without writing a picture; see the worker's log")
+        image.pixels.foreach_get(pixels)
+        layers = pixels.reshape(*behind.shape[:2], 4)
+        # Blender's rows go up, and colours hold their share of the pixel already.
+        layers[:, :, :3] += (1.0 - layers[:, :, 3:]) * behind[::-1]
+        layers[:, :, 3] = 1.0
+        image.pixels.foreach_set(pixels)
+        image.save_render(str(target), scene=scene)
+    finally:
+        bpy.data.images.remove(image)

@@ -24,6 +24,7 @@ from worker.images import ImageShelf
 from worker.label import View, label_cables
 from worker.library import AssetLibrary, checked
 from worker.made import MadeImage
+from worker.panorama import Panorama
 from worker.randomize import draw_scene
 from worker.realize import realize
 from worker.render import configure_cycles, configure_eevee, configure_picture, render_picture
@@ -84,9 +85,9 @@ class Studio:
         self._open_s = 0.0
         scene, shapes, settled, rejected = self._settle(job, header, timings)
         with _timed(timings, "realize"):
-            settings = self._realize(job, header, scene, shapes)
+            settings, behind = self._realize(job, header, scene, shapes)
         with _timed(timings, "render"):
-            image = render_picture()
+            image = render_picture(behind)
         with _timed(timings, "mask"):
             curves = [smooth(nodes, CURVE_SAMPLES) for nodes in shapes.nodes_m]
             view = View(height_m=scene.camera.height_m, resolution=header.spec.resolution)
@@ -103,12 +104,14 @@ class Studio:
             versions=_versions(),
         )
 
-    def _realize(self, job: Job, header: DatasetHeader, scene: Scene, shapes: CableShapes) -> RenderSettings:
-        """Make the picture ready to render; returns how it will be."""
+    def _realize(
+        self, job: Job, header: DatasetHeader, scene: Scene, shapes: CableShapes
+    ) -> tuple[RenderSettings, Panorama | None]:
+        """Make the picture ready to render; returns how it will be, and what is behind it."""
         spec = header.spec
         chosen = header.rendering.get(job.category)
         settings = chosen.settings if chosen else eevee.PICTURE
-        realize(
+        behind = realize(
             scene,
             shapes.nodes_m,
             self._library,
@@ -122,9 +125,10 @@ class Studio:
         if chosen is None:
             samples = eevee.samples_of(spec.quality)
             configure_eevee(picture, samples)
-            return RenderSettings(engine="eevee", device="opengl", resolution=spec.resolution, samples=samples)
+            rendering = RenderSettings(engine="eevee", device="opengl", resolution=spec.resolution, samples=samples)
+            return rendering, behind
         configure_cycles(picture, settings, self._device, scene.render_seed)
-        return RenderSettings(
+        rendering = RenderSettings(
             engine="cycles",
             device=self._device,
             resolution=spec.resolution,
@@ -132,6 +136,7 @@ class Studio:
             settings=settings,
             expected_flip=chosen.expected_flip,
         )
+        return rendering, behind
 
     @staticmethod
     def _settle(

@@ -1,16 +1,18 @@
-"""What lights the picture: a lamp in a grey world, or an HDRI."""
+"""What lights the picture, and what is behind the cables: a lamp in a grey world, or an HDRI."""
 
 from typing import Any
 
 import bpy
 import numpy as np
 from mathutils import Euler
+from numpy.typing import NDArray
 
 from blend import names
-from farm.scene import AreaLamp, HdriWorld, PointLamp
+from blend.world import is_as_built
+from farm.scene import AreaLamp, Camera, HdriWorld, PointLamp
 from worker.images import ImageShelf
 from worker.library import AssetLibrary
-from worker.upper_world import upper_world
+from worker.panorama import Panorama, backdrop, upper_world
 
 
 def set_lamps(lamp: PointLamp | AreaLamp | None) -> None:
@@ -27,44 +29,58 @@ def set_lamps(lamp: PointLamp | AreaLamp | None) -> None:
         area.data.energy = lamp.power_w
 
 
-def set_world(world: HdriWorld | None, library: AssetLibrary, shelf: ImageShelf, *, above_floor: bool) -> None:
-    """Set the world to an HDRI, or to grey.
+def set_grey_world() -> None:
+    """Set the world to grey."""
+    nodes = bpy.data.worlds[names.WORLD].node_tree.nodes
+    nodes[names.WORLD_SWITCH].inputs["Fac"].default_value = 1.0
+    nodes[names.WORLD_IMAGE].image = None
+
+
+def set_hdri_world(world: HdriWorld, library: AssetLibrary, shelf: ImageShelf, *, only_lights: bool) -> None:
+    """Set the world to an HDRI.
 
     Args:
-        world: the HDRI; None for grey.
+        world: the HDRI.
         library: where it is.
         shelf: the images that this process holds.
-        above_floor: whether all that it does is to light a floor from above.
+        only_lights: the camera sees nothing of it, and a floor hides its lower half.
 
     Raises:
         AssetError: if the HDRI can't be had.
     """
     nodes = bpy.data.worlds[names.WORLD].node_tree.nodes
-    nodes[names.WORLD_SWITCH].inputs["Fac"].default_value = 1.0 if world is None else 0.0
-    if world is None:
-        nodes[names.WORLD_IMAGE].image = None
-        return
-    turn = Euler((np.radians(world.tilt_deg), 0.0, np.radians(world.rotation_deg)), "XYZ")
+    nodes[names.WORLD_SWITCH].inputs["Fac"].default_value = 0.0
     nodes[names.WORLD_BRIGHTNESS].inputs["Fac"].default_value = world.brightness
-    nodes[names.WORLD_MAPPING].inputs["Rotation"].default_value = turn
-    path = library.hdri(world.hdri)
-    if above_floor and _is_turned_by_mapping_alone(nodes):
-        light = upper_world(shelf.radiance(path), np.array(turn.to_matrix(), np.float64))
-        nodes[names.WORLD_IMAGE].image = shelf.light(path.name, light)
+    image, path = nodes[names.WORLD_IMAGE], library.hdri(world.hdri)
+    if only_lights and is_as_built(bpy.data.worlds[names.WORLD]):
+        image.image = shelf.light(path.name, upper_world(shelf.radiance(path), _turn(world)))
+        # The map of bright parts has a place for each texel; between texels it would be wrong.
+        image.interpolation = "Closest"
+        nodes[names.WORLD_MAPPING].inputs["Rotation"].default_value = (0.0, 0.0, 0.0)
     else:
-        nodes[names.WORLD_IMAGE].image = shelf.panorama(path)
+        image.image = shelf.panorama(path)
+        image.interpolation = "Linear"
+        nodes[names.WORLD_MAPPING].inputs["Rotation"].default_value = _euler(world)
 
 
-def _is_turned_by_mapping_alone(nodes: Any) -> bool:
-    """Whether the template maps directions onto the HDRI as the farm's own does; an artist may have changed it."""
-    image, mapping = nodes[names.WORLD_IMAGE], nodes[names.WORLD_MAPPING]
-    from_mapping = [link.from_node.name for link in image.inputs["Vector"].links]
-    from_directions = [(link.from_node.type, link.from_socket.name) for link in mapping.inputs["Vector"].links]
-    return (
-        image.projection == "EQUIRECTANGULAR"
-        and from_mapping == [mapping.name]
-        and from_directions == [("TEX_COORD", "Generated")]
-        and mapping.vector_type == "POINT"
-        and tuple(mapping.inputs["Location"].default_value) == (0.0, 0.0, 0.0)
-        and tuple(mapping.inputs["Scale"].default_value) == (1.0, 1.0, 1.0)
-    )
+def backdrop_of(
+    world: HdriWorld, camera: Camera, resolution: int, library: AssetLibrary, shelf: ImageShelf
+) -> Panorama | None:
+    """What the camera sees of an HDRI, (resolution, resolution, 3); None if the template shows it in its own way.
+
+    Raises:
+        AssetError: if the HDRI can't be had.
+    """
+    if not is_as_built(bpy.data.worlds[names.WORLD]):
+        return None
+    seen = backdrop(shelf.radiance(library.hdri(world.hdri)), _turn(world), camera, resolution)
+    return seen * np.float32(1.0 + world.brightness)
+
+
+def _euler(world: HdriWorld) -> Any:
+    return Euler((np.radians(world.tilt_deg), 0.0, np.radians(world.rotation_deg)), "XYZ")
+
+
+def _turn(world: HdriWorld) -> NDArray[np.float64]:
+    """(3, 3), takes a direction in the world to one in the panorama, as the template's Mapping node does."""
+    return np.array(_euler(world).to_matrix(), np.float64)

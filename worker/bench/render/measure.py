@@ -8,7 +8,7 @@ from pathlib import Path
 
 from farm.category import Category
 from worker.bench.render.errors import errors
-from worker.bench.render.references import References
+from worker.bench.render.references import References, middle
 from worker.bench.render.rows import Row, Shot
 from worker.bench.render.stage_set import SettledScene, Stage
 from worker.bench.render.variants import Variant
@@ -42,7 +42,7 @@ class Measurement:
                     scene=settled.job.id,
                     realize_s=realized - start,
                     render_s=rendered - realized,
-                    errors=errors(picture, reference),
+                    errors=errors(middle(picture), reference),
                     sha256=hashlib.sha256(picture.tobytes()).hexdigest(),
                 )
                 self._shots[variant, settled.job.category].append(shot)

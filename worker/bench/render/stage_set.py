@@ -15,6 +15,7 @@ from farm.rendering import PictureSettings
 from farm.scene import Scene
 from worker.images import ImageShelf
 from worker.library import AssetLibrary
+from worker.panorama import Panorama
 from worker.randomize import draw_scene
 from worker.realize import realize
 from worker.render import configure_cycles, configure_picture, render_picture
@@ -49,6 +50,7 @@ class Stage:
         self._library = AssetLibrary(header, None)
         self._shelf = ImageShelf()
         self._resolution = resolution
+        self._behind: Panorama | None = None
 
     def set(
         self,
@@ -58,10 +60,20 @@ class Stage:
         threads: int = 0,
         seed: int | None = None,
         resolution: int | None = None,
+        share: float = 1.0,
     ) -> None:
-        """Realize a scene and set how it renders, on the CPU; `seed` replaces that of the scene's sampling."""
+        """Realize a scene and set how it renders, on the CPU.
+
+        Args:
+            settled: the scene.
+            settings: of the picture.
+            threads: 0 takes all cores.
+            seed: of the sampling, instead of the scene's.
+            resolution: instead of the stage's.
+            share: of the picture's edge that is rendered, about its middle.
+        """
         resolution = resolution or self._resolution
-        realize(
+        self._behind = realize(
             settled.scene,
             settled.shapes.nodes_m,
             self._library,
@@ -73,8 +85,11 @@ class Stage:
         )
         scene = configure_picture(resolution, threads)
         configure_cycles(scene, settings, "cpu", settled.scene.render_seed if seed is None else seed)
+        render = scene.render
+        render.use_border = render.use_crop_to_border = share < 1.0
+        render.border_min_x = render.border_min_y = 0.5 - share / 2
+        render.border_max_x = render.border_max_y = 0.5 + share / 2
 
-    @staticmethod
-    def render() -> NDArray[np.uint8]:
+    def render(self) -> NDArray[np.uint8]:
         """The picture (H, W, 3) as set."""
-        return render_picture()
+        return render_picture(self._behind)
