@@ -1,25 +1,24 @@
-"""Masks from the geometry itself: the cables' exact silhouettes, drawn in order of height. Pure numpy and OpenCV.
+"""Masks from the geometry itself: the silhouettes of the rendered tubes, drawn in order of height. Pure numpy.
 
-The camera is taken as a pinhole: depth of field blurs an edge to both sides alike and leaves its half-way line where
-it is, so the mask is what a threshold of a half makes of a white-on-black render.
+The camera is taken as a pinhole in the middle of the lens. Opposite points of the lens see an edge moved to opposite
+sides by the same, so that depth of field leaves its half-way line, and with it the mask, where the pinhole sees it.
+What is left out: blur fills narrow gaps, of a pixel or so, between cables well above the floor, where the focus is.
 """
 
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
+from worker.coverage import cover
 from worker.shapes import Points, tangents
 
-SUBPIXELS = 8
-"""Subdivisions of a pixel's edge; coverage is counted in 64ths."""
+SIDES = 20
+"""Corners of the rendered tube's cross-section, as in `worker.realize`: up to 0.6 % wider or narrower than a circle."""
 
-_FRACTION_BITS = 4
-
-_BAND_PX = 512
-"""Rows that are drawn at a time, which bounds the memory of large pictures."""
+_BAND_PIXELS = 2**18
+"""Pixels that are labelled at a time, which bounds the memory of large pictures."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,86 +68,67 @@ def label_cables(curves: list[Points], radii_m: NDArray[np.float64], view: View)
     """
     pieces = [_silhouette(curve, float(radius), view) for curve, radius in zip(curves, radii_m, strict=True)]
     heights = np.concatenate([piece.heights_m for piece in pieces])
-    polygons = np.concatenate([piece.polygons_px for piece in pieces])
     cables = np.repeat(np.arange(len(pieces)), [len(piece.heights_m) for piece in pieces])
     order = np.argsort(heights, kind="stable")
-    bands = [
-        _label_band(polygons[order], cables[order] + 1, top, min(_BAND_PX, view.resolution - top), view.resolution)
-        for top in range(0, view.resolution, _BAND_PX)
-    ]
-    return Labels(
-        mask=np.concatenate([band.mask for band in bands]),
-        instances=np.concatenate([band.instances for band in bands]),
-    )
-
-
-def _label_band(
-    polygons_px: NDArray[np.float64], numbers: NDArray[np.int64], top: int, rows: int, resolution: int
-) -> Labels:
-    """Label `rows` rows of the picture from row `top` on, painting the polygons in the order given."""
-    canvas = np.zeros((rows * SUBPIXELS, resolution * SUBPIXELS), np.uint8)
-    shifted = polygons_px - [0.0, float(top)]
-    low, high = shifted.min(axis=1), shifted.max(axis=1)
-    seen = ((high >= 0) & (low <= [resolution, rows])).all(axis=1)
-    # OpenCV counts from the middle of the first pixel, the picture from its corner.
-    fixed = np.round((shifted * SUBPIXELS - 0.5) * 2**_FRACTION_BITS).astype(np.int32)
-    for k in np.flatnonzero(seen):
-        cv2.fillConvexPoly(canvas, fixed[k], (float(numbers[k]),), cv2.LINE_8, _FRACTION_BITS)
-    return _downsample(canvas, int(numbers.max()), (resolution, rows))
+    quads, numbers = np.concatenate([piece.quads_px for piece in pieces])[order], cables[order] + 1
+    top, bottom = quads[:, :, 1].min(axis=1), quads[:, :, 1].max(axis=1)
+    band = max(1, _BAND_PIXELS // view.resolution)
+    instances = np.zeros((view.resolution, view.resolution), np.uint16)
+    for start in range(0, view.resolution, band):
+        end = min(start + band, view.resolution)
+        here = (bottom > start) & (top < end)
+        instances[start:end] = cover(quads[here] - [0.0, float(start)], numbers[here], end - start, view.resolution)
+    return Labels(mask=(instances > 0) * np.uint8(255), instances=instances)
 
 
 @dataclass(frozen=True, slots=True)
 class _Silhouette:
-    """Outline of a cable in convex quads, with the height of each."""
+    """Silhouette of a cable in convex quads, (N, 4, 2), with the height of each, (N,)."""
 
-    polygons_px: NDArray[np.float64]
+    quads_px: NDArray[np.float64]
     heights_m: NDArray[np.float64]
 
 
 def _silhouette(curve: Points, radius_m: float, view: View) -> _Silhouette:
-    """Where the rays from the camera touch the cable, on either side, pixel by pixel.
+    """The tube between its outermost corners on either side, ring by ring, and its flat ends.
 
-    For a point p of the axis with tangent t, let v be the part of (camera - p) across t and d its length. The touching
-    points are p + r (r/d v/d +- sqrt(1 - r^2/d^2) t x v/d): the tangents from a point to a circle.
+    For a point p of the axis with tangent t, let v be the part of (camera - p) across t and d its length. A ray from
+    the camera touches a round cable at p + r (r/d v/d +- sqrt(1 - r^2/d^2) t x v/d), the tangents from a point to a
+    circle, and the tube at the corner that lies nearest in angle.
     """
     along = tangents(curve)
+    across = np.cross(along, [0.0, 0.0, 1.0])
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    up = np.cross(across, along)
     to_camera = np.array([0.0, 0.0, view.height_m]) - curve
-    across = to_camera - np.einsum("ij,ij->i", to_camera, along)[:, None] * along
-    distance = np.linalg.norm(across, axis=1, keepdims=True)
-    toward = across / distance
-    sideways = np.cross(along, toward)
-    ratio = radius_m / distance
-    forward, lateral = radius_m * ratio * toward, radius_m * np.sqrt(1 - ratio**2) * sideways
-    left, right = view.project(curve + forward + lateral), view.project(curve + forward - lateral)
-    left, right = _inset(left, right)
-    quads = np.stack([left[:-1], left[1:], right[1:], right[:-1]], axis=1)
-    return _Silhouette(polygons_px=quads, heights_m=0.5 * (curve[:-1, 2] + curve[1:, 2]))
+    x, y = np.einsum("ij,ij->i", to_camera, across), np.einsum("ij,ij->i", to_camera, up)
+    toward, half = np.arctan2(y, x), np.arccos(np.minimum(radius_m / np.hypot(x, y), 1.0))
+    step = 2 * np.pi / SIDES
+    corner_radius = 2 * radius_m / (1 + np.cos(np.pi / SIDES))
+
+    def corners(angles: NDArray[np.float64], ring: slice) -> Points:
+        sideways, upwards = np.cos(angles)[:, None] * across[ring], np.sin(angles)[:, None] * up[ring]
+        place: Points = curve[ring] + corner_radius * (sideways + upwards)
+        return place
+
+    touching = [step * np.round((toward + side * half) / step) for side in (1, -1)]
+    strips = [(corners(touching[0], slice(None)), corners(touching[1], slice(None)))]
+    # An end is a polygon: its corners, paired from one side to the other, make a strip of quads.
+    angles = step * np.arange(SIDES // 2)
+    strips += [(corners(angles, ring), corners(-angles - step, ring)) for ring in (slice(0, 1), slice(-1, None))]
+    quads, heights = zip(*(_quads(left, right, view) for left, right in strips), strict=True)
+    return _Silhouette(quads_px=np.concatenate(quads), heights_m=np.concatenate(heights))
 
 
-def _inset(left: NDArray[np.float64], right: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Move both edges inwards by half a subpixel, since OpenCV also fills the subpixels that an edge passes through."""
-    outward = left - right
-    outward /= np.linalg.norm(outward, axis=1, keepdims=True)
-    step = 0.5 / SUBPIXELS * outward
-    return left - step, right + step
+def _quads(left: Points, right: Points, view: View) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The strip between two lines of points (N, 3) in quads (N - 1, 4, 2) px, with the height of each (N - 1,).
 
-
-def _downsample(canvas: NDArray[np.uint8], cables: int, size: tuple[int, int]) -> Labels:
-    mask = _coverage(canvas > 0, size) >= _HALF
-    best = np.zeros(mask.shape, np.uint8)
-    instances = np.zeros(mask.shape, np.uint16)
-    for cable in range(1, cables + 1):
-        coverage = _coverage(canvas == cable, size)
-        better = mask & (coverage > best)
-        best[better] = coverage[better]
-        instances[better] = cable
-    return Labels(mask=np.where(mask, 255, 0).astype(np.uint8), instances=instances)
-
-
-_HALF = 128
-
-
-def _coverage(subpixels: NDArray[np.bool_], size: tuple[int, int]) -> NDArray[np.uint8]:
-    """Share of each pixel, 0 to 255; `size` is (width, height). A half is 127.5, which OpenCV rounds to `_HALF`."""
-    share = cv2.resize(subpixels.view(np.uint8) * np.uint8(255), size, interpolation=cv2.INTER_AREA)
-    return share.astype(np.uint8, copy=False)
+    What reaches up to the camera is left out, for it has no picture.
+    """
+    middle = 0.5 * (left[:, 2] + right[:, 2])
+    seen = np.maximum(left[:, 2], right[:, 2]) < view.height_m
+    kept = seen[:-1] & seen[1:]
+    with np.errstate(divide="ignore", over="ignore"):
+        left_px, right_px = view.project(left), view.project(right)
+    quads = np.stack([left_px[:-1], left_px[1:], right_px[1:], right_px[:-1]], axis=1)
+    return quads[kept], 0.5 * (middle[:-1] + middle[1:])[kept]

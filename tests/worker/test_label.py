@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.spatial import Delaunay
 
-from worker.label import View, label_cables
+import worker.label
+from worker.label import SIDES, View, label_cables
 from worker.shapes import Points
+from worker.tube import sweep
 
 RADIUS = 0.001
 VIEW = View(height_m=0.15, resolution=256)
@@ -77,3 +80,40 @@ def test_cables_outside_the_view_leave_nothing() -> None:
     mask, instances = label(bar(shift=0.5))
     assert not mask.any()
     assert not instances.any()
+
+
+@pytest.mark.parametrize(("angle", "shift", "rise"), [(10.0, 0.0, 0.0), (50.0, 0.02, 0.0), (80.0, -0.03, 0.2)])
+def test_the_mask_is_the_silhouette_of_the_rendered_tube(angle: float, shift: float, rise: float) -> None:
+    """A straight tube with both its ends in the picture is convex, so its silhouette is the hull of its corners."""
+    curve = bar(angle, z=0.01, shift=shift, length=0.03)[::20]
+    curve[:, 2] += rise * np.linspace(-0.015, 0.015, len(curve))
+    mask, _ = label(curve)
+    corners = VIEW.project(sweep(curve, RADIUS, SIDES).vertices_m.astype(np.float64))
+    middles = np.stack(np.meshgrid(np.arange(256), np.arange(256)), axis=-1) + 0.5
+    inside = Delaunay(corners).find_simplex(middles) >= 0
+    assert np.count_nonzero(inside != (mask > 0)) <= 4  # at the corners of the ends, less than half is covered
+
+
+def test_the_rendered_tube_has_as_many_sides() -> None:
+    """Masks and pictures are of one geometry."""
+    pytest.importorskip("bpy")
+    from worker.realize import TUBE_SIDES  # noqa: PLC0415
+
+    assert SIDES == TUBE_SIDES
+
+
+def test_bands_leave_no_trace(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Labelled a few rows at a time, a picture is the same."""
+    cables = bar(10.0), bar(75.0, z=3 * RADIUS), bar(0.0, z=5 * RADIUS, shift=0.01)
+    whole = label(*cables)
+    monkeypatch.setattr(worker.label, "_BAND_PIXELS", 7 * 256)
+    banded = label(*cables)
+    assert (whole[0] == banded[0]).all()
+    assert (whole[1] == banded[1]).all()
+
+
+def test_a_cable_that_reaches_the_camera_spoils_nothing() -> None:
+    """A steep one that ends above the camera hides no more than it covers."""
+    steep = np.linspace([-0.05, 0.05, RADIUS], [0.0, 0.05, 0.2], 201)
+    _, instances = label(bar(), steep)
+    assert (instances[126:130] == 1).all()
