@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from worker.bench.masks import compare
+from worker.bench.mask_agreement import compare
 
 
 def coverage_of_bar(left: float, right: float) -> NDArray[np.float64]:
@@ -42,4 +42,11 @@ def test_a_closed_gap_is_told_apart() -> None:
     instances[:, 26:30] = 2
     agreement = compare(instances, coverage_of_bar(20.0, 30.0))
     assert agreement.edge_error_px == 0.0
-    assert agreement.gap_pixels == 64
+    assert (agreement.gap_pixels, agreement.gap_error_px) == (64, 1)
+
+
+def test_a_wider_gap_counts_its_width() -> None:
+    """Two pixels that the mask leaves and the reference fills are an error of two pixels."""
+    instances = instances_of_bar(20, 25)
+    instances[:, 27:31] = 2
+    assert compare(instances, coverage_of_bar(20.0, 31.0)).gap_error_px == 2

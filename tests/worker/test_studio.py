@@ -18,8 +18,8 @@ from farm.errors import AssetError, EnvironmentMissingError, SceneError, Templat
 from farm.header import DatasetHeader, FileRef  # noqa: E402
 from farm.job import Job  # noqa: E402
 from farm.spec import parse_spec  # noqa: E402
+from worker.bench.mask_agreement import compare  # noqa: E402
 from worker.bench.mask_reference import render_coverage  # noqa: E402
-from worker.bench.masks import compare  # noqa: E402
 from worker.gates import settled_figures  # noqa: E402
 from worker.library import checked  # noqa: E402
 from worker.render import render_picture  # noqa: E402

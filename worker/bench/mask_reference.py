@@ -12,6 +12,9 @@ from worker.render import render_picture
 
 SAMPLES = 1024
 
+_SAME_SO_FAR = 128
+"""Samples after which Cycles leaves a pixel that is all black or all white, with all around it: most of the picture."""
+
 
 def render_coverage(samples: int = SAMPLES) -> NDArray[np.float64]:
     """Render the cables of the realized scene white on black.
@@ -44,6 +47,10 @@ def render_coverage(samples: int = SAMPLES) -> NDArray[np.float64]:
     picture_world, scene.world = scene.world, world
     view.view_transform = "Raw"
     scene.cycles.samples = samples
+    scene.cycles.use_adaptive_sampling = True
+    scene.cycles.adaptive_min_samples = min(_SAME_SO_FAR, samples)
+    scene.cycles.adaptive_threshold = 1e-4
+    scene.cycles.max_bounces = 0
     scene.cycles.use_denoising = False
     try:
         grey = cv2.cvtColor(render_picture(), cv2.COLOR_RGB2GRAY)
