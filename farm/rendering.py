@@ -78,15 +78,15 @@ class CyclesSettings(Model):
 
 
 class CableDetail(Model):
-    """How finely a cable is modelled.
+    """How finely a cable is modelled; its mask is that of the very same tube.
 
     Attributes:
         sides: corners of a tube's cross-section.
         points_per_segment: rings of a tube for each segment of the fall.
     """
 
-    sides: Annotated[int, Field(ge=3, le=128)] = 12
-    points_per_segment: Annotated[int, Field(ge=1, le=20)] = 3
+    sides: Annotated[int, Field(ge=4, le=128, multiple_of=2)] = 20
+    points_per_segment: Annotated[int, Field(ge=1, le=20)] = 5
 
 
 class Economy(Model):

@@ -8,12 +8,15 @@ import numpy as np
 from mathutils import Vector
 
 from blend import names
-from farm.quality import Preset, Quality
+from farm.quality import ChosenSettings, Preset, Quality
 from farm.rendering import CyclesSettings, Economy, PictureSettings
 
 _SAMPLES: Final[Mapping[Quality, int]] = {Preset.DRAFT: 8, Preset.STANDARD: 16, Preset.REFERENCE: 128}
 
-PICTURE: Final = PictureSettings(cycles=CyclesSettings(samples=1), economy=Economy(upper_world=False, backdrop=False))
+CHOSEN: Final = ChosenSettings(
+    settings=PictureSettings(cycles=CyclesSettings(samples=1), economy=Economy(upper_world=False, backdrop=False)),
+    expected_flip=None,
+)
 """How cables and textures are realized for it; what is for Cycles does not count."""
 
 _NAME = f"{names.POINT_LAMP}.eevee"

@@ -14,9 +14,6 @@ from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from worker.coverage import cover
 from worker.shapes import Points, tangents
 
-SIDES = 20
-"""Corners of the rendered tube's cross-section, as in `worker.realize`: up to 0.6 % wider or narrower than a circle."""
-
 _BAND_PIXELS = 2**18
 """Pixels that are labelled at a time, which bounds the memory of large pictures."""
 
@@ -55,18 +52,20 @@ class Labels:
     instances: NDArray[np.uint16]
 
 
-def label_cables(curves: list[Points], radii_m: NDArray[np.float64], view: View) -> Labels:
+def label_cables(curves: list[Points], radii_m: NDArray[np.float64], view: View, sides: int) -> Labels:
     """Label a picture.
 
     Args:
         curves: finely sampled centrelines (N, 3), metres.
         radii_m: (cables,), radius of each.
         view: the camera.
+        sides: corners of the rendered tubes' cross-section, an even number; 20 are up to 0.6 % wider or narrower than
+            a circle.
 
     Returns:
         The binary mask and the instances.
     """
-    pieces = [_silhouette(curve, float(radius), view) for curve, radius in zip(curves, radii_m, strict=True)]
+    pieces = [_silhouette(curve, float(radius), view, sides) for curve, radius in zip(curves, radii_m, strict=True)]
     heights = np.concatenate([piece.heights_m for piece in pieces])
     cables = np.repeat(np.arange(len(pieces)), [len(piece.heights_m) for piece in pieces])
     order = np.argsort(heights, kind="stable")
@@ -89,7 +88,7 @@ class _Silhouette:
     heights_m: NDArray[np.float64]
 
 
-def _silhouette(curve: Points, radius_m: float, view: View) -> _Silhouette:
+def _silhouette(curve: Points, radius_m: float, view: View, sides: int) -> _Silhouette:
     """The tube between its outermost corners on either side, ring by ring, and its flat ends.
 
     For a point p of the axis with tangent t, let v be the part of (camera - p) across t and d its length. A ray from
@@ -103,8 +102,8 @@ def _silhouette(curve: Points, radius_m: float, view: View) -> _Silhouette:
     to_camera = np.array([0.0, 0.0, view.height_m]) - curve
     x, y = np.einsum("ij,ij->i", to_camera, across), np.einsum("ij,ij->i", to_camera, up)
     toward, half = np.arctan2(y, x), np.arccos(np.minimum(radius_m / np.hypot(x, y), 1.0))
-    step = 2 * np.pi / SIDES
-    corner_radius = 2 * radius_m / (1 + np.cos(np.pi / SIDES))
+    step = 2 * np.pi / sides
+    corner_radius = 2 * radius_m / (1 + np.cos(np.pi / sides))
 
     def corners(angles: NDArray[np.float64], ring: slice) -> Points:
         sideways, upwards = np.cos(angles)[:, None] * across[ring], np.sin(angles)[:, None] * up[ring]
@@ -114,7 +113,7 @@ def _silhouette(curve: Points, radius_m: float, view: View) -> _Silhouette:
     touching = [step * np.round((toward + side * half) / step) for side in (1, -1)]
     strips = [(corners(touching[0], slice(None)), corners(touching[1], slice(None)))]
     # An end is a polygon: its corners, paired from one side to the other, make a strip of quads.
-    angles = step * np.arange(SIDES // 2)
+    angles = step * np.arange(sides // 2)
     strips += [(corners(angles, ring), corners(-angles - step, ring)) for ring in (slice(0, 1), slice(-1, None))]
     quads, heights = zip(*(_quads(left, right, view) for left, right in strips), strict=True)
     return _Silhouette(quads_px=np.concatenate(quads), heights_m=np.concatenate(heights))

@@ -15,13 +15,16 @@ from farm.errors import SceneError
 from farm.header import DatasetHeader, FileRef
 from farm.job import Job
 from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
+from farm.quality import ChosenSettings
+from farm.rendering import CableDetail, PictureSettings
 from farm.scene import Scene
+from farm.spec import DatasetSpec, Engine
 from worker import eevee
 from worker.check import find_fault
 from worker.devices import choose_device
 from worker.gates import measure
 from worker.images import ImageShelf
-from worker.label import View, label_cables
+from worker.label import Labels, View, label_cables
 from worker.library import AssetLibrary, checked
 from worker.made import MadeImage
 from worker.panorama import Panorama
@@ -30,9 +33,6 @@ from worker.realize import realize
 from worker.render import configure_cycles, configure_eevee, configure_picture, render_picture
 from worker.shapes import CableShapes, smooth
 from worker.simulate import let_fall
-
-CURVE_SAMPLES = 5
-"""Points of a mask's curve per segment of the fall: one a millimetre for a 2 mm cable."""
 
 
 def open_studio(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> "Studio":
@@ -83,15 +83,15 @@ class Studio:
         # Opening is paid once, by the first picture of the process.
         timings = {"open": self._open_s, "randomize": 0.0, "simulate": 0.0, "check": 0.0}
         self._open_s = 0.0
+        spec, chosen = header.spec, header.rendering.get(job.category, eevee.CHOSEN)
         scene, shapes, settled, rejected = self._settle(job, header, timings)
         with _timed(timings, "realize"):
-            settings, behind = self._realize(job, header, scene, shapes)
+            behind = self._realize(job, spec, chosen.settings, scene, shapes)
+            rendering = self._configure(spec, chosen, scene.render_seed)
         with _timed(timings, "render"):
             image = render_picture(behind)
         with _timed(timings, "mask"):
-            curves = [smooth(nodes, CURVE_SAMPLES) for nodes in shapes.nodes_m]
-            view = View(height_m=scene.camera.height_m, resolution=header.spec.resolution)
-            labels = label_cables(curves, shapes.radii_m, view)
+            labels = label(scene, shapes, chosen.settings.detail, spec.resolution)
         return MadeImage(
             image=image,
             mask=labels.mask,
@@ -99,19 +99,16 @@ class Studio:
             scene=scene,
             settled=settled,
             rejected=rejected,
-            render=settings,
+            render=rendering,
             timings_s=timings,
             versions=_versions(),
         )
 
     def _realize(
-        self, job: Job, header: DatasetHeader, scene: Scene, shapes: CableShapes
-    ) -> tuple[RenderSettings, Panorama | None]:
-        """Make the picture ready to render; returns how it will be, and what is behind it."""
-        spec = header.spec
-        chosen = header.rendering.get(job.category)
-        settings = chosen.settings if chosen else eevee.PICTURE
-        behind = realize(
+        self, job: Job, spec: DatasetSpec, settings: PictureSettings, scene: Scene, shapes: CableShapes
+    ) -> Panorama | None:
+        """Set the scene; returns what is behind it, if the renderer is to leave that out."""
+        return realize(
             scene,
             shapes.nodes_m,
             self._library,
@@ -121,22 +118,23 @@ class Studio:
             detail=settings.detail,
             economy=settings.economy,
         )
+
+    def _configure(self, spec: DatasetSpec, chosen: ChosenSettings, seed: int) -> RenderSettings:
+        """Set how the scene renders; returns it for the manifest."""
         picture = configure_picture(spec.resolution, self._threads)
-        if chosen is None:
+        if spec.engine is Engine.EEVEE:
             samples = eevee.samples_of(spec.quality)
             configure_eevee(picture, samples)
-            rendering = RenderSettings(engine="eevee", device="opengl", resolution=spec.resolution, samples=samples)
-            return rendering, behind
-        configure_cycles(picture, settings, self._device, scene.render_seed)
-        rendering = RenderSettings(
+            return RenderSettings(engine="eevee", device="opengl", resolution=spec.resolution, samples=samples)
+        configure_cycles(picture, chosen.settings, self._device, seed)
+        return RenderSettings(
             engine="cycles",
             device=self._device,
             resolution=spec.resolution,
-            samples=settings.cycles.samples,
-            settings=settings,
+            samples=chosen.settings.cycles.samples,
+            settings=chosen.settings,
             expected_flip=chosen.expected_flip,
         )
-        return rendering, behind
 
     @staticmethod
     def _settle(
@@ -161,6 +159,13 @@ class Studio:
         raise SceneError(
             f"{job.id}: none of {len(rejected)} drawn scenes passed the checks; the last: {rejected[-1].reason}"
         )
+
+
+def label(scene: Scene, shapes: CableShapes, detail: CableDetail, resolution: int) -> Labels:
+    """Label a settled scene's cables as they are rendered."""
+    curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
+    view = View(height_m=scene.camera.height_m, resolution=resolution)
+    return label_cables(curves, shapes.radii_m, view, detail.sides)
 
 
 @contextmanager

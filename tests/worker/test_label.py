@@ -6,11 +6,12 @@ from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
 import worker.label
-from worker.label import SIDES, View, label_cables
+from worker.label import View, label_cables
 from worker.shapes import Points
 from worker.tube import sweep
 
 RADIUS = 0.001
+SIDES = 20
 VIEW = View(height_m=0.15, resolution=256)
 
 
@@ -23,7 +24,7 @@ def bar(angle_deg: float = 0.0, z: float = RADIUS, shift: float = 0.0, length: f
 
 def label(*curves: Points) -> tuple[NDArray[np.uint8], NDArray[np.uint16]]:
     """Mask and instances of cables of one radius."""
-    labels = label_cables(list(curves), np.full(len(curves), RADIUS), VIEW)
+    labels = label_cables(list(curves), np.full(len(curves), RADIUS), VIEW, SIDES)
     return labels.mask, labels.instances
 
 
@@ -92,14 +93,6 @@ def test_the_mask_is_the_silhouette_of_the_rendered_tube(angle: float, shift: fl
     middles = np.stack(np.meshgrid(np.arange(256), np.arange(256)), axis=-1) + 0.5
     inside = Delaunay(corners).find_simplex(middles) >= 0
     assert np.count_nonzero(inside != (mask > 0)) <= 4  # at the corners of the ends, less than half is covered
-
-
-def test_the_rendered_tube_has_as_many_sides() -> None:
-    """Masks and pictures are of one geometry."""
-    pytest.importorskip("bpy")
-    from worker.realize import TUBE_SIDES  # noqa: PLC0415
-
-    assert SIDES == TUBE_SIDES
 
 
 def test_bands_leave_no_trace(monkeypatch: pytest.MonkeyPatch) -> None:

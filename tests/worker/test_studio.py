@@ -65,7 +65,7 @@ def test_every_category_gives_a_lit_picture_with_its_mask(studio: Studio, catego
 def test_a_cable_pixel_looks_unlike_the_picture_without_cables(studio: Studio) -> None:
     """The mask lies where the picture shows cables: taking them away changes masked pixels far more than others."""
     header = small_header()
-    made = studio.make(Job(category=Category.FAR, index=1), header)
+    made = studio.make(Job(category=Category.CLOSE_CONCENTRATED, index=1), header)
     for cable in [item for item in bpy.data.objects if item.name.startswith("cable.")]:
         cable.hide_render = True
     change = np.abs(render_picture().astype(int) - made.image.astype(int)).mean(axis=2)

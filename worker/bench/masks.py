@@ -17,11 +17,9 @@ from worker.bench.mask_agreement import compare
 from worker.bench.mask_reference import SAMPLES, render_coverage
 from worker.bench.mask_results import LabelledImage, check, table, times
 from worker.bench.terminal import bench_console, blender_writes_to
-from worker.label import View, label_cables
 from worker.made import MadeImage
-from worker.shapes import smooth
 from worker.simulate import let_fall
-from worker.studio import CURVE_SAMPLES, open_studio
+from worker.studio import label, open_studio
 
 DEFAULT_IMAGES = 2
 REPEATS = 5
@@ -45,7 +43,7 @@ def run(out: Path, *, images: int | None, seed: int) -> int:
         with blender_writes_to(log_file):
             made = studio.make(job, header)
             agreement = compare(made.instances, render_coverage())
-            label_ms = _label_again(made, header)
+            label_ms = _label_again(made, job.category, header)
         width_px = _thinnest_px(made.scene, header.spec.resolution)
         found.append(LabelledImage(job.category, width_px, label_ms, agreement))
     console.print(table(found, f"masks against Cycles renders of {SAMPLES} samples"))
@@ -56,19 +54,18 @@ def run(out: Path, *, images: int | None, seed: int) -> int:
     return 0
 
 
-def _label_again(made: MadeImage, header: DatasetHeader) -> float:
+def _label_again(made: MadeImage, category: Category, header: DatasetHeader) -> float:
     """Label a picture's scene again: milliseconds of CPU, the least of `REPEATS`, as other processes only ever add.
 
     Raises:
         VerificationError: if the labels are not the same.
     """
     shapes = let_fall(made.scene, header.spec.simulator, header.spec.fall)
-    curves = [smooth(nodes, CURVE_SAMPLES) for nodes in shapes.nodes_m]
-    view = View(height_m=made.scene.camera.height_m, resolution=header.spec.resolution)
+    detail = header.rendering[category].settings.detail
     taken_s = []
     for _ in range(REPEATS):
         start = time.thread_time()
-        labels = label_cables(curves, shapes.radii_m, view)
+        labels = label(made.scene, shapes, detail, header.spec.resolution)
         taken_s.append(time.thread_time() - start)
         if labels.instances.tobytes() != made.instances.tobytes() or labels.mask.tobytes() != made.mask.tobytes():
             raise VerificationError("the same scene was labelled differently a second time")
