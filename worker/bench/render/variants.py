@@ -84,7 +84,7 @@ def turns() -> Iterator[Variant]:
     for width in (0, 64, 1024):
         yield Variant(f"world map {width or 'automatic'}", Group.LIGHTS, _cycles(world_map_px=width))
     yield Variant("blue noise", Group.PATTERN, _cycles(pattern=Pattern.BLUE_NOISE))
-    for sides, points in ((6, 1), (8, 2), (20, 5), (40, 10)):
+    for sides, points in ((6, 1), (12, 3), (40, 10)):
         detail = CableDetail(sides=sides, points_per_segment=points)
         yield Variant(f"{sides} sides, {points} rings", Group.DETAIL, _picture(detail=detail))
     for field in Economy.model_fields:
