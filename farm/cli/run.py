@@ -24,6 +24,9 @@ def run(
     out: Out,
     workers: Annotated[int, typer.Option(min=1, max=256, help="Processes, each with a Blender of its own.")] = 2,
     device: Device = DeviceChoice.AUTO,
+    threads: Annotated[
+        int | None, typer.Option(min=1, help="Of each worker's renderer; default: the cores divided by the workers.")
+    ] = None,
     assets: Assets = None,
     logs: Logs = None,
 ) -> None:
@@ -44,7 +47,7 @@ def run(
     how = LocalRun(
         workers=workers,
         device=device,
-        threads=max(1, (os.cpu_count() or 1) // workers),
+        threads=threads or max(1, (os.cpu_count() or 1) // workers),
         assets=assets,
         logs=log_folder(logs),
     )

@@ -1,5 +1,7 @@
 """`farm run`, and what `farm submit` and `farm worker` refuse as it does."""
 
+import importlib
+import os
 from pathlib import Path
 
 import pytest
@@ -7,6 +9,7 @@ import redis
 
 from farm.dataset import Dataset
 from farm.errors import ConflictError, DestinationError, EnvironmentMissingError
+from farm.local.run import LocalRun
 from tests.farm.cli.result import Farm, assert_refused
 
 
@@ -49,3 +52,25 @@ def test_device_that_is_not_there(farm: Farm, tmp_path: Path, redis_url: str, co
 def test_name_that_is_none(farm: Farm) -> None:
     """A place whose last part can't name a dataset is refused."""
     assert_refused(farm("run", "--images", "1", "--out", ".data"), DestinationError.exit_code, ".data")
+
+
+@pytest.mark.parametrize(
+    ("options", "threads"),
+    [([], 3), (["--workers", "4"], 1), (["--workers", "16"], 1), (["--workers", "1", "--threads", "5"], 5)],
+)
+def test_threads_of_each_worker(farm: Farm, monkeypatch: pytest.MonkeyPatch, options: list[str], threads: int) -> None:
+    """As told, else the cores divided by the workers, two by default, and at least one."""
+    used: list[int] = []
+
+    def note(_: object, __: object, how: LocalRun, ___: object) -> None:
+        used.append(how.threads)
+        raise EnvironmentMissingError("far enough")
+
+    module = importlib.import_module("farm.cli.run")
+    monkeypatch.setattr(os, "cpu_count", lambda: 6)
+    monkeypatch.setattr(module, "run_locally", note)
+    for step in ("require_blender", "check_device", "bake_for"):
+        monkeypatch.setattr(module, step, lambda *_: None)
+    result = farm("run", "--images", "1", "--out", "data", *options)
+    assert_refused(result, EnvironmentMissingError.exit_code, "far enough")
+    assert used == [threads]
