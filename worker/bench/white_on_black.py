@@ -1,0 +1,54 @@
+"""Cables that emit white, and all else black: a scene whose render is a mask, as the published method makes them."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import bpy
+
+from blend import names
+
+
+@contextmanager
+def white_on_black() -> Iterator[Any]:
+    """Show the cables of the realized scene so inside `with`.
+
+    The lens is the picture's, depth of field included. The floor, the lamps and the world are left out. Cables and
+    lamps stay as they are made here: realize the scene again before another picture.
+
+    Yields:
+        The picture's scene.
+    """
+    scene = bpy.data.scenes[names.PICTURE_SCENE]
+    view = scene.view_settings
+    kept = view.view_transform
+    floor = bpy.data.objects[names.FLOOR]
+    world = bpy.data.worlds.new("black")
+    world.use_nodes = True
+    world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+    white = _white()
+    for cable in [item for item in scene.objects if item.name.startswith(f"{names.CABLE}.")]:
+        cable.data.materials[0] = white
+    for lamp in (names.POINT_LAMP, names.AREA_LAMP):
+        bpy.data.objects[lamp].hide_render = True
+    floor.hide_render = True
+    picture_world, scene.world = scene.world, world
+    view.view_transform = "Raw"
+    try:
+        yield scene
+    finally:
+        view.view_transform = kept
+        floor.hide_render = False
+        scene.world = picture_world
+        bpy.data.worlds.remove(world)
+
+
+def _white() -> Any:
+    material = bpy.data.materials.new(f"{names.CABLE}.white")
+    material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    emission = tree.nodes.new("ShaderNodeEmission")
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(emission.outputs["Emission"], output.inputs["Surface"])
+    return material
