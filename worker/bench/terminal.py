@@ -20,6 +20,13 @@ def bench_console() -> Console:
 
 
 @contextmanager
+def progress_console() -> Iterator[Console]:
+    """A console that still writes to the terminal while `blender_writes_to` sends everything else to a file."""
+    with os.fdopen(os.dup(1), "w") as terminal:
+        yield Console(file=terminal)
+
+
+@contextmanager
 def blender_writes_to(log_file: Path) -> Iterator[None]:
     """Send the output of this process, C code's included, to a file for a while."""
     sys.stdout.flush()

@@ -13,6 +13,9 @@ CATEGORIES = (Category.FAR, Category.FAR_ALIGNED)
 DRAWN_CABLES = 8
 """As many as a scene can be drawn with."""
 
+MOST_CABLES = {"cable": {"count": [DRAWN_CABLES, DRAWN_CABLES]}}
+"""The ranges of a spec whose scenes all have so many."""
+
 SPACING_M = 0.004
 """Height of each further cable above the one before, as in drawn scenes."""
 
@@ -32,10 +35,18 @@ def bench_scenes(count: int, cables: int, seed: int) -> tuple[Scene, ...]:
     """
     header = _header(seed)
     kinds = len(CATEGORIES)
-    return tuple(_scene(header, CATEGORIES[number % kinds], number // kinds, cables) for number in range(count))
+    return tuple(crowd(header, CATEGORIES[number % kinds], number // kinds, cables) for number in range(count))
 
 
-def _scene(header: DatasetHeader, category: Category, index: int, cables: int) -> Scene:
+def crowd(header: DatasetHeader, category: Category, index: int, cables: int) -> Scene:
+    """The scene of a job's first attempt, with so many cables; see `bench_scenes`.
+
+    Args:
+        header: one that draws `DRAWN_CABLES` cables.
+        category: of the scene.
+        index: of the scene.
+        cables: of the scene.
+    """
     scene = draw_scene(header, Job(category=category, index=index), 0)
     drawn: list[Cable] = list(scene.cables)
     further = index
@@ -52,11 +63,10 @@ def _scene(header: DatasetHeader, category: Category, index: int, cables: int) -
 
 def _header(seed: int) -> DatasetHeader:
     """One that names a surface and an HDRI which need not be there, since nothing is rendered."""
-    ranges = {"cable": {"count": [DRAWN_CABLES, DRAWN_CABLES]}}
     nothing = "0" * 64
     return DatasetHeader(
         farm_version=version("cable-farm"),
-        spec=parse_spec({"images": DRAWN_CABLES, "seed": seed, "ranges": ranges}, source="benchmark"),
+        spec=parse_spec({"images": DRAWN_CABLES, "seed": seed, "ranges": MOST_CABLES}, source="benchmark"),
         template=TemplateRef(path=None, sha256=nothing),
         surfaces=(BuiltinSurfaceRef(name="none", recipe_version=1),),
         hdris=(HdriRef(name="none", path=None, sha256=nothing, dark=False),),
