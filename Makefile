@@ -39,9 +39,9 @@ lint: setup ## lint and check types only
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
-bench: setup ## seconds per stage and category; writes bench/stages.json and .png
+bench: setup ## what an image costs, beside the published method; writes bench/whole.json and .png
 	$(BIN)/farm assets build
-	$(BIN)/python -m worker.bench stages --out bench
+	$(BIN)/python -m worker.bench whole --out bench
 
 masks: setup ## masks against Cycles renders of 1,024 samples; writes bench/masks.json
 	$(BIN)/farm assets build

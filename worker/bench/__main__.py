@@ -1,10 +1,11 @@
-"""`python -m worker.bench stages|masks|stress|physics|render --out DIR`."""
+"""`python -m worker.bench whole|masks|stress|physics|render --out DIR`."""
 
 import argparse
 import sys
 from pathlib import Path
 
 from farm.errors import FarmError
+from worker.bench.whole.options import add_whole, plan_of
 from worker.leave import leave
 
 
@@ -15,9 +16,9 @@ def main(arguments: list[str]) -> int:
     shared = argparse.ArgumentParser(add_help=False)
     shared.add_argument("--out", type=Path, required=True, help="folder for the JSON and the plot")
     shared.add_argument("--seed", type=int, default=0)
-    for name, purpose in (("stages", "seconds per stage and category"), ("masks", "masks against fine renders")):
-        command = commands.add_parser(name, parents=[shared], help=purpose)
-        command.add_argument("--images", type=int, help="images of each category")
+    add_whole(commands, shared)
+    masks = commands.add_parser("masks", parents=[shared], help="masks against fine renders")
+    masks.add_argument("--images", type=int, help="images of each category")
     stress = commands.add_parser("stress", parents=[shared], help="the rod solver over the whole range of everything")
     stress.add_argument("--runs", type=int, help="how many scenes")
     stress.add_argument("--only", type=int, help="play this scene alone")
@@ -53,10 +54,13 @@ def _run(options: argparse.Namespace) -> int:
         from worker.bench.render.command import run as run_render  # noqa: PLC0415
 
         return run_render(options.out, seed=options.seed, scenes=options.scenes, turn_scenes=options.turn_scenes)
-    from worker.bench import masks, stages  # noqa: PLC0415
+    if options.benchmark == "whole":
+        from worker.bench.whole.command import run as run_whole  # noqa: PLC0415
 
-    benchmark = {"stages": stages.run, "masks": masks.run}[options.benchmark]
-    return benchmark(options.out, images=options.images, seed=options.seed)
+        return run_whole(options.out, plan_of(options))
+    from worker.bench import masks  # noqa: PLC0415
+
+    return masks.run(options.out, images=options.images, seed=options.seed)
 
 
 if __name__ == "__main__":

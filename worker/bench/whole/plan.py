@@ -1,0 +1,34 @@
+"""How much the whole-image benchmark does."""
+
+from dataclasses import dataclass
+
+from farm.category import Category
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What is measured.
+
+    Attributes:
+        seed: of the scenes.
+        images: standard pictures of each category.
+        slow_images: of them, those whose scenes are made in the slow ways, too; at most `images`.
+        growth_images: scenes a point of the growth with resolution and with cables; 0 leaves it out.
+        resolution: pixels along an edge, but for the growth with it.
+        errors: whether pictures are compared with references, which take minutes each where they are not kept.
+        categories: of the standard and the slow pictures.
+        growth_categories: one far and one close.
+        resolutions: of the growth, pixels along an edge.
+        counts: of the growth, cables.
+    """
+
+    seed: int = 0
+    images: int = 8
+    slow_images: int = 1
+    growth_images: int = 2
+    resolution: int = 512
+    errors: bool = True
+    categories: tuple[Category, ...] = tuple(Category)
+    growth_categories: tuple[Category, ...] = (Category.FAR, Category.CLOSE_CONCENTRATED)
+    resolutions: tuple[int, ...] = (256, 512, 1024, 2048)
+    counts: tuple[int, ...] = (1, 2, 4, 8, 16, 32)
