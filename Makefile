@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench bench-physics bench-render masks stress flower template clean
+.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render masks stress flower template clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -42,6 +42,10 @@ lint: setup ## lint and check types only
 bench: setup ## what an image costs, beside the published method; writes bench/whole.json and .png
 	$(BIN)/farm assets build
 	$(BIN)/python -m worker.bench whole --out bench
+
+bench-farm: setup ## images an hour of farm run by workers and threads; writes bench/farm.json and .png
+	$(BIN)/farm assets build
+	$(BIN)/python -m worker.bench farm --out bench
 
 masks: setup ## masks against Cycles renders of 1,024 samples; writes bench/masks.json
 	$(BIN)/farm assets build

@@ -1,10 +1,12 @@
-"""`python -m worker.bench whole|masks|stress|physics|render --out DIR`."""
+"""`python -m worker.bench whole|farm|masks|stress|physics|render --out DIR`."""
 
 import argparse
 import sys
 from pathlib import Path
 
 from farm.errors import FarmError
+from worker.bench.throughput.options import add_farm
+from worker.bench.throughput.splits import SPLITS
 from worker.bench.whole.options import add_whole, plan_of
 from worker.leave import leave
 
@@ -17,6 +19,7 @@ def main(arguments: list[str]) -> int:
     shared.add_argument("--out", type=Path, required=True, help="folder for the JSON and the plot")
     shared.add_argument("--seed", type=int, default=0)
     add_whole(commands, shared)
+    add_farm(commands, shared)
     masks = commands.add_parser("masks", parents=[shared], help="masks against fine renders")
     masks.add_argument("--images", type=int, help="images of each category")
     stress = commands.add_parser("stress", parents=[shared], help="the rod solver over the whole range of everything")
@@ -58,6 +61,10 @@ def _run(options: argparse.Namespace) -> int:
         from worker.bench.whole.command import run as run_whole  # noqa: PLC0415
 
         return run_whole(options.out, plan_of(options))
+    if options.benchmark == "farm":
+        from worker.bench.throughput.command import run as run_farm  # noqa: PLC0415
+
+        return run_farm(options.out, seed=options.seed, images=options.images, splits=options.split or SPLITS)
     from worker.bench import masks  # noqa: PLC0415
 
     return masks.run(options.out, images=options.images, seed=options.seed)
