@@ -151,7 +151,7 @@ def write_plot(path: Path, rows: Sequence[Row]) -> None:
     figure, panels = plt.subplots(2, 3, figsize=(14, 7.5), layout="constrained", sharey=True)
     for axes, category in zip(panels.flat, Category, strict=True):
         those = [row for row in rows if row.category is category]
-        for group, mark in ((Group.SAMPLES, "o"), (Group.ADAPTIVE, "s")):
+        for group, mark in ((Group.SAMPLES, "o"), (Group.UNGUIDED, "^"), (Group.PLAIN, "x"), (Group.ADAPTIVE, "s")):
             found = [row for row in those if row.variant.group is group]
             axes.loglog([row.seconds for row in found], [row.flip for row in found], mark, label=group, markersize=5)
         line = front(those)

@@ -1,6 +1,6 @@
 """What the rendering benchmark finds for a variant, and which variants are worth having."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,20 +62,27 @@ def front(rows: Iterable[Row]) -> tuple[Row, ...]:
 
 
 def idle_settings(rows: Sequence[Row]) -> list[str]:
-    """Variants that did not act as they must: gave the base's pictures everywhere, or changed them though they may not.
+    """Turned settings that gave the base's pictures to the byte in every scene, though they need not have.
+
+    Either nothing in these scenes is touched by them, or they did not act.
 
     Args:
         rows: of all categories, with those of the variant called "base".
     """
+    return [variant.name for variant, same in _against_base(rows) if same and not variant.same_picture]
+
+
+def disturbing_settings(rows: Sequence[Row]) -> list[str]:
+    """Settings that changed a picture though they may not; see `idle_settings`."""
+    return [variant.name for variant, same in _against_base(rows) if variant.same_picture and not same]
+
+
+def _against_base(rows: Sequence[Row]) -> Iterator[tuple[Variant, bool]]:
+    """Each variant but the base, and whether its pictures are the base's."""
     base = _pictures(row for row in rows if row.variant.name == "base")
-    wrong = []
-    for name in dict.fromkeys(row.variant.name for row in rows):
-        those = [row for row in rows if row.variant.name == name]
-        pictures = _pictures(those)
-        same = all(base.get(scene) == digest for scene, digest in pictures.items())
-        if same != those[0].variant.same_picture and name != "base" and base:
-            wrong.append(f"{name}: {'changed nothing' if same else 'changed the picture'}")
-    return wrong
+    for variant in dict.fromkeys(row.variant for row in rows if row.variant.name != "base"):
+        pictures = _pictures(row for row in rows if row.variant == variant)
+        yield variant, all(base.get(scene) == digest for scene, digest in pictures.items())
 
 
 def _pictures(rows: Iterable[Row]) -> Mapping[str, str]:

@@ -15,19 +15,24 @@ from farm.rendering import (
     Prefilter,
 )
 
-LADDER = (1, 2, 4, 8, 16, 32, 64)
-"""Samples a pixel."""
+LADDER = (2, 4, 6, 8, 12, 16)
+"""Samples a pixel, with the denoiser."""
 
-BASE_SAMPLES = 8
+PLAIN_LADDER = (16, 64)
+"""Without it."""
 
-BASE = PictureSettings(cycles=CyclesSettings(samples=BASE_SAMPLES))
+BASE = PictureSettings(
+    cycles=CyclesSettings(samples=8, caustics=True, pattern=Pattern.BLUE_NOISE, prefilter=Prefilter.FAST)
+)
 """From which one setting at a time is turned."""
 
 
 class Group(StrEnum):
     """What a variant is about."""
 
-    SAMPLES = "samples"
+    SAMPLES = "denoised with albedo and normals"
+    UNGUIDED = "denoised unguided"
+    PLAIN = "not denoised"
     ADAPTIVE = "adaptive"
     DENOISER = "denoiser"
     PATHS = "paths"
@@ -42,8 +47,7 @@ class Variant:
     """Settings with a name.
 
     Attributes:
-        same_picture: whether it must give the base's picture to the byte; if not, it must give another one somewhere,
-            or the setting did not act.
+        same_picture: whether it must give the base's picture to the byte.
     """
 
     name: str
@@ -53,37 +57,37 @@ class Variant:
 
 
 def ladder() -> Iterator[Variant]:
-    """Samples with and without the denoiser, and adaptive sampling: what a quality chooses from."""
+    """What a quality chooses from: samples, with two kinds of denoising, without it, and adaptive."""
     for samples in LADDER:
-        for denoiser in (Denoiser.NONE, Denoiser.FAST):
-            name = f"{samples} spp" + (", OIDN fast" if denoiser is Denoiser.FAST else "")
-            yield Variant(name, Group.SAMPLES, _cycles(samples=samples, denoiser=denoiser))
-    for samples, threshold in ((32, 0.05), (64, 0.05), (64, 0.02)):
-        name = f"{samples} spp, adaptive {threshold}, OIDN fast"
-        yield Variant(name, Group.ADAPTIVE, _cycles(samples=samples, adaptive_threshold=threshold))
+        yield Variant(f"{samples} spp, OIDN", Group.SAMPLES, _cycles(samples=samples))
+        yield Variant(f"{samples} spp, OIDN unguided", Group.UNGUIDED, _cycles(samples=samples, guides=Guides.NONE))
+    for samples in PLAIN_LADDER:
+        yield Variant(f"{samples} spp", Group.PLAIN, _cycles(samples=samples, denoiser=Denoiser.NONE))
+    yield Variant("32 spp, adaptive 0.05, OIDN", Group.ADAPTIVE, _cycles(samples=32, adaptive_threshold=0.05))
 
 
 def turns() -> Iterator[Variant]:
     """The base, and one setting turned at a time."""
     yield Variant("base", Group.SAMPLES, BASE, same_picture=True)
-    for denoiser in (Denoiser.BALANCED, Denoiser.HIGH):
+    for denoiser in (Denoiser.NONE, Denoiser.BALANCED, Denoiser.HIGH):
         yield Variant(f"OIDN {denoiser}", Group.DENOISER, _cycles(denoiser=denoiser))
     for guides in (Guides.NONE, Guides.ALBEDO):
         yield Variant(f"guides {guides}", Group.DENOISER, _cycles(guides=guides))
-    for prefilter in (Prefilter.FAST, Prefilter.ACCURATE):
+    for prefilter in (Prefilter.NONE, Prefilter.ACCURATE):
         yield Variant(f"prefilter {prefilter}", Group.DENOISER, _cycles(prefilter=prefilter))
     slowest = {"denoiser": Denoiser.HIGH, "prefilter": Prefilter.ACCURATE}
     yield Variant("OIDN high, prefilter accurate", Group.DENOISER, _cycles(**slowest))
     for bounces in (0, 1, 2, 12):
         limits = {"bounces": bounces, "diffuse_bounces": min(bounces, 4), "glossy_bounces": min(bounces, 4)}
         yield Variant(f"{bounces} bounces", Group.PATHS, _cycles(**limits))
-    yield Variant("caustics", Group.PATHS, _cycles(caustics=True))
+    yield Variant("no caustics", Group.PATHS, _cycles(caustics=False))
     for clamp in (0.0, 1.0):
         yield Variant(f"clamp {clamp:g}", Group.PATHS, _cycles(clamp_indirect=clamp))
     yield Variant("light tree", Group.LIGHTS, _cycles(light_tree=True))
-    for width in (0, 64, 1024):
+    for width in (0, 256, 1024):
         yield Variant(f"world map {width or 'automatic'}", Group.LIGHTS, _cycles(world_map_px=width))
-    yield Variant("blue noise", Group.PATTERN, _cycles(pattern=Pattern.BLUE_NOISE))
+    yield Variant("Sobol", Group.PATTERN, _cycles(pattern=Pattern.SOBOL))
+    yield Variant("adaptive 0.02", Group.ADAPTIVE, _cycles(adaptive_threshold=0.02))
     for sides, points in ((6, 1), (12, 3), (40, 10)):
         detail = CableDetail(sides=sides, points_per_segment=points)
         yield Variant(f"{sides} sides, {points} rings", Group.DETAIL, _picture(detail=detail))
