@@ -16,7 +16,8 @@ from worker.made import MadeImage
 
 Pixels = NDArray[np.uint8] | NDArray[np.uint16]
 
-_COMPRESSION = [cv2.IMWRITE_PNG_COMPRESSION, 6]
+_COMPRESSION = [cv2.IMWRITE_PNG_COMPRESSION, 1, cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
+"""A quarter of the time of zlib's level 6 for rendered pictures, and within 5 % of its size."""
 
 
 def encode_png(pixels: Pixels) -> bytes:
