@@ -7,6 +7,7 @@ from rich.progress import track
 from farm.category import Category
 from farm.errors import VerificationError
 from worker.bench.bench_dataset import bench_header
+from worker.bench.render.geometry import compare_geometry, geometry_table
 from worker.bench.render.measure import Measurement
 from worker.bench.render.references import References
 from worker.bench.render.report import calibrate, ladder_table, turns_table, verdicts, write_json, write_plot
@@ -63,10 +64,13 @@ def run(out: Path, *, seed: int, scenes: int | None, turn_scenes: int | None) ->
     console.print(ladder_table(rows))
     if turned:
         console.print(turns_table(turned))
+    with blender_writes_to(log_file):
+        shapes = compare_geometry(stage, settled[: len(Category)])
+    console.print(geometry_table(shapes))
     calibration = calibrate(rows)
     for line in verdicts(calibration):
         console.print(line, highlight=False)
-    write_json(out / "render.json", [*rows, *turned], seed=seed)
+    write_json(out / "render.json", [*rows, *turned], shapes, seed=seed)
     write_plot(out / "render.png", rows)
     (out / "calibration.json").write_text(calibration.model_dump_json(indent=1) + "\n")
     idle = idle_settings(turned)

@@ -4,6 +4,7 @@ import json
 import os
 import platform
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict
 from pathlib import Path
 
 import matplotlib as mpl
@@ -13,6 +14,7 @@ from rich.table import Table
 
 from farm.category import Category
 from farm.quality import REFERENCE, CalibratedSettings, Calibration, Preset, budget_of, cheapest
+from worker.bench.render.geometry import GeometryRow
 from worker.bench.render.rows import Row, front
 from worker.bench.render.variants import Group
 
@@ -114,12 +116,13 @@ def verdicts(calibration: Calibration) -> Iterator[str]:
             yield f"{preset}: {seconds / weights:.2f} s over the published mix, realizing and rendering"
 
 
-def write_json(path: Path, rows: Sequence[Row], *, seed: int) -> None:
+def write_json(path: Path, rows: Sequence[Row], shapes: Sequence[GeometryRow], *, seed: int) -> None:
     """Write all rows with all their shots."""
     content = {
         "seed": seed,
         "machine": {"cores": os.cpu_count(), "architecture": platform.machine()},
         "reference_samples": REFERENCE.cycles.samples,
+        "geometry": [asdict(row) for row in shapes],
         "rows": [
             {
                 "variant": row.variant.name,

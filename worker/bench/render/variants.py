@@ -18,7 +18,7 @@ from farm.rendering import (
 LADDER = (2, 4, 6, 8, 12, 16)
 """Samples a pixel, with the denoiser."""
 
-PLAIN_LADDER = (16, 64)
+PLAIN_LADDER = (16, 32)
 """Without it."""
 
 BASE = PictureSettings(
