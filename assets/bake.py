@@ -1,97 +1,36 @@
-"""Drawing the surfaces into image files, once, and finding them again."""
+"""Drawing the surfaces into image files, once."""
 
 import json
 import multiprocessing
 import os
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
-from types import MappingProxyType
-from typing import Literal
 
 import cv2
 import numpy as np
 import numpy.typing as npt
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict
 
-from assets.files import read_bounded, sha256, write_atomically
+from assets.baked import (
+    FILE_NAMES,
+    LARGEST_EDGE,
+    RECORD_NAME,
+    SMALLEST_EDGE,
+    BakedSurface,
+    MapRole,
+    SurfaceRecord,
+    load_surface,
+)
+from assets.files import sha256, write_atomically
 from assets.surfaces.catalogue import SURFACES
 from assets.surfaces.maps import SurfaceMaps
-from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
+from assets.surfaces.recipe import SurfaceRecipe
 from farm.errors import AssetError
-from farm.machine import cache_folder
 
-RECORD_NAME = "surface.json"
-SMALLEST_EDGE, LARGEST_EDGE = 64, 8192
 COLOUR_QUALITY = 93
 ROUGHNESS_QUALITY = 92
-
-MapRole = Literal["colour", "normal", "roughness", "metallic"]
-
-FILE_NAMES: Mapping[MapRole, str] = MappingProxyType(
-    {
-        "colour": "colour.jpg",
-        # JPEG's blocks would show as dents in what a glossy floor reflects.
-        "normal": "normal.png",
-        "roughness": "roughness.jpg",
-        "metallic": "metallic.jpg",
-    }
-)
-
-
-class SurfaceRecord(BaseModel):
-    """What `surface.json` says about a baked surface.
-
-    Attributes:
-        name: The recipe's name, also the folder's.
-        family: What the surface is made of.
-        size_m: Edge of the square tile in metres.
-        pixels: Texels along an edge.
-        recipe_version: Version of the recipe that drew it.
-        metallic: One value for the whole surface, 0 to 1; None where there is a map.
-        sha256: Checksum of each map's file.
-    """
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    name: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
-    family: SurfaceFamily
-    size_m: float = Field(gt=0, le=10, allow_inf_nan=False)
-    pixels: int = Field(ge=SMALLEST_EDGE, le=LARGEST_EDGE)
-    recipe_version: int = Field(ge=1)
-    metallic: float | None = Field(ge=0, le=1)
-    sha256: dict[MapRole, str]
-
-
-class BakedSurface(BaseModel):
-    """A surface on disk, checked.
-
-    Attributes:
-        directory: Folder that holds its files.
-        record: What is known of it.
-    """
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    directory: Path
-    record: SurfaceRecord
-
-    def path(self, role: MapRole) -> Path:
-        """File of a map.
-
-        Args:
-            role: Which map.
-
-        Returns:
-            Its path.
-
-        Raises:
-            AssetError: The surface has no such map (only `metallic` may be missing).
-        """
-        if role not in self.record.sha256:
-            raise AssetError(f"{self.directory}: has no {role} map; use the value in its {RECORD_NAME}")
-        return self.directory / FILE_NAMES[role]
 
 
 class BakedSet(BaseModel):
@@ -108,14 +47,6 @@ class BakedSet(BaseModel):
     directory: Path
     surfaces: tuple[BakedSurface, ...]
     drawn: tuple[str, ...]
-
-
-def surface_directory() -> Path:
-    """Where surfaces are kept: FARM_ASSETS, or `cable-farm/surfaces` in the user's cache folder."""
-    chosen = os.environ.get("FARM_ASSETS")
-    if chosen:
-        return Path(chosen).expanduser()
-    return cache_folder() / "surfaces"
 
 
 def bake_surfaces(
@@ -158,28 +89,9 @@ def bake_surfaces(
         if progress is not None:
             progress(name)
     for name in missing:
-        ready[name] = _load(directory / name)
+        ready[name] = load_surface(directory, name)
     ordered = tuple(ready[recipe.name] for recipe in recipes)
     return BakedSet(directory=directory, surfaces=ordered, drawn=tuple(missing))
-
-
-def load_baked(directory: Path) -> Mapping[str, BakedSurface]:
-    """Find the baked surfaces in a folder and check every file against its checksum.
-
-    Args:
-        directory: A folder that `bake_surfaces` has filled.
-
-    Returns:
-        Name to surface, sorted by name.
-
-    Raises:
-        AssetError: There are none, or one is incomplete or damaged.
-    """
-    records = sorted(directory.glob(f"*/{RECORD_NAME}"))
-    if not records:
-        raise AssetError(f"{directory}: no surfaces here; run 'farm assets build'")
-    surfaces = {record.parent.name: _load(record.parent) for record in records}
-    return MappingProxyType(surfaces)
 
 
 def recipe_generator(recipe: SurfaceRecipe) -> np.random.Generator:
@@ -200,7 +112,7 @@ def _chosen(names: Iterable[str] | None) -> tuple[SurfaceRecipe, ...]:
 def _present(directory: Path, recipe: SurfaceRecipe, pixels: int) -> BakedSurface | None:
     """The surface on disk, or None unless it is whole and just as a bake would draw it now."""
     try:
-        surface = _load(directory / recipe.name)
+        surface = load_surface(directory, recipe.name)
     except AssetError:
         return None
     found = surface.record
@@ -208,29 +120,6 @@ def _present(directory: Path, recipe: SurfaceRecipe, pixels: int) -> BakedSurfac
     if (found.family, found.size_m, found.recipe_version, found.pixels) != wanted:
         return None
     return surface
-
-
-def _load(directory: Path) -> BakedSurface:
-    record_path = directory / RECORD_NAME
-    repair = "run 'farm assets build' to draw it afresh"
-    try:
-        record = SurfaceRecord.model_validate_json(read_bounded(record_path))
-    except ValidationError as error:
-        first = error.errors()[0]
-        place = ".".join(str(part) for part in first["loc"])
-        raise AssetError(f"{record_path}: {place} {first['msg']}; {repair}") from error
-    if record.name != directory.name:
-        raise AssetError(f"{record_path}: is about {record.name!r}, not {directory.name!r}; {repair}")
-    expected = {"colour", "normal", "roughness"} | ({"metallic"} if record.metallic is None else set())
-    if record.sha256.keys() != expected:
-        raise AssetError(f"{record_path}: lists the maps {sorted(record.sha256)}, not {sorted(expected)}; {repair}")
-    for role, checksum in record.sha256.items():
-        path = directory / FILE_NAMES[role]
-        if not path.is_file():
-            raise AssetError(f"{path}: is missing; {repair}")
-        if sha256(read_bounded(path)) != checksum:
-            raise AssetError(f"{path}: differs from its checksum in {RECORD_NAME}; {repair}")
-    return BakedSurface(directory=directory, record=record)
 
 
 def _bake_all(directory: Path, names: list[str], pixels: int, processes: int) -> Iterator[str]:

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from assets.bake import load_baked, surface_directory
+from assets.baked import load_baked, surface_directory
 from assets.surfaces.catalogue import SURFACES
 from farm.errors import AssetError
 from farm.local.redis_server import find_redis_server

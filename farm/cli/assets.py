@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from assets.bake import load_baked, surface_directory
+from assets.baked import load_baked, surface_directory
 from assets.hdris import registry
 from assets.surfaces.catalogue import SURFACES
 from farm.asset_source import InstalledAssets

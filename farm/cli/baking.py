@@ -6,7 +6,8 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import Progress
 
-from assets.bake import BakedSet, bake_surfaces, surface_directory
+from assets.bake import BakedSet, bake_surfaces
+from assets.baked import surface_directory
 from farm.category import Background
 from farm.header import BuiltinSurfaceRef, DatasetHeader
 

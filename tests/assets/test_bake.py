@@ -6,7 +6,8 @@ import cv2
 import numpy as np
 import pytest
 
-from assets.bake import BakedSet, bake_surfaces, load_baked, recipe_generator, surface_directory
+from assets.bake import BakedSet, bake_surfaces, recipe_generator
+from assets.baked import load_baked, surface_directory
 from assets.surfaces.catalogue import SURFACES
 from farm.errors import AssetError
 

@@ -1,0 +1,50 @@
+"""Asset files, found by the names that scenes use."""
+
+from pathlib import Path
+
+import pytest
+
+from assets.bake import bake_surfaces
+from farm.errors import AssetError
+from farm.header import BuiltinSurfaceRef, DatasetHeader
+from worker.library import AssetLibrary
+
+SHOWN, OTHER = "stucco", "galvanised_steel"
+
+
+@pytest.fixture(scope="module")
+def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two small surfaces, one of which is damaged."""
+    folder = tmp_path_factory.mktemp("surfaces")
+    bake_surfaces(folder, pixels=64, names=[SHOWN, OTHER], processes=1)
+    (folder / OTHER / "colour.jpg").write_bytes(b"damaged")
+    return folder
+
+
+def library(header: DatasetHeader, baked: Path, name: str, version: int = 1) -> AssetLibrary:
+    """A library of a header that names one surface."""
+    surface = BuiltinSurfaceRef(name=name, recipe_version=version)
+    return AssetLibrary(header.model_copy(update={"surfaces": (surface,)}), baked)
+
+
+def test_a_surface_is_found_whatever_the_others_are_like(header: DatasetHeader, baked: Path) -> None:
+    """Only what a scene shows is read."""
+    assert library(header, baked, SHOWN).surface(SHOWN).colour == baked / SHOWN / "colour.jpg"
+
+
+def test_a_damaged_surface_is_refused(header: DatasetHeader, baked: Path) -> None:
+    """When a scene shows it."""
+    with pytest.raises(AssetError, match=r"colour\.jpg: differs from its checksum"):
+        library(header, baked, OTHER).surface(OTHER)
+
+
+def test_a_surface_that_is_not_baked_says_what_to_run(header: DatasetHeader, baked: Path) -> None:
+    """The error names folder, surface and command."""
+    with pytest.raises(AssetError, match=r"the surface 'linen' is not baked here; run `farm assets build`"):
+        library(header, baked, "linen").surface("linen")
+
+
+def test_another_version_of_a_surface_is_refused(header: DatasetHeader, baked: Path) -> None:
+    """Its texels would be others than the dataset's."""
+    with pytest.raises(AssetError, match="is of version 1, not 99"):
+        library(header, baked, SHOWN, version=99).surface(SHOWN)
