@@ -1,4 +1,4 @@
-"""`python -m worker.bench whole|farm|masks|stress|physics|render --out DIR`."""
+"""`python -m worker.bench whole|farm|masks|stress|physics|render|startup --out DIR`."""
 
 import argparse
 import sys
@@ -31,6 +31,8 @@ def main(arguments: list[str]) -> int:
     render.add_argument("--turn-scenes", type=int, help="of them, for settings turned one at a time")
     physics = commands.add_parser("physics", parents=[shared], help="time against error of all simulators")
     physics.add_argument("--scenes", type=int, help="most scenes for each setting")
+    startup = commands.add_parser("startup", parents=[shared], help="from a worker's start to its first picture")
+    startup.add_argument("--starts", type=int, help="how often")
     options = parser.parse_args(arguments)
     options.out.mkdir(parents=True, exist_ok=True)
     try:
@@ -53,6 +55,15 @@ def _run(options: argparse.Namespace) -> int:
         from worker.bench.physics.command import run as run_physics  # noqa: PLC0415
 
         return run_physics(options.out, seed=options.seed, scenes=options.scenes)
+    if options.benchmark == "startup":
+        from worker.bench.startup.command import run as run_startup  # noqa: PLC0415
+
+        return run_startup(options.out, seed=options.seed, starts=options.starts)
+    return _run_pictures(options)
+
+
+def _run_pictures(options: argparse.Namespace) -> int:
+    """Run one that is about whole pictures."""
     if options.benchmark == "render":
         from worker.bench.render.command import run as run_render  # noqa: PLC0415
 
