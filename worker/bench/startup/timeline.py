@@ -16,14 +16,10 @@ def main(spawned_s: float, result: str) -> None:
         result: the JSON file to write.
     """
     marks = [spawned_s, time.perf_counter()]
-    from worker.loading import collector_paused  # noqa: PLC0415
-
-    with collector_paused():
-        import worker.command  # noqa: PLC0415  # what the main process imports
+    import worker.command  # noqa: PLC0415  # what the main process imports
 
     marks.append(time.perf_counter())
-    with collector_paused():
-        import worker.studio  # noqa: PLC0415  # what the child imports
+    import worker.studio  # noqa: PLC0415  # what the child imports
 
     marks.append(time.perf_counter())
     # Whatever else the measurement needs comes after the imports that it times, and between the marks.
