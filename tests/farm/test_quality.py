@@ -61,6 +61,12 @@ def test_draft_is_faster_than_standard(category: Category) -> None:
     assert rows[settings_for(Preset.DRAFT, category).settings] <= rows[settings_for(Preset.STANDARD, category).settings]
 
 
+@pytest.mark.parametrize("category", Category)
+def test_standard_takes_enough_samples_for_smooth_edges(category: Category) -> None:
+    """Far pictures would do with two by their mean error, and cables have ragged edges then."""
+    assert settings_for(Preset.STANDARD, category).settings.cycles.samples >= 6
+
+
 def test_the_reference_leaves_nothing_out() -> None:
     """And has no expected error, being what errors are measured against."""
     chosen = settings_for(Preset.REFERENCE, Category.FAR)
