@@ -98,8 +98,8 @@ class ChosenSettings(Model):
 
 STANDARD_SAMPLES = 6
 
-_DRAFT, _STANDARD = Budget(flip=0.06), Budget(flip=0.03, psnr_db=35.0, samples=STANDARD_SAMPLES)
-_DRAFT_HDRI_FLOOR, _STANDARD_HDRI_FLOOR = Budget(flip=0.09), Budget(flip=0.05, psnr_db=35.0, samples=STANDARD_SAMPLES)
+BACKDROP_SAMPLES = 12
+"""Where cables are laid over a backdrop: how much of a pixel they cover is not denoised."""
 
 REFERENCE = PictureSettings(
     cycles=CyclesSettings(
@@ -127,13 +127,14 @@ def read_quality(text: str) -> str | float:
 
 def budget_of(quality: Quality, category: Category) -> Budget:
     """What a quality, other than `REFERENCE`, asks of a category: a textured floor under an HDRI is the noisiest."""
-    if isinstance(quality, float):
-        return Budget(flip=quality, samples=STANDARD_SAMPLES)
     traits = category.traits
     hdri_floor = traits.background is Background.FLOOR and traits.light is Light.DISTRIBUTED
     if quality is Preset.DRAFT:
-        return _DRAFT_HDRI_FLOOR if hdri_floor else _DRAFT
-    return _STANDARD_HDRI_FLOOR if hdri_floor else _STANDARD
+        return Budget(flip=0.09 if hdri_floor else 0.06)
+    samples = BACKDROP_SAMPLES if traits.background is Background.HDRI else STANDARD_SAMPLES
+    if isinstance(quality, float):
+        return Budget(flip=quality, samples=samples)
+    return Budget(flip=0.05 if hdri_floor else 0.03, psnr_db=35.0, samples=samples)
 
 
 def _keeps_to(row: CalibratedSettings, budget: Budget) -> bool:
