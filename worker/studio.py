@@ -11,7 +11,8 @@ import numpy as np
 
 from blend.build import TEMPLATE
 from blend.contract import open_template
-from farm.errors import SceneError
+from farm.category import Category
+from farm.errors import SceneError, SpecError
 from farm.header import DatasetHeader, FileRef
 from farm.job import Job
 from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
@@ -74,6 +75,7 @@ class Studio:
         """Make one picture; see `worker.made.ImageMaker`.
 
         Raises:
+            SpecError: if the header does not say how the category is rendered.
             SceneError: if no drawn scene passed the checks.
             AssetError: if a texture or HDRI can't be had.
             RenderError: if Blender gives no picture.
@@ -83,7 +85,7 @@ class Studio:
         # Opening is paid once, by the first picture of the process.
         timings = {"open": self._open_s, "randomize": 0.0, "simulate": 0.0, "check": 0.0}
         self._open_s = 0.0
-        spec, chosen = header.spec, header.rendering.get(job.category, eevee.CHOSEN)
+        spec, chosen = header.spec, _chosen_settings(header, job.category)
         scene, shapes, settled, rejected = self._settle(job, header, timings)
         with _timed(timings, "realize"):
             behind = self._realize(job, spec, chosen.settings, scene, shapes)
@@ -159,6 +161,16 @@ class Studio:
         raise SceneError(
             f"{job.id}: none of {len(rejected)} drawn scenes passed the checks; the last: {rejected[-1].reason}"
         )
+
+
+def _chosen_settings(header: DatasetHeader, category: Category) -> ChosenSettings:
+    if header.spec.engine is Engine.EEVEE:
+        return eevee.CHOSEN
+    if category not in header.rendering:
+        raise SpecError(
+            f"dataset.json does not say how {category} is rendered; submit a new dataset"
+        )
+    return header.rendering[category]
 
 
 def label(scene: Scene, shapes: CableShapes, detail: CableDetail, resolution: int) -> Labels:

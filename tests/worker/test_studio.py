@@ -14,7 +14,7 @@ from blend.contract import open_template  # noqa: E402
 from farm.asset_source import InstalledAssets  # noqa: E402
 from farm.catalogue import Inputs, make_header, template_ref  # noqa: E402
 from farm.category import Background, Category  # noqa: E402
-from farm.errors import AssetError, EnvironmentMissingError, SceneError, TemplateError  # noqa: E402
+from farm.errors import AssetError, EnvironmentMissingError, SceneError, SpecError, TemplateError  # noqa: E402
 from farm.header import DatasetHeader, FileRef  # noqa: E402
 from farm.job import Job  # noqa: E402
 from farm.spec import parse_spec  # noqa: E402
@@ -60,6 +60,14 @@ def test_every_category_gives_a_lit_picture_with_its_mask(studio: Studio, catego
     assert made.image.std() > 3
     assert 0.005 < np.mean(made.mask == 255) < 0.6
     assert ((made.instances > 0) == (made.mask == 255)).all()
+
+
+def test_a_header_without_settings_is_refused(baked: Path) -> None:
+    """One that another farm wrote is not rendered with settings of this one's own."""
+    header = small_header().model_copy(update={"rendering": {}})
+    studio = open_studio(header, device="cpu", threads=0, assets=baked)
+    with pytest.raises(SpecError, match="does not say how far is rendered"):
+        studio.make(Job(category=Category.FAR, index=0), header)
 
 
 def test_a_cable_pixel_looks_unlike_the_picture_without_cables(studio: Studio) -> None:

@@ -8,7 +8,7 @@ import bpy
 
 from blend import names
 from farm.quality import REFERENCE
-from farm.rendering import CyclesSettings, Denoiser, Guides, PictureSettings, Prefilter
+from farm.rendering import Denoiser, PictureSettings, Prefilter
 from worker.bench.render.stage_set import SettledScene, Stage
 
 
@@ -37,18 +37,14 @@ _AUTOMATIC = {"adaptive_min_samples": 0, "sampling_pattern": "AUTOMATIC"}
 
 BLENDER = Rendering(
     PictureSettings(
-        cycles=CyclesSettings(
-            samples=4096,
-            adaptive_threshold=0.01,
-            bounces=12,
-            diffuse_bounces=4,
-            glossy_bounces=4,
-            caustics=True,
-            denoiser=Denoiser.HIGH,
-            guides=Guides.ALBEDO_NORMAL,
-            prefilter=Prefilter.ACCURATE,
-            light_tree=True,
-            world_map_px=0,
+        cycles=REFERENCE.cycles.model_copy(
+            update={
+                "samples": 4096,
+                "adaptive_threshold": 0.01,
+                "denoiser": Denoiser.HIGH,
+                "prefilter": Prefilter.ACCURATE,
+                "light_tree": True,
+            }
         ),
         economy=REFERENCE.economy,
     ),
