@@ -167,9 +167,7 @@ def _chosen_settings(header: DatasetHeader, category: Category) -> ChosenSetting
     if header.spec.engine is Engine.EEVEE:
         return eevee.CHOSEN
     if category not in header.rendering:
-        raise SpecError(
-            f"dataset.json does not say how {category} is rendered; submit a new dataset"
-        )
+        raise SpecError(f"dataset.json does not say how {category} is rendered; submit a new dataset")
     return header.rendering[category]
 
 
