@@ -2,7 +2,6 @@
 
 import ctypes
 import importlib.util
-import os
 import platform
 import shutil
 import subprocess
@@ -14,6 +13,7 @@ from assets.baked import load_baked, surface_directory
 from assets.surfaces.catalogue import SURFACES
 from farm.errors import AssetError
 from farm.local.redis_server import find_redis_server
+from farm.machine import memory_bytes, usable_cores
 from farm.model import Model
 
 _MEMORY_GIB = 4.0
@@ -191,12 +191,12 @@ def _flower() -> Check:
 
 
 def _cores() -> Check:
-    count = os.cpu_count() or 1
+    count = usable_cores()
     return Check(name="processor cores", ok=True, needed=False, detail=str(count))
 
 
 def _memory() -> Check:
-    total_gib = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    total_gib = memory_bytes() / 2**30
     ok = total_gib >= _MEMORY_GIB
     remedy = "" if ok else "farm run --workers 1"
     return Check(name="memory", ok=ok, needed=False, detail=f"{total_gib:.1f} GiB", remedy=remedy)

@@ -1,4 +1,4 @@
-"""What tells this machine from all others: process numbers mean nothing elsewhere."""
+"""This machine: what tells it from all others, where its user's cache is, what it has to work with."""
 
 import functools
 import os
@@ -28,3 +28,15 @@ def cache_folder() -> Path:
     """Where this user keeps what can be made again: `cable-farm` below XDG_CACHE_HOME or ~/.cache."""
     cache = os.environ.get("XDG_CACHE_HOME")
     return (Path(cache) if cache else Path.home() / ".cache") / "cable-farm"
+
+
+def usable_cores() -> int:
+    """How many cores this process may run on."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def memory_bytes() -> int:
+    """How much memory the machine has."""
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")

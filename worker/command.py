@@ -17,6 +17,7 @@ from farm.job import Job
 from farm.queue.broker import broker_url
 from farm.queue.settings import MEMORY_PER_CHILD_KIB, TASKS_PER_CHILD
 from farm.storage import LocalStorage
+from worker.cores import only_so_many_seen
 from worker.made import ImageMaker
 from worker.process import WorkerSettings, prepare_log, send_output_to, serve
 from worker.runner import MakerFactory
@@ -36,8 +37,9 @@ class OpenStudio(Protocol):
 
 
 def _open_blender(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> ImageMaker:
-    # Importing it loads Blender, which must not be in a process that forks.
-    from worker.studio import open_studio  # noqa: PLC0415
+    with only_so_many_seen(threads):
+        # Importing it loads Blender, which must not be in a process that forks.
+        from worker.studio import open_studio  # noqa: PLC0415
 
     return open_studio(header, device=device, threads=threads, assets=assets)
 

@@ -7,6 +7,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import bpy
+import cv2
 import numpy as np
 
 from blend.build import TEMPLATE
@@ -66,6 +67,7 @@ class Studio:
         bpy.context.preferences.filepaths.use_auto_save_temporary_files = False
         self._device = choose_device(device)
         self._threads = threads
+        cv2.setNumThreads(threads or -1)
         self._library = AssetLibrary(header, assets)
         self._shelf = ImageShelf()
         self._fingerprint = header.spec_sha256

@@ -1,6 +1,5 @@
 """`farm run`: a dataset, made on this machine, with nothing installed or left running."""
 
-import os
 from typing import Annotated
 
 import typer
@@ -14,7 +13,8 @@ from farm.cli.worker_program import ask_worker, check_device, require_blender
 from farm.dataset import find_dataset, open_dataset, parse_destination
 from farm.errors import IncompleteError
 from farm.layout import REPORT_FILE
-from farm.local.run import LocalRun, run_locally
+from farm.local.run import LocalRun, default_workers, run_locally
+from farm.machine import usable_cores
 from farm.report import write_overview
 
 
@@ -22,7 +22,10 @@ from farm.report import write_overview
 def run(
     options: DatasetOptions,
     out: Out,
-    workers: Annotated[int, typer.Option(min=1, max=256, help="Processes, each with a Blender of its own.")] = 2,
+    workers: Annotated[
+        int | None,
+        typer.Option(min=1, max=256, help="Processes, each with a Blender; default: one a core, in 2 GiB each."),
+    ] = None,
     device: Device = DeviceChoice.AUTO,
     threads: Annotated[
         int | None, typer.Option(min=1, help="Of each worker's renderer; default: the cores divided by the workers.")
@@ -44,10 +47,11 @@ def run(
     bake_for(header, assets, screen)
     if description.inputs.template is not None:
         ask_worker(["check"], header, log_folder(logs))
+    workers = workers or default_workers()
     how = LocalRun(
         workers=workers,
         device=device,
-        threads=threads or max(1, (os.cpu_count() or 1) // workers),
+        threads=threads or max(1, usable_cores() // workers),
         assets=assets,
         logs=log_folder(logs),
     )

@@ -11,6 +11,7 @@ from farm.cli.baking import bake
 from farm.cli.display import console
 from farm.cli.options import Assets, Broker, Device, DeviceChoice, Logs, log_folder
 from farm.cli.worker_program import become_worker, check_device, require_blender
+from farm.machine import usable_cores
 from farm.queue.broker import broker_url, connect
 from farm.queue.settings import MEMORY_PER_CHILD_KIB, TASKS_PER_CHILD
 from farm.storage import open_storage
@@ -22,7 +23,9 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
     ],
     broker: Broker = None,
     device: Device = DeviceChoice.AUTO,
-    threads: Annotated[int, typer.Option(min=0, help="Of the renderer; 0: all cores.")] = 0,
+    threads: Annotated[
+        int | None, typer.Option(min=1, help="Of each renderer; default: the cores divided by the concurrency.")
+    ] = None,
     concurrency: Annotated[int, typer.Option(min=1, help="Pictures at a time, each with a Blender of its own.")] = 1,
     name: Annotated[str | None, typer.Option(help="Unique on this host; Flower shows it.")] = None,
     tasks_per_child: Annotated[int, typer.Option(min=1, help="A Blender is replaced after so many.")] = TASKS_PER_CHILD,
@@ -41,7 +44,8 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
     check_device(device, log_folder(logs))
     bake(SURFACES, assets, console())
     arguments = ["serve", "--store", store]
-    arguments += ["--name", name or f"worker-{os.getpid()}", "--device", device, "--threads", str(threads)]
+    arguments += ["--name", name or f"worker-{os.getpid()}", "--device", device]
+    arguments += ["--threads", str(threads or max(1, usable_cores() // concurrency))]
     arguments += ["--concurrency", str(concurrency), "--tasks-per-child", str(tasks_per_child)]
     arguments += ["--memory-per-child-kib", str(memory_per_child_mib * 1024), "--logs", str(log_folder(logs))]
     if assets is not None:

@@ -10,10 +10,14 @@ from farm.header import DatasetHeader
 from farm.ledger.redis import RedisLedger
 from farm.local.redis_server import private_redis
 from farm.local.workers import WORKER_COMMAND, LocalWorkers, WorkerOptions
+from farm.machine import memory_bytes, usable_cores
 from farm.progress import Progress
 from farm.queue.broker import connect
 from farm.queue.celery import CeleryQueue
 from farm.queue.settings import make_app
+
+_WORKER_BYTES = 2 * 2**30
+"""Left free for each worker: Blender, the solver, textures."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +41,11 @@ class LocalRun:
     logs: Path
     worker_command: Sequence[str] = WORKER_COMMAND
     lost_after_s: float = LOST_AFTER_S
+
+
+def default_workers() -> int:
+    """A worker for each core, as far as memory goes: one thread each makes more pictures an hour than one of many."""
+    return max(1, min(usable_cores(), memory_bytes() // _WORKER_BYTES))
 
 
 def run_locally(

@@ -1,7 +1,6 @@
 """`farm run`, and what `farm submit` and `farm worker` refuse as it does."""
 
 import importlib
-import os
 from pathlib import Path
 
 import pytest
@@ -56,10 +55,16 @@ def test_name_that_is_none(farm: Farm) -> None:
 
 @pytest.mark.parametrize(
     ("options", "threads"),
-    [([], 3), (["--workers", "4"], 1), (["--workers", "16"], 1), (["--workers", "1", "--threads", "5"], 5)],
+    [
+        ([], 1),
+        (["--workers", "2"], 3),
+        (["--workers", "4"], 1),
+        (["--workers", "16"], 1),
+        (["--workers", "1", "--threads", "5"], 5),
+    ],
 )
 def test_threads_of_each_worker(farm: Farm, monkeypatch: pytest.MonkeyPatch, options: list[str], threads: int) -> None:
-    """As told, else the cores divided by the workers, two by default, and at least one."""
+    """As told, else the cores divided by the workers, one a core by default, and at least one."""
     used: list[int] = []
 
     def note(_: object, __: object, how: LocalRun, ___: object) -> None:
@@ -67,7 +72,9 @@ def test_threads_of_each_worker(farm: Farm, monkeypatch: pytest.MonkeyPatch, opt
         raise EnvironmentMissingError("far enough")
 
     module = importlib.import_module("farm.cli.run")
-    monkeypatch.setattr(os, "cpu_count", lambda: 6)
+    monkeypatch.setattr(farm.local.run, "memory_bytes", lambda: 2**40)
+    for place in (farm.local.run, module):
+        monkeypatch.setattr(place, "usable_cores", lambda: 6)
     monkeypatch.setattr(module, "run_locally", note)
     for step in ("require_blender", "check_device", "bake_for"):
         monkeypatch.setattr(module, step, lambda *_: None)

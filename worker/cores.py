@@ -1,0 +1,28 @@
+"""How many of the machine's cores the libraries of this process see."""
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+
+@contextmanager
+def only_so_many_seen(threads: int) -> Iterator[None]:
+    """Show what is loaded inside `with` so many cores; afterwards this process may run on all of its own again.
+
+    Blender's task scheduler (oneTBB) counts cores once, as Blender is loaded, and starts a thread for each. Threads
+    beyond those that a render is told to take do not sleep: waiting for work, they keep a core busy each, which is then
+    missing to the worker beside this one.
+
+    Args:
+        threads: 0 shows all.
+    """
+    if not hasattr(os, "sched_setaffinity"):
+        yield
+        return
+    allowed = os.sched_getaffinity(0)
+    seen = set(sorted(allowed)[:threads]) if threads else allowed
+    os.sched_setaffinity(0, seen)
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, allowed)
