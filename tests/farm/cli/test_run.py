@@ -8,6 +8,7 @@ import redis
 
 from farm.dataset import Dataset
 from farm.errors import ConflictError, DestinationError, EnvironmentMissingError
+from farm.local import run as local_run
 from farm.local.run import LocalRun
 from tests.farm.cli.result import Farm, assert_refused
 
@@ -72,8 +73,8 @@ def test_threads_of_each_worker(farm: Farm, monkeypatch: pytest.MonkeyPatch, opt
         raise EnvironmentMissingError("far enough")
 
     module = importlib.import_module("farm.cli.run")
-    monkeypatch.setattr(farm.local.run, "memory_bytes", lambda: 2**40)
-    for place in (farm.local.run, module):
+    monkeypatch.setattr(local_run, "memory_bytes", lambda: 2**40)
+    for place in (local_run, module):
         monkeypatch.setattr(place, "usable_cores", lambda: 6)
     monkeypatch.setattr(module, "run_locally", note)
     for step in ("require_blender", "check_device", "bake_for"):
