@@ -49,8 +49,8 @@ class Budget(Model):
     Attributes:
         flip: mean FLIP, at most.
         psnr_db: peak signal over noise, at least.
-        samples: a pixel, at least. With fewer, edges of cables are ragged, which a mean over a picture that is mostly
-            backdrop does not tell.
+        samples: a pixel, at least. With fewer, cables are ragged or smeared, which a mean over a picture that is mostly
+            something else does not tell.
     """
 
     flip: float
@@ -98,8 +98,8 @@ class ChosenSettings(Model):
 
 STANDARD_SAMPLES = 6
 
-BACKDROP_SAMPLES = 12
-"""Where cables are laid over a backdrop: how much of a pixel they cover is not denoised."""
+BACKDROP_SAMPLES = 4
+"""Where cables are laid over a backdrop, as how much of a pixel they cover is exact with any number of samples."""
 
 REFERENCE = PictureSettings(
     cycles=CyclesSettings(

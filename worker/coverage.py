@@ -59,6 +59,18 @@ def cover(quads_px: NDArray[np.float64], numbers: Ints, rows: int, width: int) -
     return winners.reshape(rows, width)
 
 
+def covered_share(quads_px: NDArray[np.float64], rows: int, width: int) -> NDArray[np.float32]:
+    """Find how much of each pixel is covered; see `cover`.
+
+    Returns:
+        (rows, width), 0 to 1.
+    """
+    together = np.ones(len(quads_px), np.int64)
+    pixels, shares, _ = _by_pixel(_uppermost(_scan(quads_px, together, rows, width), width), width)
+    steps = np.bincount(pixels, weights=shares, minlength=rows * width)
+    return (steps / _FULL).astype(np.float32).reshape(rows, width)
+
+
 def _scan(quads_px: NDArray[np.float64], numbers: Ints, rows: int, width: int) -> _Stretches:
     """Cut the quads along the scanlines: their stretches, in the order of the quads, also where others hide them."""
     x, y = quads_px[:, :, 0] * STEPS, quads_px[:, :, 1] * SCANLINES - 0.5

@@ -8,8 +8,8 @@ import numpy as np
 from blend import names
 from farm.scene import Floor
 from worker.images import ImageShelf, TextureFile
-from worker.label import View
 from worker.library import SurfaceFiles
+from worker.silhouette import View
 from worker.texture_window import TextureWindow, tile_coordinates, window_on
 
 UNSEEN_FLOOR = 0.4

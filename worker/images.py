@@ -49,6 +49,7 @@ class ImageShelf:
         self._held: OrderedDict[tuple[str, object], tuple[Any, int]] = OrderedDict()
         self._constants: dict[str, Any] = {}
         self._of_picture: list[Any] = []
+        self._scratch = np.empty(0, np.float32)
 
     def begin_picture(self) -> None:
         """Let go what was made for the picture before alone."""
@@ -141,16 +142,23 @@ class ImageShelf:
 
     def _new(self, name: str, pixels: Pixels, *, colour: bool) -> Any:
         rows, columns = pixels.shape[:2]
-        scale = 1.0 if pixels.dtype == np.float32 else 255.0
-        image = bpy.data.images.new(name, columns, rows, float_buffer=scale == 1.0, is_data=not colour)
-        channels = np.ones((rows, columns, 4), np.float32)
-        # Blender counts rows from below.
-        channels[:, :, :3] = (pixels if pixels.ndim == 3 else pixels[:, :, None])[::-1]
-        channels[:, :, :3] /= np.float32(scale)
+        is_float = pixels.dtype == np.float32
+        image = bpy.data.images.new(name, columns, rows, float_buffer=is_float, is_data=not colour)
+        # Blender counts rows from below, and takes four channels in single precision whatever it keeps.
+        channels = cv2.cvtColor(pixels[::-1], cv2.COLOR_RGB2RGBA if pixels.ndim == 3 else cv2.COLOR_GRAY2RGBA)
+        if not is_float:
+            channels = np.multiply(channels, np.float32(1 / 255), out=self._scratch_like(channels))
         image.pixels.foreach_set(channels.ravel())
         image.update()
         self._of_picture.append(image)
         return image
+
+    def _scratch_like(self, array: NDArray[Any]) -> NDArray[np.float32]:
+        """Room in single precision for as many numbers, until the next call: fresh memory costs more than the sums."""
+        if self._scratch.size < array.size:
+            self._scratch = np.empty(array.size, np.float32)
+        room: NDArray[np.float32] = self._scratch[: array.size].reshape(array.shape)
+        return room
 
     def _constant(self, name: str, value: tuple[float, float, float], *, colour: bool) -> Any:
         if name not in self._constants:
@@ -198,7 +206,7 @@ def _decode(file: TextureFile) -> tuple[Texels | None, int]:
         raise AssetError(f"{file.path}: can't decode this image; replace the file")
     if pixels.dtype != np.uint8 or (pixels.ndim == 3 and pixels.shape[2] != 3):
         return None, 0
-    texels = np.ascontiguousarray(pixels[:, :, ::-1] if pixels.ndim == 3 else pixels).astype(np.uint8, copy=False)
+    texels = (cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB) if pixels.ndim == 3 else pixels).astype(np.uint8, copy=False)
     _alter(texels, 255, invert=file.invert, flip_green=file.flip_green)
     return texels, texels.nbytes
 

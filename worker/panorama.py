@@ -66,7 +66,7 @@ def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, reso
         (resolution, resolution, 3), the top row first.
     """
     pixel = SENSOR_MM / FOCAL_LENGTH_MM / resolution
-    disc = _disc(0.5e-3 * FOCAL_LENGTH_MM / camera.f_number / camera.height_m / pixel)
+    disc = _disc(lens_radius_m(camera) / camera.height_m / pixel)
     margin = disc.shape[0] // 2
     fine = _samples_per_pixel(pixel, panorama.shape[1])
     edge = resolution + 2 * margin
@@ -79,6 +79,11 @@ def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, reso
     blurred = cv2.filter2D(sharp, -1, disc)
     seen: Panorama = blurred[margin : edge - margin, margin : edge - margin].astype(np.float32, copy=False)
     return seen
+
+
+def lens_radius_m(camera: Camera) -> float:
+    """Of the lens's aperture."""
+    return 0.5e-3 * FOCAL_LENGTH_MM / camera.f_number
 
 
 def _samples_per_pixel(pixel: float, columns: int) -> int:

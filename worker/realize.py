@@ -3,6 +3,7 @@
 from typing import Any
 
 import bpy
+import numpy as np
 
 from blend import names
 from farm.category import Background, CategoryTraits
@@ -11,10 +12,11 @@ from farm.rendering import CableDetail, Economy
 from farm.scene import Cable, CableMaterial, Camera, Rgb, Scene
 from worker.floor import set_floor, set_unseen_floor
 from worker.images import ImageShelf
-from worker.label import View
 from worker.library import AssetLibrary
-from worker.panorama import Panorama
+from worker.matte import Backdrop, covered_by
+from worker.panorama import lens_radius_m
 from worker.shapes import Points, parts_near, smooth
+from worker.silhouette import View
 from worker.surroundings import backdrop_of, set_grey_world, set_hdri_world, set_lamps
 from worker.tube import Tube, sweep
 
@@ -35,7 +37,7 @@ def realize(
     resolution: int,
     detail: CableDetail,
     economy: Economy,
-) -> Panorama | None:
+) -> Backdrop | None:
     """Set the picture's scene to `scene`, with settled cables.
 
     Args:
@@ -49,7 +51,7 @@ def realize(
         economy: what is left out.
 
     Returns:
-        What is behind the cables, (resolution, resolution, 3) linear light, if the renderer is to leave it out.
+        What is behind the cables, if the renderer is to leave it out.
 
     Raises:
         AssetError: if a texture or HDRI can't be had.
@@ -59,8 +61,9 @@ def realize(
         shelf.forget()
     remove_cables()
     view = View(height_m=scene.camera.height_m, resolution=resolution)
-    for number, (cable, nodes) in enumerate(zip(scene.cables, nodes_m, strict=True), start=1):
-        _add_cable(number, cable, nodes, detail, view if economy.cables_in_view else None)
+    curves = [smooth(nodes, detail.points_per_segment) for nodes in nodes_m]
+    for number, (cable, curve) in enumerate(zip(scene.cables, curves, strict=True), start=1):
+        _add_cable(number, cable, curve, detail, view if economy.cables_in_view else None)
     if scene.floor is None:
         set_unseen_floor(shelf)
     else:
@@ -70,12 +73,15 @@ def realize(
     if scene.hdri_world is None:
         set_grey_world()
         return None
-    behind = None
+    light = None
     if traits.background is Background.HDRI and economy.backdrop and _has_round_aperture():
-        behind = backdrop_of(scene.hdri_world, scene.camera, resolution, library, shelf)
-    is_seen = traits.background is Background.HDRI and behind is None
+        light = backdrop_of(scene.hdri_world, scene.camera, resolution, library, shelf)
+    is_seen = traits.background is Background.HDRI and light is None
     set_hdri_world(scene.hdri_world, library, shelf, only_lights=economy.upper_world and not is_seen)
-    return behind
+    if light is None:
+        return None
+    radii_m = np.array([cable.diameter_m / 2 for cable in scene.cables])
+    return Backdrop(light, covered_by(curves, radii_m, view, lens_radius_m(scene.camera), detail.sides))
 
 
 def remove_cables() -> None:
@@ -86,10 +92,9 @@ def remove_cables() -> None:
             collection.remove(block)
 
 
-def _add_cable(number: int, cable: Cable, nodes: Points, detail: CableDetail, view: View | None) -> None:
+def _add_cable(number: int, cable: Cable, curve: Points, detail: CableDetail, view: View | None) -> None:
     """Add a cable; of one that leaves the view, the parts that are seen or may throw a shadow into it."""
     material = _cable_material(f"{names.CABLE}.{number}", cable.material)
-    curve = smooth(nodes, detail.points_per_segment)
     if view is None:
         parts = [slice(0, len(curve))]
     else:

@@ -13,7 +13,7 @@ from blend import names
 from farm.errors import RenderError
 from farm.rendering import CyclesSettings, Denoiser, Pattern, PictureSettings
 from worker.eevee import light_with_a_spot
-from worker.panorama import Panorama
+from worker.matte import Backdrop, lay_over
 
 ADAPTIVE_LEAST_SAMPLES = 4
 """Taken of every pixel before noise is looked at."""
@@ -102,11 +102,11 @@ def _find_bright_parts(world: Any, map_px: int) -> None:
         world.cycles.sample_map_resolution = map_px
 
 
-def render_picture(behind: Panorama | None = None) -> NDArray[np.uint8]:
+def render_picture(behind: Backdrop | None = None) -> NDArray[np.uint8]:
     """Render the picture's scene as configured.
 
     Args:
-        behind: (H, W, 3) linear light of what is behind all that is rendered; None if the scene has it all.
+        behind: what is behind all that is rendered; None if the scene has it all.
 
     Returns:
         (H, W, 3) uint8 sRGB.
@@ -135,7 +135,7 @@ def _render_into(scene: Any, target: Path) -> None:
         raise RenderError(f"Blender failed to render: {' '.join(str(error).split())}") from error
 
 
-def _render_before(scene: Any, behind: Panorama, target: Path) -> None:
+def _render_before(scene: Any, behind: Backdrop, target: Path) -> None:
     """Render without the world, and put it behind in linear light, before Blender's view transform."""
     light = target.with_suffix(".exr")
     settings = scene.render.image_settings
@@ -153,13 +153,13 @@ def _render_before(scene: Any, behind: Panorama, target: Path) -> None:
         settings.file_format, settings.color_mode, settings.color_depth, settings.compression = "PNG", "RGB", "8", 0
     image = bpy.data.images.load(str(light))
     try:
-        pixels = np.empty(behind.shape[0] * behind.shape[1] * 4, np.float32)
-        if tuple(image.size) != (behind.shape[1], behind.shape[0]):
+        rows, columns = behind.covered.shape
+        pixels = np.empty(rows * columns * 4, np.float32)
+        if tuple(image.size) != (columns, rows):
             raise RenderError("Blender ended a render without writing a picture; see the worker's log")
         image.pixels.foreach_get(pixels)
-        layers = pixels.reshape(*behind.shape[:2], 4)
-        # Blender's rows go up, and colours hold their share of the pixel already.
-        layers[:, :, :3] += (1.0 - layers[:, :, 3:]) * behind[::-1]
+        layers = pixels.reshape(rows, columns, 4)[::-1]  # Blender's rows go up
+        layers[:, :, :3] = lay_over(np.ascontiguousarray(layers[:, :, :3]), behind)
         layers[:, :, 3] = 1.0
         image.pixels.foreach_set(pixels)
         image.save_render(str(target), scene=scene)

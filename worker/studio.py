@@ -26,14 +26,15 @@ from worker.check import find_fault
 from worker.devices import choose_device
 from worker.gates import measure
 from worker.images import ImageShelf
-from worker.label import Labels, View, label_cables
+from worker.label import Labels, label_cables
 from worker.library import AssetLibrary, checked
 from worker.made import MadeImage
-from worker.panorama import Panorama
+from worker.matte import Backdrop
 from worker.randomize import draw_scene
 from worker.realize import realize
 from worker.render import configure_cycles, configure_eevee, configure_picture, render_picture
 from worker.shapes import CableShapes, smooth
+from worker.silhouette import View
 from worker.simulate import let_fall
 
 
@@ -110,7 +111,7 @@ class Studio:
 
     def _realize(
         self, job: Job, spec: DatasetSpec, settings: PictureSettings, scene: Scene, shapes: CableShapes
-    ) -> Panorama | None:
+    ) -> Backdrop | None:
         """Set the scene; returns what is behind it, if the renderer is to leave that out."""
         return realize(
             scene,

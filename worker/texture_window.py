@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from farm.scene import Floor
-from worker.label import View
+from worker.silhouette import View
 
 MARGIN = 0.06
 """Of the view's width, on each side: what the pixel filter, blur and a tilt of the floor's normals may reach."""

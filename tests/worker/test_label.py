@@ -5,9 +5,10 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
-import worker.label
-from worker.label import View, label_cables
+import worker.silhouette
+from worker.label import label_cables
 from worker.shapes import Points
+from worker.silhouette import View
 from worker.tube import sweep
 
 RADIUS = 0.001
@@ -99,7 +100,7 @@ def test_bands_leave_no_trace(monkeypatch: pytest.MonkeyPatch) -> None:
     """Labelled a few rows at a time, a picture is the same."""
     cables = bar(10.0), bar(75.0, z=3 * RADIUS), bar(0.0, z=5 * RADIUS, shift=0.01)
     whole = label(*cables)
-    monkeypatch.setattr(worker.label, "_BAND_PIXELS", 7 * 256)
+    monkeypatch.setattr(worker.silhouette, "_BAND_PIXELS", 7 * 256)
     banded = label(*cables)
     assert (whole[0] == banded[0]).all()
     assert (whole[1] == banded[1]).all()

@@ -23,7 +23,7 @@ from farm.rendering import CableDetail, CyclesSettings, Denoiser, Economy, Pictu
 from farm.spec import parse_spec  # noqa: E402
 from worker.images import ImageShelf  # noqa: E402
 from worker.library import AssetLibrary  # noqa: E402
-from worker.panorama import Panorama  # noqa: E402
+from worker.matte import Backdrop  # noqa: E402
 from worker.randomize import draw_scene  # noqa: E402
 from worker.realize import realize  # noqa: E402
 from worker.render import configure_cycles, configure_picture, render_picture  # noqa: E402
@@ -51,7 +51,7 @@ def library(header: DatasetHeader, tmp_path: Path) -> AssetLibrary:
     return AssetLibrary(header, tmp_path)
 
 
-def set_up(header: DatasetHeader, library: AssetLibrary, job: Job, samples: int, economy: Economy) -> Panorama | None:
+def set_up(header: DatasetHeader, library: AssetLibrary, job: Job, samples: int, economy: Economy) -> Backdrop | None:
     """Make a job's scene ready to render."""
     scene = draw_scene(header, job, 0)
     shapes = let_fall(scene, header.spec.simulator, header.spec.fall)

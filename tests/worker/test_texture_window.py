@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from farm.scene import Floor
-from worker.label import View
+from worker.silhouette import View
 from worker.texture_window import TextureWindow, tile_coordinates, window_on
 
 SIZE_M = 0.4

@@ -15,7 +15,7 @@ from farm.rendering import PictureSettings
 from farm.scene import Scene
 from worker.images import ImageShelf
 from worker.library import AssetLibrary
-from worker.panorama import Panorama
+from worker.matte import Backdrop
 from worker.randomize import draw_scene
 from worker.realize import realize
 from worker.render import configure_cycles, configure_picture, render_picture
@@ -50,7 +50,7 @@ class Stage:
         self._library = AssetLibrary(header, None)
         self._shelf = ImageShelf()
         self._resolution = resolution
-        self._behind: Panorama | None = None
+        self._behind: Backdrop | None = None
 
     def set(
         self,
