@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-startup masks stress flower template clean
+.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup masks stress flower template clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -59,6 +59,10 @@ bench-physics: setup ## time against error of all simulators; writes bench/physi
 
 bench-render: setup ## time against error of rendering; writes bench/render.json, .png and calibration.json
 	$(BIN)/python -m worker.bench render --out bench
+
+bench-skips: setup ## what is left out of a picture, and the time that saves; writes bench/skips.json and .png
+	$(BIN)/farm assets build
+	$(BIN)/python -m worker.bench skips --out bench
 
 bench-startup: setup ## from a worker's start to its first picture; writes bench/startup.json and .png
 	$(BIN)/farm assets build

@@ -19,6 +19,9 @@ instant when a worker has taken it and not yet claimed its job; a duplicate woul
 _SHORT_QUEUE = 2000
 """Above this length the queue is not searched for lost jobs: it takes a while, and there is work enough."""
 
+_REST = 20
+"""Pause between two looks, in the time that one took: at a full dataset they must not take a core from the workers."""
+
 _REASONS_SHOWN = 20
 
 
@@ -117,7 +120,7 @@ class Coordinator:
             elif start_s - suspected_since_s >= self._lost_after_s:
                 self._submit(Job.from_id(job_id) for job_id in sorted(suspected))
                 suspected = frozenset()
-            time.sleep(max(self._poll_s, 4 * (time.monotonic() - start_s)))
+            time.sleep(max(self._poll_s, _REST * (time.monotonic() - start_s)))
 
     def _lost(self, progress: Progress) -> frozenset[str]:
         if self._queue.length() > _SHORT_QUEUE:

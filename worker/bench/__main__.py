@@ -1,4 +1,4 @@
-"""`python -m worker.bench whole|farm|masks|stress|physics|render|startup --out DIR`."""
+"""`python -m worker.bench whole|farm|masks|skips|stress|physics|render|startup --out DIR`."""
 
 import argparse
 import sys
@@ -29,6 +29,8 @@ def main(arguments: list[str]) -> int:
     render = commands.add_parser("render", parents=[shared], help="time against error of rendering")
     render.add_argument("--scenes", type=int, help="of each category, for the ladder of samples")
     render.add_argument("--turn-scenes", type=int, help="of them, for settings turned one at a time")
+    skips = commands.add_parser("skips", parents=[shared], help="what is left out of a picture, and what that saves")
+    skips.add_argument("--scenes", type=int, help="of each category")
     physics = commands.add_parser("physics", parents=[shared], help="time against error of all simulators")
     physics.add_argument("--scenes", type=int, help="most scenes for each setting")
     startup = commands.add_parser("startup", parents=[shared], help="from a worker's start to its first picture")
@@ -68,6 +70,10 @@ def _run_pictures(options: argparse.Namespace) -> int:
         from worker.bench.render.command import run as run_render  # noqa: PLC0415
 
         return run_render(options.out, seed=options.seed, scenes=options.scenes, turn_scenes=options.turn_scenes)
+    if options.benchmark == "skips":
+        from worker.bench.skips.command import run as run_skips  # noqa: PLC0415
+
+        return run_skips(options.out, seed=options.seed, scenes=options.scenes)
     if options.benchmark == "whole":
         from worker.bench.whole.command import run as run_whole  # noqa: PLC0415
 

@@ -16,7 +16,7 @@ from worker.bench.throughput.memory import memory_mib
 from worker.bench.throughput.rates import Finished, Throughput
 from worker.bench.throughput.splits import Split
 
-_LOOK_S = 2.0
+_LOOK_S = 20.0
 """Between two looks at the memory, which take a tenth of a second of a core: the kernel counts pages."""
 
 
