@@ -13,6 +13,7 @@ from farm.category import Background, Category, Light
 from farm.header import DatasetHeader
 from farm.job import Job
 from farm.rendering import Economy, PictureSettings
+from farm.scene import Scene
 from worker.bench.physics.scenes import DRAWN_CABLES, crowd
 from worker.bench.render.stage_set import SettledScene, Stage
 from worker.floor import set_floor
@@ -90,9 +91,7 @@ class Skips:
             yield Skip(name, "realize, render", categories, same, self._economy(field))
         yield Skip("a floor's textures in far pictures", "realize, render", FAR, False, self._floor)
         yield Skip("the HDRI under a lamp", "realize, render", LAMPS, True, self._hdri)
-        yield Skip(
-            "an HDRI's light from below, and finer than it matters", "realize, render", HDRI_FLOORS, False, self._world
-        )
+        yield Skip("an HDRI's lower half and finest texels", "realize, render", HDRI_FLOORS, False, self._world)
         yield Skip("compression of Blender's file", "realize, render", LAMPS, True, self._blender_file)
         yield Skip("undo steps", "realize, render", ALL, True, self._undo)
         yield Skip("zlib's level 6", "write", ALL, False, self._zlib)
@@ -102,21 +101,29 @@ class Skips:
 
     def _unshown_cables(self, settled: SettledScene, skipped: bool) -> Action:
         job = settled.job
-        scene = settled.scene if skipped else crowd(self._crowded, job.category, job.index, DRAWN_CABLES)
-        return lambda: _drop(let_fall(scene, self._header.spec.simulator, self._header.spec.fall))
+        return self._fall(settled.scene if skipped else crowd(self._crowded, job.category, job.index, DRAWN_CABLES))
 
     def _rest(self, settled: SettledScene, skipped: bool) -> Action:
-        fall = self._header.spec.fall
         if skipped:
-            return lambda: _drop(let_fall(settled.scene, self._header.spec.simulator, fall))
-        rods, surroundings = rods_of(settled.scene, fall.rod), surroundings_of(settled.scene)
-        simulation = RodSimulation(rods, surroundings, steps_per_s=fall.rod.steps_per_s)
-        return lambda: _drop(simulation.advance(round(PUBLISHED_S * fall.rod.steps_per_s)))
+            return self._fall(settled.scene)
+        fall = self._header.spec.fall.rod
+
+        def play() -> None:
+            rods, surroundings = rods_of(settled.scene, fall), surroundings_of(settled.scene)
+            simulation = RodSimulation(rods, surroundings, steps_per_s=fall.steps_per_s)
+            simulation.advance(round(PUBLISHED_S * fall.steps_per_s))
+
+        return play
 
     def _wind(self, settled: SettledScene, skipped: bool) -> Action:
         wind = settled.scene.wind.model_copy(update={"speed_m_s": 0.0 if skipped else _BREATH_M_S})
-        scene = settled.scene.model_copy(update={"wind": wind})
-        return lambda: _drop(let_fall(scene, self._header.spec.simulator, self._header.spec.fall))
+        return self._fall(settled.scene.model_copy(update={"wind": wind}))
+
+    def _fall(self, scene: Scene) -> Action:
+        def play() -> None:
+            let_fall(scene, self._header.spec.simulator, self._header.spec.fall)
+
+        return play
 
     def _economy(self, field: str) -> Callable[[SettledScene, bool], Action]:
         def prepare(settled: SettledScene, skipped: bool) -> Action:
@@ -182,14 +189,15 @@ class Skips:
 
     def _zlib(self, settled: SettledScene, skipped: bool) -> Action:
         picture = self._picture(settled, self._settings(settled))
-        if skipped:
-            return lambda: _drop(encode_png(picture))
-        return lambda: _drop(cv2.imencode(".png", picture[:, :, ::-1], [cv2.IMWRITE_PNG_COMPRESSION, 6]))
+
+        def encode() -> None:
+            if skipped:
+                encode_png(picture)
+            else:
+                cv2.imencode(".png", picture[:, :, ::-1], [cv2.IMWRITE_PNG_COMPRESSION, 6])
+
+        return encode
 
     def _picture(self, settled: SettledScene, settings: PictureSettings) -> NDArray[np.uint8]:
         self._stage.set(settled, settings)
         return self._stage.render()
-
-
-def _drop(_: object) -> None:
-    """Nothing: what was timed made no picture."""

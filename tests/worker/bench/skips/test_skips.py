@@ -1,0 +1,35 @@
+"""Pictures made with what is left out otherwise, by Blender."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from farm.category import Category
+from farm.errors import VerificationError
+
+pytest.importorskip("bpy")
+
+from worker.bench.skips import command  # after importorskip
+from worker.bench.skips.savings import Saving
+
+pytestmark = pytest.mark.blender
+
+
+@pytest.mark.parametrize("category", [Category.FAR, Category.CLOSE_CONCENTRATED])
+def test_a_small_run(tmp_path: Path, capsys: pytest.CaptureFixture[str], category: Category) -> None:
+    """Every skip of a category is priced, and those that may not change a picture do not."""
+    assert command.run(tmp_path, seed=0, scenes=1, resolution=32, categories=(category,)) == 0
+    found = {each["left_out"] for each in json.loads((tmp_path / "skips.json").read_text())["skips"]}
+    only = {Category.FAR: "paths to what is behind the cables", Category.CLOSE_CONCENTRATED: "the HDRI under a lamp"}
+    assert found & set(only.values()) == {only[category]}
+    assert (tmp_path / "skips.png").stat().st_size > 0
+    assert "undo steps" in capsys.readouterr().out
+
+
+def test_a_changed_picture_fails_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that leaving something out may not change; the tables are there all the same."""
+    monkeypatch.setattr(Saving, "is_wrong", property(lambda saving: saving.skip.name == "undo steps"))
+    with pytest.raises(VerificationError, match="undo steps"):
+        command.run(tmp_path, seed=0, scenes=1, resolution=16, categories=(Category.FAR,))
+    assert (tmp_path / "skips.json").exists()
