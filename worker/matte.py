@@ -21,6 +21,9 @@ _RING_PX = 0.75
 """Between places on the lens, by how far apart the cable that is highest is seen from them: below a pixel, which is
 what each of them blurs it by."""
 
+_MOST_RINGS = 4
+"""61 places: seen from any side, no two of them lie in line, and steps between them are a few percent."""
+
 _SPREAD_PX = 0.8
 """Standard deviation of the Gaussian that carries cables' colours to their edges, for which few samples were taken."""
 
@@ -59,9 +62,10 @@ def covered_by(
         (H, W), 0 to 1.
     """
     highest = max(float(curve[:, 2].max() + radius) for curve, radius in zip(curves, radii_m, strict=True))
-    blur_px = lens_radius_m * highest / max(view.height_m - highest, highest) * view.pixels_per_m
+    below_m = max(view.height_m - highest, 1e-6)  # a cable that reaches up to the camera has no picture
+    blur_px = lens_radius_m * highest / below_m * view.pixels_per_m
     covered = np.zeros((view.resolution, view.resolution), np.float32)
-    places = list(_on_disc(math.floor(blur_px / _RING_PX + 0.5)))
+    places = list(_on_disc(min(_MOST_RINGS, round(blur_px / _RING_PX))))
     for x, y in places:
         through = replace(view, pinhole_m=(lens_radius_m * x, lens_radius_m * y))
         for rows, quads, _ in silhouettes(curves, radii_m, through, sides).bands(through):

@@ -100,3 +100,9 @@ def test_ragged_samples_leave_the_edge_straight(backdrop: Backdrop) -> None:
     rows = laid[20:100, column, 2]
     assert np.ptp(rows) < 0.25 * colour[2] * share
     assert rows.mean() == pytest.approx(share * colour[2] + (1 - share) * 4.0, rel=0.05)
+
+
+def test_a_wide_open_lens_close_by_is_bounded() -> None:
+    """A pile halfway up to a lens as wide as a hand blurs away in as many looks as any."""
+    share = covered(bar(z=0.06), 0.05)
+    assert 0.0 <= share.min() <= share.max() < 0.2
