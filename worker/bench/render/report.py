@@ -149,9 +149,13 @@ def write_json(path: Path, rows: Sequence[Row], shapes: Sequence[GeometryRow], *
     path.write_text(json.dumps(content, indent=1) + "\n")
 
 
+_SECONDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
+_FLIPS = (0.01, 0.02, 0.03, 0.05, 0.1)
+
+
 def write_plot(path: Path, rows: Sequence[Row]) -> None:
     """Draw FLIP over seconds, a panel a category, with the front as a line and the budget of `standard`."""
-    figure, panels = plt.subplots(2, 3, figsize=(14, 7.5), layout="constrained", sharey=True)
+    figure, panels = plt.subplots(2, 3, figsize=(14, 7.5), layout="constrained", sharex=True, sharey=True)
     for axes, category in zip(panels.flat, Category, strict=True):
         those = [row for row in rows if row.category is category]
         for group, mark in ((Group.SAMPLES, "o"), (Group.UNGUIDED, "^"), (Group.PLAIN, "x"), (Group.ADAPTIVE, "s")):
@@ -160,17 +164,16 @@ def write_plot(path: Path, rows: Sequence[Row]) -> None:
         line = front(those)
         axes.loglog([row.seconds for row in line], [row.flip for row in line], "-", color="0.6", zorder=1)
         for row in line:
-            axes.annotate(
-                row.variant.name.replace(", ", "\n"),
-                (row.seconds, row.flip),
-                xytext=(4, 4),
-                textcoords="offset points",
-                fontsize=6,
-            )
+            samples = str(row.variant.settings.cycles.samples)
+            axes.annotate(samples, (row.seconds, row.flip), xytext=(4, 4), textcoords="offset points", fontsize=7)
         axes.axhline(budget_of(Preset.STANDARD, category).flip, color="0.4", linestyle="--", linewidth=1)
         axes.set_title(category.value.replace("_", " "), fontsize="medium")
+        axes.set_xticks(_SECONDS, [f"{seconds:g}" for seconds in _SECONDS])
+        axes.set_yticks(_FLIPS, [f"{flip:g}" for flip in _FLIPS])
+        axes.minorticks_off()
+        axes.grid(visible=True, color="0.92")
         axes.set_xlabel("seconds, realizing and rendering")
         axes.set_ylabel("mean FLIP")
-    panels.flat[0].legend(fontsize="small")
+    panels.flat[0].legend(title="numbers: samples a pixel", fontsize="small")
     figure.savefig(path, dpi=110)
     plt.close(figure)
