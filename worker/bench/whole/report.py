@@ -12,7 +12,7 @@ from farm.category import Category
 from worker.bench.physics.report import machine
 from worker.bench.whole.growth import Axis, Point, power
 from worker.bench.whole.plan import Plan
-from worker.bench.whole.rows import STAGES, Ratio, Row, ratio
+from worker.bench.whole.rows import STAGES, Ratio, Row, mix, ratio
 
 _RENDER = ("render",)
 
@@ -101,7 +101,22 @@ def error_table(rows: Sequence[Row]) -> Table | None:
             if errors:
                 flip, psnr = mean_errors(row, category)
                 table.add_row(row.way, category, str(len(errors)), f"{flip:.4f}", f"{psnr:.2f}")
+    for row in same_scenes(rows):
+        flips, psnrs = ({category: mean_errors(row, category)[k] for category in row.categories} for k in (0, 1))
+        table.add_row(
+            row.way, "published mix, same scenes", str(len(row.shots)), f"{mix(flips):.4f}", f"{mix(psnrs):.2f}"
+        )
     return table
+
+
+def same_scenes(rows: Sequence[Row]) -> tuple[Row, ...]:
+    """The ways with errors, each with those pictures alone whose scenes all of them have; none if there is no such."""
+    known = [row.on(frozenset(shot.job for shot in row.shots if shot.errors)) for row in rows]
+    compared = [row for row in known if row.shots]
+    if not compared:
+        return ()
+    shared = frozenset.intersection(*(row.jobs for row in compared))
+    return tuple(row.on(shared) for row in compared) if shared else ()
 
 
 def mean_errors(row: Row, category: Category) -> tuple[float, float]:

@@ -68,6 +68,21 @@ def test_the_mix_of_a_ratio_is_one_of_seconds() -> None:
     assert ratio(slow, standard).value == pytest.approx(27 / 9)
 
 
+def test_errors_are_compared_on_the_same_scenes() -> None:
+    """Only scenes of which every way that was compared with references has an error count."""
+    pytest.importorskip("bpy")
+    from worker.bench.whole.report import same_scenes  # noqa: PLC0415  # after importorskip
+
+    good, bad = Errors(0.02, 40.0), Errors(0.2, 20.0)
+    standard = Row(Way.STANDARD, (whole(Category.FAR, 0, 1.0, good), whole(Category.FAR, 1, 1.0, bad)))
+    slow = Row(Way.BLENDER, (shot(Category.FAR, 0, good, render=30.0),))
+    blind = Row(Way.PUBLISHED, (shot(Category.FAR, 0, render=30.0),))
+    found = same_scenes((standard, blind, slow))
+    assert [row.way for row in found] == [Way.STANDARD, Way.BLENDER]
+    assert all([each.job.index for each in row.shots] == [0] for row in found)
+    assert same_scenes((blind,)) == ()
+
+
 def test_the_report_has_ratios_first_and_errors_where_there_are_references(tmp_path: Path) -> None:
     """The JSON holds every picture; the tables can be printed with and without growth and errors."""
     pytest.importorskip("bpy")
