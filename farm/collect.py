@@ -41,8 +41,7 @@ def done_manifests(dataset: Dataset) -> Iterator[tuple[Job, Manifest]]:
         DestinationError: if the folder can't be read.
     """
     order = {category: number for number, category in enumerate(Category)}
-    jobs = [Job.from_id(job_id) for job_id in Completion(dataset).refresh()]
-    for job in sorted(jobs, key=lambda job: (order[job.category], job.index)):
+    for job in sorted(Completion(dataset).audit(), key=lambda job: (order[job.category], job.index)):
         manifest = parse_manifest(dataset.storage.read(manifest_path(job)), dataset, job)
         if manifest is not None:
             yield job, manifest

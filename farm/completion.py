@@ -1,20 +1,26 @@
 """Which jobs are done, told by the dataset's folder alone: the manifest is there and fits, and so do the files."""
 
 import hashlib
-from collections.abc import Mapping
-from dataclasses import dataclass
+import itertools
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import ValidationError
 
+from farm.category import Category
 from farm.dataset import Dataset
 from farm.errors import MessageError
 from farm.job import Job
-from farm.layout import FileRole, file_path, manifest_path
+from farm.job_set import JobSet
+from farm.layout import FileRole, file_path, manifest_folder, manifest_path
 from farm.manifest import Manifest
 from farm.storage import TEMPORARY_PREFIX, StoredFile, is_temporary
 
 STALE_TEMPORARY_S = 3600.0
 """No writer lives this long: a job's hard time limit is half of it."""
+
+_SEEN = np.dtype([("bytes", np.int64), ("modified_s", np.float64), ("fits", np.bool_), ("sizes", np.int64, 3)])
+"""What is remembered of a manifest: its own size and time, whether it fits its job, the sizes it gives of the files."""
 
 
 def parse_manifest(content: bytes, dataset: Dataset, job: Job) -> Manifest | None:
@@ -60,51 +66,73 @@ def job_of_manifest(path: str) -> Job | None:
     return job if manifest_path(job) == path else None
 
 
-@dataclass(frozen=True, slots=True)
-class _Remembered:
-    manifest: StoredFile
-    sizes: Mapping[str, int] | None
-
-
 class Completion:
-    """The done jobs of one dataset. Each refresh lists the folder, and reads only manifests that are new."""
+    """The done jobs of one dataset.
+
+    A look lists the manifests and reads those that are new. An audit lists the pictures too, and compares their sizes
+    with what the manifests tell. What is remembered is some 50 bytes a job.
+    """
 
     def __init__(self, dataset: Dataset) -> None:
         self._dataset = dataset
-        self._remembered: dict[str, _Remembered] = {}
-        self.done: frozenset[str] = frozenset()
+        quotas = dataset.header.spec.quotas
+        self._seen = {category: np.zeros(quota, _SEEN) for category, quota in quotas.items()}
+        self._damaged = {category: np.zeros(quota, np.bool_) for category, quota in quotas.items()}
+        self.done = JobSet(quotas)
 
-    def refresh(self) -> frozenset[str]:
-        """Look again.
-
-        Returns:
-            The ids of the jobs that are done.
+    def look(self) -> JobSet:
+        """Look for manifests again; returns the jobs that are done.
 
         Raises:
             DestinationError: if the folder can't be read.
         """
-        files = self._dataset.storage.files()
-        done = set()
-        for path, stored in files.items():
+        self.done = JobSet.of({category: self._look_at(category) for category in self._seen})
+        return self.done
+
+    def _look_at(self, category: Category) -> NDArray[np.bool_]:
+        seen, damaged = self._seen[category], self._damaged[category]
+        there = np.zeros(len(seen), np.bool_)
+        for path, stored in self._dataset.storage.files(manifest_folder(category)).items():
             job = job_of_manifest(path)
             if job is None or not self._dataset.asks_for(job):
                 continue
-            sizes = self._sizes(job, path, stored)
-            if sizes is not None and all(name in files and files[name].bytes == size for name, size in sizes.items()):
-                done.add(job.id)
-        self.done = frozenset(done)
-        return self.done
+            known = seen[job.index]
+            if known["bytes"] != stored.bytes or known["modified_s"] != stored.modified_s:
+                if not self._read(job, path, stored):
+                    continue
+                damaged[job.index] = False
+            there[job.index] = True
+        done: NDArray[np.bool_] = there & seen["fits"] & ~damaged
+        return done
 
-    def _sizes(self, job: Job, path: str, stored: StoredFile) -> Mapping[str, int] | None:
-        remembered = self._remembered.get(job.id)
-        if remembered is None or remembered.manifest != stored:
-            try:
-                manifest = parse_manifest(self._dataset.storage.read(path), self._dataset, job)
-            except FileNotFoundError:
-                return None
-            sizes = None if manifest is None else {record.path: record.bytes for record in manifest.files.values()}
-            remembered = self._remembered[job.id] = _Remembered(stored, sizes)
-        return remembered.sizes
+    def _read(self, job: Job, path: str, stored: StoredFile) -> bool:
+        try:
+            manifest = parse_manifest(self._dataset.storage.read(path), self._dataset, job)
+        except FileNotFoundError:
+            return False
+        sizes = (0, 0, 0) if manifest is None else tuple(manifest.files[role].bytes for role in FileRole)
+        self._seen[job.category][job.index] = (stored.bytes, stored.modified_s, manifest is not None, sizes)
+        return True
+
+    def audit(self) -> JobSet:
+        """Look again, at the files too: a job whose picture is gone or has another size is not done.
+
+        Raises:
+            DestinationError: if the folder can't be read.
+        """
+        for category, seen in self._seen.items():
+            there = self._look_at(category)
+            damaged = np.zeros(len(seen), np.bool_)
+            for place, role in enumerate(FileRole):
+                found = np.full(len(seen), -1, np.int64)
+                for path, stored in self._dataset.storage.files(f"{category}/{role}").items():
+                    job = _job_of_picture(path, role)
+                    if job is not None and self._dataset.asks_for(job):
+                        found[job.index] = stored.bytes
+                damaged |= found != seen["sizes"][:, place]
+            # What came since the manifests were listed is for the next audit.
+            self._damaged[category] = np.where(there, damaged, self._damaged[category])
+        return self.look()
 
     def remove_leftovers(self, now_s: float) -> int:
         """Remove what killed writers left: temporary files of done jobs, and any that no living writer can own.
@@ -119,13 +147,24 @@ class Completion:
             DestinationError: if the folder can't be read or written.
         """
         removed = 0
-        for path, stored in self._dataset.storage.files().items():
-            if is_temporary(path) and (now_s - stored.modified_s > STALE_TEMPORARY_S or _belongs_to(path, self.done)):
-                self._dataset.storage.remove(path)
-                removed += 1
+        for category, folder in itertools.product(self._seen, [*FileRole, "manifests"]):
+            for path, stored in self._dataset.storage.files(f"{category}/{folder}").items():
+                if is_temporary(path) and (now_s - stored.modified_s > STALE_TEMPORARY_S or self._is_done(path)):
+                    self._dataset.storage.remove(path)
+                    removed += 1
         return removed
 
+    def _is_done(self, path: str) -> bool:
+        name = path.rpartition("/")[2].removeprefix(TEMPORARY_PREFIX)
+        try:
+            return Job.from_id(name.partition(".")[0]) in self.done
+        except MessageError:
+            return False
 
-def _belongs_to(path: str, done: frozenset[str]) -> bool:
-    name = path.rpartition("/")[2].removeprefix(TEMPORARY_PREFIX)
-    return name.partition(".")[0] in done
+
+def _job_of_picture(path: str, role: FileRole) -> Job | None:
+    try:
+        job = Job.from_id(path.rpartition("/")[2].removesuffix(".png"))
+    except MessageError:
+        return None
+    return job if file_path(job, role) == path else None

@@ -1,59 +1,69 @@
-"""Sees to it that a dataset gets done: submits what is missing, and again what got lost on the way."""
+"""Sees to it that a dataset gets done: queues what is missing, and again what got lost on the way."""
 
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 
+from farm.board.port import RunState
 from farm.completion import Completion
 from farm.dataset import Dataset
-from farm.errors import IncompleteError
+from farm.errors import BrokerError, DatasetMissingError, DestinationError, IncompleteError, RunCancelledError
+from farm.feeder import LOST_AFTER_S, WINDOW, Feeder
 from farm.job import Job
-from farm.ledger.owner import live_claims
-from farm.ledger.port import Ledger
-from farm.progress import Progress, measure
-from farm.queue.port import JobQueue
-
-LOST_AFTER_S = 10.0
-"""A job that is neither done, failed, claimed nor queued for so long is lost. A message is in nobody's hands for an
-instant when a worker has taken it and not yet claimed its job; a duplicate would do no harm, but cost a look."""
-
-_SHORT_QUEUE = 2000
-"""Above this length the queue is not searched for lost jobs: it takes a while, and there is work enough."""
+from farm.job_set import JobSet
+from farm.ledger.owner import is_gone, this_process
+from farm.ledger.port import MAX_ABSENCES
+from farm.progress import Hints, Progress, on_disk, with_hints
+from farm.quarantine import Quarantine
 
 _REST = 20
 """Pause between two looks, in the time that one took: at a full dataset they must not take a core from the workers."""
+
+_LONGEST_REST_S = 60.0
+
+_AUDIT_S = 30.0
+_AUDIT_REST = 100
+"""The files' sizes are compared so often, or after so many times what it takes, and before a run ends."""
+
+_LEAD_S = 30.0
+"""Whoever queues a dataset's jobs is followed by another after this time, and three rests, without a word."""
 
 _REASONS_SHOWN = 20
 
 
 class Coordinator:
-    """Sees one dataset through.
+    """Sees one dataset through. Of several for one dataset, one queues jobs and the others look on.
 
     Args:
         dataset: with its header in place.
-        ledger: of this dataset.
-        queue: to its workers.
+        hints: its run in Redis.
         poll_s: pause between two looks, in seconds; longer where a look takes long.
-        lost_after_s: see `LOST_AFTER_S`.
+        lost_after_s: see `farm.feeder.LOST_AFTER_S`.
+        window: see `farm.feeder.WINDOW`.
     """
 
     def __init__(
         self,
         dataset: Dataset,
-        ledger: Ledger,
-        queue: JobQueue,
+        hints: Hints,
         *,
         poll_s: float = 1.0,
         lost_after_s: float = LOST_AFTER_S,
+        window: int = WINDOW,
     ) -> None:
         self._dataset = dataset
-        self._ledger = ledger
-        self._queue = queue
+        self._hints = hints
         self._poll_s = poll_s
-        self._lost_after_s = lost_after_s
         self._completion = Completion(dataset)
+        self._quarantine = Quarantine(dataset)
+        self._feeder = Feeder(dataset, hints, window=window, lost_after_s=lost_after_s)
+        self._quarantined: Mapping[str, str] = {}
+        self._leads = False
+        self._audited_s = float("-inf")
+        self._audit_took_s = 0.0
 
     def submit_missing(self, on_submitted: Callable[[int], None] = lambda _: None) -> int:
-        """Queue every job that is neither done nor on its way; jobs that failed before get a fresh start.
+        """Queue every job that is neither done, given up, nor on its way; of a large dataset, a window.
 
         Args:
             on_submitted: told the number so far, now and then.
@@ -65,18 +75,39 @@ class Coordinator:
             BrokerError: if Redis goes away.
             DestinationError: if the folder can't be read.
         """
-        done = self._completion.refresh()
+        self._audit()
         self._completion.remove_leftovers(time.time())
-        self._ledger.forget_failures()
-        on_the_way = self._queued() | live_claims(self._ledger).keys()
-        jobs = (job for job in self._dataset.header.spec.jobs() if job.id not in done and job.id not in on_the_way)
-        return self._submit(_counted(jobs, on_submitted))
+        self._look_at_quarantine()
+        undone = self._undone()
+        if len(undone):
+            self._hints.board.register(self._hints.run)
+            self._hints.ledger.forgive([])
+        self._feeder.survey()
+        return self._feeder.feed(undone, on_submitted)
 
-    def _queued(self) -> set[str]:
-        return self._queue.queued(self._dataset.name, self._dataset.header.spec_sha256)
+    @property
+    def undone(self) -> int:
+        """Jobs that were neither done nor given up at the last look."""
+        return len(self._undone())
 
-    def _submit(self, jobs: Iterable[Job]) -> int:
-        return self._queue.submit(self._dataset.message(job) for job in jobs)
+    def _undone(self) -> JobSet:
+        given_up = JobSet(self._dataset.header.spec.quotas)
+        for job_id in self._quarantined:
+            given_up.add(Job.from_id(job_id))
+        return self._completion.done.others() - given_up
+
+    def _audit(self) -> None:
+        start_s = time.monotonic()
+        self._completion.audit()
+        self._audited_s = time.monotonic()
+        self._audit_took_s = self._audited_s - start_s
+
+    def _look_at_quarantine(self) -> None:
+        found = self._quarantine.look()
+        done = [job_id for job_id in found if Job.from_id(job_id) in self._completion.done]
+        # Made after all, say by a worker that was thought dead.
+        self._quarantine.release(done)
+        self._quarantined = {job_id: why for job_id, why in found.items() if job_id not in done}
 
     def watch(
         self,
@@ -85,66 +116,110 @@ class Coordinator:
         mend: bool = True,
         supervise: Callable[[], None] = lambda: None,
     ) -> Progress:
-        """Wait until every job is done or has failed for good.
+        """Wait until every job is done or given up. A Redis or folder that goes away meanwhile is waited for.
 
         Args:
             on_progress: told after every look.
-            mend: submit lost jobs again.
+            mend: queue what is missing, and what gets lost.
             supervise: called at every look; may restart workers.
 
         Returns:
             The last look.
 
         Raises:
-            IncompleteError: if jobs failed for good; it lists their reasons.
-            BrokerError: if Redis goes away.
-            DestinationError: if the folder can't be read.
+            IncompleteError: if jobs were given up; it lists their reasons.
+            RunCancelledError: if somebody cancelled the run.
+            FarmError: what `supervise` raises.
         """
-        suspected: frozenset[str] = frozenset()
-        suspected_since_s = time.monotonic()
-        while True:
-            supervise()
-            start_s = time.monotonic()
-            progress = measure(self._dataset, self._completion, self._ledger)
-            on_progress(progress)
-            failures = progress.failures or {}
-            if progress.done + len(failures) >= progress.quota:
-                self._completion.remove_leftovers(time.time())
-                if failures:
-                    raise IncompleteError(_reasons(progress))
-                return progress
-            lost = self._lost(progress) if mend else frozenset()
-            suspected = suspected & lost
-            if not suspected:
-                suspected, suspected_since_s = lost, start_s
-            elif start_s - suspected_since_s >= self._lost_after_s:
-                self._submit(Job.from_id(job_id) for job_id in sorted(suspected))
-                suspected = frozenset()
-            time.sleep(max(self._poll_s, _REST * (time.monotonic() - start_s)))
+        try:
+            while True:
+                supervise()
+                start_s = time.monotonic()
+                progress = self._look(mend=mend)
+                on_progress(progress)
+                # Of a Redis that is away nothing is needed any more.
+                if progress.ended and self._ends_well():
+                    return self._end(progress)
+                took_s = time.monotonic() - start_s
+                time.sleep(max(self._poll_s, min(_LONGEST_REST_S, _REST * took_s)))
+        finally:
+            with suppress(BrokerError):
+                self._hints.ledger.resign(this_process())
 
-    def _lost(self, progress: Progress) -> frozenset[str]:
-        if self._queue.length() > _SHORT_QUEUE:
-            return frozenset()
-        # The queue is looked at before the claims: a job moves from there to here, never back.
-        accounted = self._queued()
-        accounted |= live_claims(self._ledger).keys()
-        accounted |= (progress.failures or {}).keys() | self._completion.refresh()
-        return frozenset(job.id for job in self._dataset.header.spec.jobs() if job.id not in accounted)
+    def _look(self, *, mend: bool) -> Progress:
+        trouble = None
+        try:
+            if time.monotonic() - self._audited_s > max(_AUDIT_S, _AUDIT_REST * self._audit_took_s):
+                self._audit()
+            else:
+                self._completion.look()
+            self._look_at_quarantine()
+        except DestinationError as error:
+            trouble = f"{error}; waiting for it"
+        progress = on_disk(self._dataset, self._completion.done, self._quarantined)
+        try:
+            if trouble is None and mend and not progress.ended:
+                self._tend()
+            progress = with_hints(progress, self._hints)
+        except BrokerError as error:
+            # Redis may come back empty: then nothing that was on its way is.
+            self._leads = False
+            trouble = f"{error}; waiting for it"
+        return progress.model_copy(update={"trouble": trouble})
 
+    def _tend(self) -> None:
+        run = self._hints.board.register(self._hints.run)
+        if run.state is RunState.CANCELLED:
+            raise RunCancelledError(
+                f"{self._dataset.storage.location}: cancelled by farm cancel; submit it again to go on"
+            )
+        if run.state is RunState.PAUSED or not self._take_the_lead():
+            return
+        if self._hints.ledger.absences() > MAX_ABSENCES:
+            raise DatasetMissingError(
+                f"{self._dataset.storage.location}: {MAX_ABSENCES} workers in a row found no such dataset in their store; "
+                "give them the --store that holds it, then submit it again"
+            )
+        undone = self._undone()
+        self._feeder.mend(undone)
+        self._feeder.feed(undone)
 
-def _counted(jobs: Iterable[Job], on_submitted: Callable[[int], None], every: int = 100) -> Iterator[Job]:
-    count = 0
-    for count, job in enumerate(jobs, start=1):
-        yield job
-        if count % every == 0:
-            on_submitted(count)
-    on_submitted(count)
+    def _take_the_lead(self) -> bool:
+        ledger, me = self._hints.ledger, this_process()
+        leader = ledger.leader()
+        if leader is not None and leader != me and is_gone(leader):
+            ledger.resign(leader)
+        led, self._leads = self._leads and leader == me, ledger.lead(me, _LEAD_S + 3 * _LONGEST_REST_S)
+        if self._leads and not led:
+            self._feeder.survey()
+        return self._leads
+
+    def _ends_well(self) -> bool:
+        """Whether the end still stands after a look at the files themselves."""
+        try:
+            self._audit()
+            self._look_at_quarantine()
+            self._completion.remove_leftovers(time.time())
+        except DestinationError:
+            return False
+        return not len(self._undone())
+
+    def _end(self, progress: Progress) -> Progress:
+        with suppress(BrokerError):
+            self._hints.board.remove(self._hints.run.key)
+            self._hints.queue.clear(self._hints.run)
+        if progress.quarantined:
+            raise IncompleteError(_reasons(progress))
+        return progress
 
 
 def _reasons(progress: Progress) -> str:
-    failures = progress.failures or {}
-    lines = [f"{progress.location}: {len(failures)} of {progress.quota} images failed; submit again to retry them"]
-    lines += [f"  {job_id}: {reason}" for job_id, reason in list(failures.items())[:_REASONS_SHOWN]]
-    if len(failures) > _REASONS_SHOWN:
-        lines.append(f"  and {len(failures) - _REASONS_SHOWN} more; see farm status")
+    given_up = progress.quarantined
+    lines = [
+        f"{progress.location}: {len(given_up)} of {progress.quota} images failed and are in quarantine; once the cause "
+        f"is mended, farm retry {progress.location}"
+    ]
+    lines += [f"  {job_id}: {reason}" for job_id, reason in list(given_up.items())[:_REASONS_SHOWN]]
+    if len(given_up) > _REASONS_SHOWN:
+        lines.append(f"  and {len(given_up) - _REASONS_SHOWN} more; see farm status")
     return "\n".join(lines)

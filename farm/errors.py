@@ -105,6 +105,12 @@ class EnvironmentMissingError(PermanentError):
     exit_code = 14
 
 
+class RunCancelledError(PermanentError):
+    """Somebody cancelled the run that this command waits for."""
+
+    exit_code = 15
+
+
 class UnfitWorkerError(FarmError):
     """A worker can't work, whatever the job: its device, template, assets or store are not what they must be.
 

@@ -8,6 +8,7 @@ from farm.job import Job
 HEADER_FILE = "dataset.json"
 INDEX_FILE = "index.jsonl"
 REPORT_FILE = "report.html"
+QUARANTINE_FOLDER = "quarantine"
 
 
 class FileRole(StrEnum):
@@ -26,6 +27,11 @@ def file_path(job: Job, role: FileRole) -> str:
 def manifest_path(job: Job) -> str:
     """Path of the job's manifest."""
     return f"{manifest_folder(job.category)}/{job.id}.json"
+
+
+def quarantine_path(job: Job) -> str:
+    """Path of the record of a job that is given up."""
+    return f"{QUARANTINE_FOLDER}/{job.id}.json"
 
 
 def manifest_folder(category: Category) -> str:

@@ -1,15 +1,16 @@
 """How far a dataset is: what `farm status` shows and `--json` prints."""
 
-from collections import Counter
 from collections.abc import Mapping
+from dataclasses import dataclass
 
+from farm.board.port import Board, Run, RunState, WorkerReport
 from farm.category import Category
-from farm.completion import Completion
 from farm.dataset import Dataset
-from farm.job import Job
+from farm.job_set import JobSet
 from farm.ledger.owner import live_claims
 from farm.ledger.port import RETRY_OWNER, Ledger
 from farm.model import Model
+from farm.queue.port import JobQueue
 
 
 class CategoryProgress(Model):
@@ -24,21 +25,29 @@ class Progress(Model):
 
     Attributes:
         location: the dataset's folder.
-        running: jobs that workers hold now; None without Redis, as the next ones.
-        failures: jobs that failed for good, with the reason.
+        quarantined: jobs that are given up, with the reason.
+        state: what a person wants of the run; None without Redis, as the next ones, or where nothing was submitted.
+        waiting: messages in the run's queue.
+        running: jobs that workers hold now.
+        workers: what the farm's workers report, those that work for other runs too.
         images_per_hour: None while too little is known.
         seconds_left: at this rate.
         last_picture: the newest picture's path below the folder.
+        trouble: what keeps the look from being whole, such as a Redis that is away; None if nothing does.
     """
 
     location: str
     spec_sha256: str
     categories: Mapping[Category, CategoryProgress]
+    quarantined: Mapping[str, str]
+    state: RunState | None = None
+    waiting: int | None = None
     running: tuple[str, ...] | None = None
-    failures: Mapping[str, str] | None = None
+    workers: tuple[WorkerReport, ...] | None = None
     images_per_hour: float | None = None
     seconds_left: float | None = None
     last_picture: str | None = None
+    trouble: str | None = None
 
     @property
     def done(self) -> int:
@@ -50,33 +59,59 @@ class Progress(Model):
         """Images asked for, of all categories."""
         return sum(category.quota for category in self.categories.values())
 
+    @property
+    def ended(self) -> bool:
+        """Whether every image is done or given up."""
+        return self.done + len(self.quarantined) >= self.quota
 
-def measure(dataset: Dataset, completion: Completion, ledger: Ledger | None) -> Progress:
-    """Look at the folder, and at the ledger if there is one.
 
-    Raises:
-        DestinationError: if the folder can't be read.
-        BrokerError: if the ledger can't be read.
+@dataclass(frozen=True, slots=True)
+class Hints:
+    """What Redis tells of a dataset's run."""
+
+    run: Run
+    ledger: Ledger
+    queue: JobQueue
+    board: Board
+
+
+def on_disk(dataset: Dataset, done: JobSet, quarantined: Mapping[str, str]) -> Progress:
+    """What the folder alone tells.
+
+    Args:
+        dataset: the dataset.
+        done: its done jobs.
+        quarantined: the jobs that are given up; of those that are done after all nothing is told.
     """
-    done = completion.refresh()
-    counts = Counter(Job.from_id(job_id).category for job_id in done)
-    quotas = dataset.header.spec.quotas
-    progress = Progress(
+    counts = done.counts()
+    return Progress(
         location=dataset.storage.location,
         spec_sha256=dataset.header.spec_sha256,
         categories={
-            category: CategoryProgress(done=counts[category], quota=quota) for category, quota in quotas.items()
+            category: CategoryProgress(done=counts[category], quota=quota)
+            for category, quota in dataset.header.spec.quotas.items()
         },
+        quarantined=quarantined,
     )
-    if ledger is None:
-        return progress
-    activity = ledger.activity()
-    left = progress.quota - progress.done
+
+
+def with_hints(progress: Progress, hints: Hints) -> Progress:
+    """The same with what Redis tells.
+
+    Raises:
+        BrokerError: if Redis can't be read.
+    """
+    activity = hints.ledger.activity()
+    left = progress.quota - progress.done - len(progress.quarantined)
     rate = activity.images_per_hour
+    claims = live_claims(hints.ledger)
+    run = hints.board.runs().get(hints.run.key)
     return progress.model_copy(
         update={
-            "running": tuple(sorted(job_id for job_id, owner in live_claims(ledger).items() if owner != RETRY_OWNER)),
-            "failures": {job_id: why for job_id, why in sorted(ledger.failures().items()) if job_id not in done},
+            "state": None if run is None else run.state,
+            "waiting": hints.queue.length(hints.run),
+            "running": tuple(sorted(job_id for job_id, owner in claims.items() if owner != RETRY_OWNER)),
+            "workers": hints.board.workers(),
             "images_per_hour": rate,
             "seconds_left": left / rate * 3600.0 if rate and left else None,
             "last_picture": activity.last_picture,

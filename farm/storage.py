@@ -55,8 +55,8 @@ class Storage(Protocol):
         """
         ...
 
-    def files(self) -> dict[str, StoredFile]:
-        """Every file below the folder, by path; none if the folder does not exist.
+    def files(self, under: str = "") -> dict[str, StoredFile]:
+        """Every file below the folder, or below one in it, by path from the root; none where there is no folder.
 
         Raises:
             DestinationError: if the folder can't be read.
@@ -140,11 +140,11 @@ class LocalStorage:
         if hashlib.sha256(temporary.read_bytes()).digest() != hashlib.sha256(content).digest():
             raise DestinationError(f"{temporary}: reads back other than written; check the disk")
 
-    def files(self) -> dict[str, StoredFile]:
+    def files(self, under: str = "") -> dict[str, StoredFile]:
         """Every file below the folder; see `Storage.files`."""
         found: dict[str, StoredFile] = {}
         with _as_destination_error("list", str(self._root)), suppress(FileNotFoundError):
-            self._collect(self._root, "", found)
+            self._collect(self._root / under, f"{under}/" if under else "", found)
         return found
 
     def _collect(self, folder: Path, prefix: str, found: dict[str, StoredFile]) -> None:
@@ -211,12 +211,12 @@ class ObjectStorage:
                 f"{self.location}/{path}: can't write: {error}; check the bucket's rights"
             ) from error
 
-    def files(self) -> dict[str, StoredFile]:
+    def files(self, under: str = "") -> dict[str, StoredFile]:
         """Every object below the folder; see `Storage.files`."""
         with _as_destination_error("list", self.location):
             self._filesystem.invalidate_cache()
             try:
-                listing = self._filesystem.find(self._root, detail=True)
+                listing = self._filesystem.find(self._full(under).rstrip("/"), detail=True)
             except FileNotFoundError:
                 return {}
         start = len(self._root) + 1

@@ -1,8 +1,9 @@
 """Checks every file of a dataset against its manifest, down to the pixels."""
 
 import hashlib
+import itertools
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from enum import StrEnum
 
@@ -13,12 +14,14 @@ from numpy.typing import NDArray
 from farm.completion import STALE_TEMPORARY_S, parse_manifest
 from farm.dataset import Dataset
 from farm.job import Job
-from farm.layout import HEADER_FILE, INDEX_FILE, REPORT_FILE, FileRole, file_path, manifest_path
+from farm.layout import HEADER_FILE, INDEX_FILE, REPORT_FILE, FileRole, file_path, manifest_path, quarantine_path
 from farm.manifest import FileRecord, Manifest
 from farm.model import Model
+from farm.quarantine import Quarantine
 from farm.storage import StoredFile, is_temporary
 
 _THREADS = 4  # OpenCV and hashing leave the interpreter's lock while they work
+_AT_A_TIME = 1000
 
 
 class Fault(StrEnum):
@@ -44,16 +47,18 @@ class Verdict(Model):
     Attributes:
         images: jobs whose manifest and files are all as they should be.
         quota: jobs asked for.
+        quarantined: jobs that are given up, by id with the reason; of these nothing is missing.
     """
 
     location: str
     images: int
     quota: int
     findings: tuple[Finding, ...]
+    quarantined: Mapping[str, str] = {}
 
     @property
     def clean(self) -> bool:
-        """Whether everything is there and nothing else."""
+        """Whether everything but what is given up is there, and nothing else."""
         return not self.findings
 
 
@@ -67,22 +72,48 @@ def verify(dataset: Dataset, on_checked: Callable[[int], None] = lambda _: None)
     Raises:
         DestinationError: if the folder or a file in it can't be read.
     """
-    spec = dataset.header.spec
     findings: list[Finding] = []
+    given_up = Quarantine(dataset).look()
+    quarantined: dict[str, str] = {}
     clean = 0
-    with ThreadPoolExecutor(_THREADS) as threads:
-        results = threads.map(lambda job: list(_check_job_twice(dataset, job)), spec.jobs())
-        for count, found in enumerate(results, start=1):
+    for count, (job, found) in enumerate(_check_all(dataset), start=1):
+        if job.id in given_up and _is_missing(job, found):
+            quarantined[job.id] = given_up[job.id]
+        else:
             findings += found
             clean += not found
-            on_checked(count)
+        on_checked(count)
     findings += _extra(dataset, dataset.storage.files())
     return Verdict(
         location=dataset.storage.location,
         images=clean,
-        quota=spec.total,
+        quota=dataset.header.spec.total,
         findings=tuple(sorted(findings, key=lambda finding: (finding.fault, finding.path))),
+        quarantined=quarantined,
     )
+
+
+def damaged_jobs(dataset: Dataset) -> Iterator[Job]:
+    """The jobs whose manifest is there but wrong, or one of whose files is not as it tells.
+
+    Raises:
+        DestinationError: if the folder or a file in it can't be read.
+    """
+    for job, found in _check_all(dataset):
+        if found and not _is_missing(job, found):
+            yield job
+
+
+def _check_all(dataset: Dataset) -> Iterator[tuple[Job, list[Finding]]]:
+    """Each job with its findings, some jobs at a time, so that a large dataset does not fill the memory."""
+    jobs = dataset.header.spec.jobs()
+    with ThreadPoolExecutor(_THREADS) as threads:
+        while some := list(itertools.islice(jobs, _AT_A_TIME)):
+            yield from zip(some, threads.map(lambda job: list(_check_job_twice(dataset, job)), some), strict=True)
+
+
+def _is_missing(job: Job, findings: list[Finding]) -> bool:
+    return [(finding.fault, finding.path) for finding in findings] == [(Fault.MISSING, manifest_path(job))]
 
 
 def _check_job_twice(dataset: Dataset, job: Job) -> Iterator[Finding]:
@@ -162,6 +193,7 @@ def _extra(dataset: Dataset, files: dict[str, StoredFile]) -> Iterator[Finding]:
     known = {HEADER_FILE, INDEX_FILE, REPORT_FILE}
     for job in dataset.header.spec.jobs():
         known.add(manifest_path(job))
+        known.add(quarantine_path(job))
         known.update(file_path(job, role) for role in FileRole)
     now_s = time.time()
     for path in files.keys() - known:

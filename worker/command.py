@@ -15,7 +15,7 @@ from farm.errors import EnvironmentMissingError, FarmError, MessageError
 from farm.header import DatasetHeader
 from farm.job import Job
 from farm.queue.broker import broker_url
-from farm.queue.settings import MEMORY_PER_CHILD_KIB, TASKS_PER_CHILD
+from farm.queue.settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
 from farm.storage import LocalStorage
 from worker.cores import only_so_many_seen
 from worker.made import ImageMaker
@@ -59,6 +59,8 @@ def _parser() -> argparse.ArgumentParser:
     work.add_argument("--concurrency", type=int, default=1)
     work.add_argument("--tasks-per-child", type=int, default=TASKS_PER_CHILD)
     work.add_argument("--memory-per-child-kib", type=int, default=MEMORY_PER_CHILD_KIB)
+    work.add_argument("--time-limit-s", type=float, default=HARD_LIMIT_S)
+    work.add_argument("--min-free-mib", type=int, default=MIN_FREE_MIB)
 
     commands.add_parser("check", parents=[render], help="open what renders; the dataset's header comes by stdin")
 
@@ -99,6 +101,8 @@ def main(arguments: list[str], open_studio: OpenStudio = _open_blender) -> int:
             concurrency=options.concurrency,
             tasks_per_child=options.tasks_per_child,
             memory_per_child_kib=options.memory_per_child_kib,
+            time_limit_s=options.time_limit_s,
+            min_free_bytes=options.min_free_mib * 2**20,
         )
         return serve(settings, open_maker)
     except FarmError as error:

@@ -1,16 +1,19 @@
 """One job from its message to its manifest, whatever brought the message."""
 
 import logging
-import textwrap
 from collections.abc import Callable
+from pathlib import Path
 
+import numpy as np
 from celery.exceptions import SoftTimeLimitExceeded
 
 from farm.completion import is_done
 from farm.dataset import Dataset, open_for_message
 from farm.errors import (
     AssetError,
+    BrokerError,
     DatasetMissingError,
+    DestinationError,
     EnvironmentMissingError,
     FarmError,
     PermanentError,
@@ -24,8 +27,11 @@ from farm.header import DatasetHeader
 from farm.job import Job, JobMessage
 from farm.layout import FileRole
 from farm.ledger.owner import is_gone, this_process
-from farm.ledger.port import CLAIM_S, Ledger, LedgerFactory
-from worker.heartbeat import Heartbeat
+from farm.ledger.port import CLAIM_S, MAX_ABSENCES, Ledger, LedgerFactory
+from farm.manifest import Manifest
+from farm.quarantine import is_in_quarantine, put_in_quarantine
+from worker.held_claim import ClaimLostError, HeldClaim
+from worker.job_log import JobLogs
 from worker.made import ImageMaker, MadeImage
 from worker.upload import upload
 
@@ -36,17 +42,17 @@ MakerFactory = Callable[[DatasetHeader], ImageMaker]
 MAX_TRIES = 3
 """A job that fails in a way that may pass is tried so often."""
 
-MAX_STARTS = 6
-"""A job is begun so often at most, as one that kills its process can't be counted at its end."""
+MAX_STARTS = 3
+"""A job that ends its process, or meets the time limit, is begun so often. Redis counts, so that restarts don't."""
 
-MAX_ABSENCES = 6
-"""So many workers in a row may end since their store lacks a dataset; then it is gone, and its jobs fail."""
+FAILED_IN_A_ROW = 3
+"""A worker on which so many different jobs fail, one after the other, takes itself out."""
 
 BACKOFF_S = (5.0, 30.0)
-"""Pauses before the second and third try."""
+"""Pauses before the second and third try, each made up to half longer."""
 
 _MARGIN_S = 30.0
-_REASON_LENGTH = 500
+_PROBE = ".tmp-probe"
 _FAULTS_OF_THE_MACHINE = (AssetError, EnvironmentMissingError, TemplateError)
 
 
@@ -69,13 +75,19 @@ class JobRunner:
         store: folder or URL below which the datasets lie.
         open_maker: opens what makes a dataset's pictures; called in this process, at its first job.
         open_ledger: opens the ledger of a dataset.
+        logs: folder for what jobs print; None leaves their output alone.
     """
 
-    def __init__(self, store: str, open_maker: MakerFactory, open_ledger: LedgerFactory) -> None:
+    def __init__(
+        self, store: str, open_maker: MakerFactory, open_ledger: LedgerFactory, logs: Path | None = None
+    ) -> None:
         self._store = store
         self._open_maker = open_maker
         self._open_ledger = open_ledger
+        self._logs = None if logs is None else JobLogs(logs)
         self._maker: tuple[str, ImageMaker] | None = None
+        self._failed: dict[str, str] = {}
+        self._must_probe = False
 
     def run(self, payload: object) -> str:
         """Run the job that a message asks for, unless it is done.
@@ -88,9 +100,10 @@ class JobRunner:
 
         Raises:
             TryLaterError: when the message is to be sent again.
-            PermanentError: the job failed for good; the ledger has the reason.
+            PermanentError: the job is given up; its record is in the dataset's quarantine.
+            DestinationError: the dataset can't be read or written now; the message must go back to the queue.
+            BrokerError: if the ledger can't be reached; the message must go back to the queue.
             UnfitWorkerError: this worker can't do the job, but another may; the message must go back to the queue.
-            BrokerError: if the ledger can't be reached.
         """
         message = JobMessage.decode(payload)
         ledger = self._open_ledger(message.dataset, message.spec_sha256)
@@ -100,46 +113,94 @@ class JobRunner:
         except StaleMessageError as error:
             # Its dataset was replaced by another of the same name; whoever replaced it has submitted that one.
             return f"dropped: {error}"
-        except UnfitWorkerError:
+        except ClaimLostError as error:
+            return f"left to another worker: {error}"
+        except (UnfitWorkerError, DestinationError, BrokerError):
             ledger.give_back(message.job_id, this_process())
-            raise
-        except RetryableError as error:
-            troubles = ledger.count_trouble(message.job_id)
-            if troubles >= MAX_TRIES:
-                reason = f"{error} (tried {troubles} times)"
-                _record_failure(ledger, message.job_id, reason)
-                raise PermanentError(f"{message.task_id}: {reason}") from error
-            delay_s = BACKOFF_S[troubles - 1]
-            # The claim stays, free for the taking, so that a coordinator knows the job is on its way.
-            ledger.postpone(message.job_id, this_process(), delay_s + _MARGIN_S)
-            raise TryLaterError(f"{message.task_id}: {error}", delay_s) from error
-        except PermanentError as error:
-            _record_failure(ledger, message.job_id, str(error))
             raise
         finally:
             ledger.release(message.job_id, this_process())
 
     def _run_claimed(self, message: JobMessage, ledger: Ledger, start: int) -> str:
         job = message.job
-        dataset = self._open_dataset(message, ledger)
+        try:
+            dataset = open_for_message(self._store, message)
+        except DatasetMissingError as error:
+            return _count_absence(ledger, error)
+        self._probe(dataset, job)
+        if is_in_quarantine(dataset, job):
+            return f"{message.task_id} is in quarantine"
         if is_done(dataset, job):
             return f"{message.task_id} is done already"
         if start > MAX_STARTS:
-            raise PermanentError(
-                f"its process died, or met the time limit, in each of {MAX_STARTS} attempts; see the worker's log"
-            )
-        with Heartbeat(ledger, job.id, this_process()):
-            manifest = upload(self._make(dataset, job), job, dataset)
-        ledger.record_done(job.id, manifest.files[FileRole.IMAGE].path)
-        return f"{message.task_id} done in {sum(manifest.timings_s.values()):.1f} s"
-
-    def _open_dataset(self, message: JobMessage, ledger: Ledger) -> Dataset:
+            reason = f"its process died, or met the time limit, in each of {MAX_STARTS} attempts"
+            self._give_up(message, dataset, ledger, reason)
+            raise PermanentError(f"{message.task_id}: {reason}")
         try:
-            return open_for_message(self._store, message)
-        except DatasetMissingError as error:
-            if ledger.count_absence() > MAX_ABSENCES:
-                raise PermanentError(f"{error}; {MAX_ABSENCES} other workers lacked it, too") from error
-            raise UnfitWorkerError(f"{error}; or give this worker the right --store", error.exit_code) from error
+            manifest = self._make_and_upload(message, dataset, ledger)
+        except (DestinationError, BrokerError):
+            self._must_probe = True
+            raise
+        except RetryableError as error:
+            raise self._postponed(message, dataset, ledger, error) from error
+        except PermanentError as error:
+            self._count_failure(job.id, error)
+            self._give_up(message, dataset, ledger, str(error))
+            raise
+        self._failed.clear()
+        return _note_done(message, manifest, ledger)
+
+    def _probe(self, dataset: Dataset, job: Job) -> None:
+        """After a failure of the destination a small write tells whether rendering is worth the time."""
+        if self._must_probe:
+            path = f"{job.category}/images/{_PROBE}-{job.id}.{this_process().replace(':', '.')}"
+            dataset.storage.write(path, b"is there room?")
+            dataset.storage.remove(path)
+            self._must_probe = False
+
+    def _make_and_upload(self, message: JobMessage, dataset: Dataset, ledger: Ledger) -> Manifest:
+        job = message.job
+        with HeldClaim(ledger, job.id, this_process()) as claim:
+            if self._logs is None:
+                made = self._make(dataset, job)
+            else:
+                with self._logs.taking(message):
+                    made = self._make(dataset, job)
+            return upload(made, job, dataset, claim)
+
+    def _postponed(
+        self, message: JobMessage, dataset: Dataset, ledger: Ledger, error: RetryableError
+    ) -> TryLaterError | PermanentError:
+        job_id = message.job_id
+        self._count_failure(job_id, error)
+        troubles = ledger.count_trouble(job_id)
+        ledger.add_figures({"retries": 1})
+        if troubles >= MAX_TRIES:
+            reason = f"{error} (tried {troubles} times)"
+            self._give_up(message, dataset, ledger, reason)
+            return PermanentError(f"{message.task_id}: {reason}")
+        delay_s = BACKOFF_S[troubles - 1] * (1.0 + 0.5 * _jitter(dataset, message.job, troubles))
+        # The claim stays, free for the taking, so that a coordinator knows the job is on its way.
+        ledger.postpone(job_id, this_process(), delay_s + _MARGIN_S)
+        return TryLaterError(f"{message.task_id}: {error}", delay_s)
+
+    def _count_failure(self, job_id: str, error: FarmError) -> None:
+        self._failed[job_id] = str(error)
+        if len(self._failed) >= FAILED_IN_A_ROW:
+            told = "; ".join(f"{failed}: {why}" for failed, why in self._failed.items())
+            raise UnfitWorkerError(f"{len(self._failed)} jobs failed here in a row: {told}", error.exit_code) from error
+
+    def _give_up(self, message: JobMessage, dataset: Dataset, ledger: Ledger, reason: str) -> None:
+        printed = "" if self._logs is None else self._logs.tail(message)
+        put_in_quarantine(
+            dataset,
+            message.job,
+            reason,
+            attempts=MAX_TRIES,
+            worker=this_process(),
+            log=printed or ledger.log_of(message.job_id),
+        )
+        ledger.add_figures({"quarantined": 1})
 
     def _make(self, dataset: Dataset, job: Job) -> MadeImage:
         maker = self._maker_for(dataset.header)
@@ -153,7 +214,7 @@ class JobRunner:
         except SoftTimeLimitExceeded as error:
             raise RenderError("took longer than the time limit") from error
         except Exception as error:
-            # A defect of the maker must end as a reason in the ledger, not as a message lost without a word.
+            # A defect of the maker must end as a reason in quarantine, not as a message lost without a word.
             log.exception("%s: unexpected error", job.id)
             raise RenderError(f"unexpected {type(error).__name__}: {error}") from error
 
@@ -191,5 +252,27 @@ def _claim(ledger: Ledger, job_id: str) -> int:
     return attempt
 
 
-def _record_failure(ledger: Ledger, job_id: str, reason: str) -> None:
-    ledger.record_failure(job_id, textwrap.shorten(reason, _REASON_LENGTH))
+def _count_absence(ledger: Ledger, error: DatasetMissingError) -> str:
+    if ledger.count_absence() > MAX_ABSENCES:
+        # A coordinator that sees the dataset ends with a word about it.
+        return f"dropped: {error}; {MAX_ABSENCES} other workers lacked it, too"
+    raise UnfitWorkerError(f"{error}; or give this worker the right --store", error.exit_code) from error
+
+
+def _note_done(message: JobMessage, manifest: Manifest, ledger: Ledger) -> str:
+    seconds = manifest.timings_s
+    said = f"{message.task_id} done in {sum(seconds.values()):.1f} s"
+    try:
+        if ledger.finish(message.job_id, this_process(), manifest.files[FileRole.IMAGE].path):
+            figures = {f"seconds:{stage}": value for stage, value in seconds.items()}
+            ledger.add_figures({f"images:{message.job.category}": 1, "redrawn": len(manifest.rejected), **figures})
+    except BrokerError as error:
+        # The folder tells that it is done.
+        return f"{said}, but not noted: {error}"
+    return said
+
+
+def _jitter(dataset: Dataset, job: Job, tries: int) -> float:
+    """From 0 to 1, another for each job and try, so that jobs that failed together don't come back together."""
+    seed = np.random.SeedSequence(dataset.header.spec.seed, spawn_key=(job.category.code, job.index, tries))
+    return float(np.random.Generator(np.random.PCG64(seed)).random())

@@ -1,20 +1,25 @@
 """The farm's one Celery task."""
 
 import logging
-from collections.abc import Callable
+import random
+import time
 from typing import Any
 
+from billiard.exceptions import WorkerLostError
 from celery.exceptions import Reject
 from celery.worker.request import Request
 
-from farm.errors import FarmError, UnfitWorkerError
+from farm.errors import BrokerError, DestinationError, FarmError, UnfitWorkerError
 from farm.queue.settings import TASK_NAME
+from worker.foreman import Foreman
 from worker.runner import JobRunner, TryLaterError
 
 log = logging.getLogger(__name__)
 
+_BROKER_PAUSE_S = (0.5, 2.0)
 
-def register_tasks(app: Any, runner: JobRunner, on_unfit: Callable[[UnfitWorkerError], None]) -> Any:
+
+def register_tasks(app: Any, runner: JobRunner, foreman: Foreman) -> Any:
     """Give the application its task, which hands every message to the runner.
 
     The runner opens its maker at the first job, so in the pool's child and never before the fork.
@@ -22,7 +27,7 @@ def register_tasks(app: Any, runner: JobRunner, on_unfit: Callable[[UnfitWorkerE
     Args:
         app: the Celery application.
         runner: runs the jobs.
-        on_unfit: called in the worker's main process, before the message goes back to the queue.
+        foreman: learns in the worker's main process how jobs ended.
 
     Returns:
         The task.
@@ -31,19 +36,39 @@ def register_tasks(app: Any, runner: JobRunner, on_unfit: Callable[[UnfitWorkerE
     class WatchedRequest(Request):  # type: ignore[misc]  # celery is untyped
         """What the main process knows of a message that a child works on."""
 
+        def on_success(self, failed__retval__runtime: Any, **kwargs: Any) -> Any:
+            """Learn that a job ended well."""
+            if not failed__retval__runtime[0]:
+                foreman.note_done()
+            return super().on_success(failed__retval__runtime, **kwargs)
+
         def on_failure(self, exc_info: Any, send_failed_event: bool = True, return_ok: bool = False) -> Any:
-            """Learn from a child that this worker is unfit."""
+            """Learn that this worker is unfit, its store full, or its child dead."""
             error = getattr(exc_info.exception, "exc", exc_info.exception)
             if isinstance(error, Reject) and isinstance(error.reason, UnfitWorkerError):
-                on_unfit(error.reason)
+                foreman.note_unfit(error.reason)
+            elif isinstance(error, Reject) and isinstance(error.reason, DestinationError):
+                foreman.note_full(error.reason)
+            elif isinstance(error, WorkerLostError | SystemExit):
+                foreman.note_crash(self)
             return super().on_failure(exc_info, send_failed_event, return_ok)
+
+        def on_timeout(self, soft: bool, timeout: float) -> Any:
+            """Learn that a child is about to be killed at the hard limit."""
+            if not soft:
+                foreman.note_crash(self)
+            return super().on_timeout(soft, timeout)
 
     def render_image(task: Any, message: object = None) -> None:
         try:
             log.info("%s", runner.run(message))
         except TryLaterError as error:
             raise task.retry(exc=error, countdown=error.delay_s) from error
-        except UnfitWorkerError as error:
+        except (UnfitWorkerError, DestinationError) as error:
+            raise Reject(error, requeue=True) from error
+        except BrokerError as error:
+            # No seed decides how workers spread out when they come back to a Redis that was away.
+            time.sleep(random.uniform(*_BROKER_PAUSE_S))  # noqa: S311 - not for secrets
             raise Reject(error, requeue=True) from error
 
     # Failures that the farm foresees are logged in one line, without a traceback.

@@ -2,16 +2,19 @@
 
 import hashlib
 import time
+from typing import Protocol
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from farm.completion import is_done
 from farm.dataset import Dataset
 from farm.errors import RenderError
 from farm.job import Job
 from farm.layout import FileRole, file_path, manifest_path
 from farm.manifest import FileRecord, Manifest
+from worker.held_claim import ClaimLostError
 from worker.made import MadeImage
 
 Pixels = NDArray[np.uint8] | NDArray[np.uint16]
@@ -47,7 +50,29 @@ def _check(made: MadeImage) -> None:
         raise RenderError("mask and instances do not cover the same pixels")
 
 
-def upload(made: MadeImage, job: Job, dataset: Dataset) -> Manifest:
+class Guard(Protocol):
+    """Tells whether the job may still be written; see `worker.held_claim.HeldClaim`."""
+
+    def renew(self) -> None:
+        """Ask whoever knows; raises ClaimLostError or BrokerError."""
+        ...
+
+    def check(self) -> None:
+        """Ask no one; raises ClaimLostError."""
+        ...
+
+
+class Unguarded:
+    """For a writer that has the dataset to itself."""
+
+    def renew(self) -> None:
+        """Nothing to ask."""
+
+    def check(self) -> None:
+        """Nothing to check."""
+
+
+def upload(made: MadeImage, job: Job, dataset: Dataset, guard: Guard | None = None) -> Manifest:
     """Write the files, then the manifest that vouches for them.
 
     Returns:
@@ -56,8 +81,23 @@ def upload(made: MadeImage, job: Job, dataset: Dataset) -> Manifest:
     Raises:
         RenderError: if the picture and its labels don't fit each other.
         DestinationError: if a file can't be written.
+        ClaimLostError: if the guard finds that another may be writing; then what is in place is whole, or has no
+            manifest.
+        BrokerError: if the guard can't find out.
     """
     _check(made)
+    guard = guard or Unguarded()
+    guard.renew()
+    try:
+        return _write(made, job, dataset, guard)
+    except ClaimLostError:
+        # The process was stopped between a check and its write, and that write may have met another's files.
+        if not is_done(dataset, job):
+            dataset.storage.remove(manifest_path(job))
+        raise
+
+
+def _write(made: MadeImage, job: Job, dataset: Dataset, guard: Guard) -> Manifest:
     start = time.perf_counter()
     pixels: dict[FileRole, Pixels] = {
         FileRole.IMAGE: made.image,
@@ -68,6 +108,7 @@ def upload(made: MadeImage, job: Job, dataset: Dataset) -> Manifest:
     for role, array in pixels.items():
         content = encode_png(array)
         path = file_path(job, role)
+        guard.check()
         dataset.storage.write(path, content)
         files[role] = FileRecord(path=path, bytes=len(content), sha256=hashlib.sha256(content).hexdigest())
     manifest = Manifest(
@@ -83,5 +124,7 @@ def upload(made: MadeImage, job: Job, dataset: Dataset) -> Manifest:
         versions=made.versions,
         files=files,
     )
+    guard.renew()
     dataset.storage.write(manifest_path(job), manifest.model_dump_json(indent=1).encode() + b"\n")
+    guard.check()
     return manifest

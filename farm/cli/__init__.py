@@ -9,9 +9,12 @@ import typer
 
 from farm import __version__
 from farm.cli.assets import assets_app
+from farm.cli.control import cancel, pause, resume
 from farm.cli.doctor import doctor
 from farm.cli.flower import flower
+from farm.cli.mending import repair, retry
 from farm.cli.preview import preview
+from farm.cli.replay import replay
 from farm.cli.report import report
 from farm.cli.run import run
 from farm.cli.status import status, watch
@@ -45,7 +48,11 @@ def _options(
     """The options of the program itself; its help is the application's."""
 
 
-for command in (run, submit, worker, status, watch, verify, report, preview, doctor, flower):
+COMMANDS = (
+    *(run, submit, worker, status, watch, pause, resume, cancel),
+    *(repair, retry, replay, verify, report, preview, doctor, flower),
+)
+for command in COMMANDS:
     app.command()(command)
 app.add_typer(assets_app, name="assets")
 

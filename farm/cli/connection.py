@@ -1,36 +1,31 @@
-"""Joining a dataset to its ledger and queue in Redis."""
+"""Joining a dataset to its run in Redis, from the command line's options."""
 
-import redis
-
-from farm.coordinator import Coordinator
+from farm.board.port import Priority
 from farm.dataset import Dataset
 from farm.errors import BrokerError
-from farm.ledger.port import Ledger
-from farm.ledger.redis import RedisLedger
+from farm.progress import Hints
 from farm.queue.broker import broker_url, connect
-from farm.queue.celery import CeleryQueue
-from farm.queue.settings import make_app
+from farm.redis_hints import redis_hints
 
 
-def ledger_of(dataset: Dataset, client: "redis.Redis") -> RedisLedger:
-    """The dataset's ledger."""
-    return RedisLedger(client, dataset.name, dataset.header.spec_sha256)
+def hints_of(dataset: Dataset, broker: str | None, priority: Priority | None = None) -> Hints:
+    """The dataset's run.
+
+    Raises:
+        BrokerError: if Redis is not there.
+    """
+    url = broker_url(broker)
+    return redis_hints(dataset, url, connect(url), priority)
 
 
-def coordinator_of(dataset: Dataset, url: str, client: "redis.Redis") -> Coordinator:
-    """The dataset's coordinator."""
-    return Coordinator(dataset, ledger_of(dataset, client), CeleryQueue(make_app(url), client))
-
-
-def ledger_if_reachable(dataset: Dataset, broker: str | None) -> Ledger | None:
-    """The dataset's ledger; None where Redis is not there and none was asked for.
+def hints_if_reachable(dataset: Dataset, broker: str | None) -> Hints | None:
+    """The dataset's run; None where Redis is not there and none was asked for.
 
     Raises:
         BrokerError: if the Redis that was asked for is not there.
     """
-    url = broker_url(broker)
     try:
-        return ledger_of(dataset, connect(url))
+        return hints_of(dataset, broker)
     except BrokerError:
         if broker is not None:
             raise

@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn
 from rich.table import Table
 
+from farm.board.port import RunState, WorkerState
 from farm.category import Category
 from farm.progress import Progress as DatasetProgress
 
@@ -37,8 +38,15 @@ def summary(progress: DatasetProgress) -> str:
         parts.append(f"{progress.images_per_hour:.0f} an hour")
     if progress.seconds_left is not None:
         parts.append(f"{duration(progress.seconds_left)} left")
-    if progress.failures:
-        parts.append(f"{len(progress.failures)} failed")
+    if progress.quarantined:
+        parts.append(f"{len(progress.quarantined)} failed")
+    if progress.state is RunState.PAUSED:
+        parts.append("paused")
+    held = [report for report in progress.workers or () if report.state is WorkerState.HELD]
+    if held:
+        parts.append(f"{len(held)} workers held back: {held[0].reason}")
+    if progress.trouble:
+        parts.append(progress.trouble)
     return ", ".join(parts)
 
 

@@ -2,59 +2,71 @@
 
 import typer
 
-from farm.cli.connection import coordinator_of, ledger_if_reachable
+from farm.board.port import RunState, WorkerReport
+from farm.cli.connection import hints_if_reachable, hints_of
 from farm.cli.display import ProgressDisplay, console, duration, table
 from farm.cli.options import AsJson, Broker, DatasetPlace
 from farm.completion import Completion
 from farm.coordinator import Coordinator
 from farm.dataset import Dataset, open_dataset, parse_destination
 from farm.errors import IncompleteError
-from farm.progress import measure
-from farm.queue.broker import broker_url, connect, masked
+from farm.progress import Progress, on_disk, with_hints
+from farm.quarantine import Quarantine
+from farm.queue.broker import broker_url, masked
 from farm.report import write_overview
 
 
 def status(place: DatasetPlace, broker: Broker = None, as_json: AsJson = False) -> None:
-    """Tell how far a dataset is, from its folder; with Redis also the rate, what runs and what failed."""
+    """Tell how far a dataset is, from its folder; with Redis also the rate, what runs, and the workers."""
     dataset = open_dataset(parse_destination(place))
-    ledger = ledger_if_reachable(dataset, broker)
-    progress = measure(dataset, Completion(dataset), ledger)
+    hints = hints_if_reachable(dataset, broker)
+    progress = on_disk(dataset, Completion(dataset).audit(), Quarantine(dataset).look())
+    if hints is not None:
+        progress = with_hints(progress, hints)
     if as_json:
         typer.echo(progress.model_dump_json(indent=1))
         return
     screen = console(results=True)
     screen.print(progress.location, markup=False)
     screen.print(table(progress))
-    if ledger is None:
-        screen.print(f"no Redis at {masked(broker_url(None))}: rate, running and failed images unknown", markup=False)
-        return
+    for line in _lines(progress, broker_is_there=hints is not None):
+        screen.print(line, markup=False)
+
+
+def _lines(progress: Progress, *, broker_is_there: bool) -> list[str]:
+    given_up = [f"failed   {job_id}: {reason}" for job_id, reason in progress.quarantined.items()]
+    if not broker_is_there:
+        return [f"no Redis at {masked(broker_url(None))}: rate, running images and workers unknown", *given_up]
     last = f"{progress.location.rstrip('/')}/{progress.last_picture}" if progress.last_picture else "none"
     if progress.done == progress.quota:
-        screen.print(f"last     {last}", markup=False)
-        return
+        return [f"last     {last}"]
     rate = "unknown yet" if progress.images_per_hour is None else f"{progress.images_per_hour:.0f} images an hour"
     left = "" if progress.seconds_left is None else f", {duration(progress.seconds_left)} left"
-    screen.print(f"rate     {rate}{left}", markup=False)
-    screen.print(f"running  {', '.join(progress.running or ()) or 'nothing'}", markup=False)
-    screen.print(f"last     {last}", markup=False)
-    for job_id, reason in (progress.failures or {}).items():
-        screen.print(f"failed   {job_id}: {reason}", markup=False)
+    lines = [] if progress.state in {None, RunState.ACTIVE} else [f"state    {progress.state}"]
+    lines += [f"rate     {rate}{left}", f"waiting  {progress.waiting or 0}"]
+    lines += [f"running  {', '.join(progress.running or ()) or 'nothing'}", f"last     {last}"]
+    lines += [f"worker   {_worker(report)}" for report in progress.workers or ()]
+    return lines + given_up
+
+
+def _worker(report: WorkerReport) -> str:
+    why = f": {report.reason}" if report.reason else ""
+    return f"{report.name} {report.state}{why}, {report.done} done"
 
 
 def watch(place: DatasetPlace, broker: Broker = None) -> None:
-    """Show a dataset grow until it is done; images lost on the way are queued again."""
+    """See a dataset through until it is done: what is missing is queued, and again what is lost on the way."""
     dataset = open_dataset(parse_destination(place))
-    url = broker_url(broker)
-    watch_to_the_end(dataset, coordinator_of(dataset, url, connect(url)))
+    watch_to_the_end(dataset, Coordinator(dataset, hints_of(dataset, broker)))
 
 
 def watch_to_the_end(dataset: Dataset, coordinator: Coordinator) -> None:
     """Show a dataset grow, then write its index and report, as far as it got.
 
     Raises:
-        IncompleteError: if images failed for good.
-        BrokerError: if Redis goes away.
-        DestinationError: if the folder can't be read or written.
+        IncompleteError: if images were given up.
+        RunCancelledError: if the run was cancelled.
+        DestinationError: if the index or report can't be written.
     """
     try:
         with ProgressDisplay(console()) as display:

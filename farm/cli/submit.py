@@ -5,12 +5,14 @@ from typing import Annotated
 import typer
 
 from farm.asset_source import InstalledAssets
+from farm.board.port import Priority
 from farm.catalogue import make_header
-from farm.cli.connection import coordinator_of
+from farm.cli.connection import hints_of
 from farm.cli.display import console
 from farm.cli.options import Broker, DatasetOptions, Logs, Out, log_folder, takes_dataset_options
 from farm.cli.status import watch_to_the_end
 from farm.cli.worker_program import ask_worker, blender_is_installed
+from farm.coordinator import Coordinator
 from farm.dataset import create_dataset, parse_destination
 from farm.queue.broker import broker_url, connect
 
@@ -20,6 +22,9 @@ def submit(
     options: DatasetOptions,
     out: Out,
     broker: Broker = None,
+    priority: Annotated[
+        Priority, typer.Option(help="Runs of a higher priority go first; runs of one priority take turns.")
+    ] = Priority.NORMAL,
     wait: Annotated[bool, typer.Option("--wait", help="Stay until all is done, and mend what gets lost.")] = False,
     logs: Logs = None,
 ) -> None:
@@ -27,15 +32,23 @@ def submit(
     destination = parse_destination(out)
     description = options.describe()
     header = make_header(description.spec, description.inputs, InstalledAssets())
-    url = broker_url(broker)
-    client = connect(url)
+    connect(broker_url(broker)).close()
     if description.inputs.template is not None and blender_is_installed():
         ask_worker(["check"], header, log_folder(logs))
     dataset = create_dataset(destination, header)
-    coordinator = coordinator_of(dataset, url, client)
+    hints = hints_of(dataset, broker, priority)
+    # A run that was paused or cancelled goes on when it is submitted again.
+    hints.board.replace(hints.run)
+    coordinator = Coordinator(dataset, hints)
     screen = console()
     with screen.status("queueing") as status:
         count = coordinator.submit_missing(lambda so_far: status.update(f"queueing: {so_far}"))
-    typer.echo(f"{count} of {dataset.header.spec.total} images queued for {dataset.storage.location}")
+    place = dataset.storage.location
+    typer.echo(f"{count} of {dataset.header.spec.total} images queued for {place}")
+    waiting = hints.queue.length(hints.run)
+    if coordinator.undone > max(count, waiting) and not wait:
+        typer.echo(
+            f"{coordinator.undone - waiting} more follow as these are taken, while this runs: farm watch {place}"
+        )
     if wait:
         watch_to_the_end(dataset, coordinator)

@@ -8,7 +8,7 @@ from rich.progress import Progress
 from farm.cli.display import console
 from farm.cli.options import AsJson, DatasetPlace
 from farm.dataset import open_dataset, parse_destination
-from farm.errors import VerificationError
+from farm.errors import IncompleteError, VerificationError
 from farm.verify import Verdict
 from farm.verify import verify as verify_dataset
 
@@ -26,6 +26,11 @@ def verify(place: DatasetPlace, as_json: AsJson = False) -> None:
         typer.echo(verdict.model_dump_json(indent=1))
     if not verdict.clean:
         raise VerificationError(_summary(verdict, listed=not as_json))
+    if verdict.quarantined:
+        raise IncompleteError(
+            f"{verdict.location}: {verdict.images} images, every file as its manifest tells; {len(verdict.quarantined)} "
+            "are in quarantine; farm status tells why, farm retry puts them back"
+        )
     if not as_json:
         typer.echo(f"{verdict.location}: {verdict.images} images, every file as its manifest tells")
 
@@ -33,7 +38,7 @@ def verify(place: DatasetPlace, as_json: AsJson = False) -> None:
 def _summary(verdict: Verdict, *, listed: bool) -> str:
     counts = Counter(finding.fault for finding in verdict.findings)
     words = ", ".join(f"{count} {fault}" for fault, count in counts.items())
-    remedy = "remove the altered and extra files, then run or submit it again to make what is missing"
+    remedy = "remove extra files; farm repair --checksums, or farm run again, makes what is missing or damaged"
     lines = [f"{verdict.location}: {words}; {verdict.images} of {verdict.quota} images are as they should be; {remedy}"]
     if listed:
         findings = verdict.findings

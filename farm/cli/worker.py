@@ -13,7 +13,7 @@ from farm.cli.options import Assets, Broker, Device, DeviceChoice, Logs, log_fol
 from farm.cli.worker_program import become_worker, check_device, require_blender
 from farm.machine import usable_cores
 from farm.queue.broker import broker_url, connect
-from farm.queue.settings import MEMORY_PER_CHILD_KIB, TASKS_PER_CHILD
+from farm.queue.settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
 from farm.storage import open_storage
 
 
@@ -32,6 +32,12 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
     memory_per_child_mib: Annotated[
         int, typer.Option(min=256, help="A Blender is replaced above this.")
     ] = MEMORY_PER_CHILD_KIB // 1024,
+    time_limit_s: Annotated[
+        float, typer.Option(min=1, max=HARD_LIMIT_S, help="A job's process is killed after so long.")
+    ] = HARD_LIMIT_S,
+    min_free_mib: Annotated[
+        int, typer.Option(min=0, help="Take no job while the store's disk has less room.")
+    ] = MIN_FREE_MIB,
     assets: Assets = None,
     logs: Logs = None,
 ) -> None:
@@ -48,6 +54,7 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
     arguments += ["--threads", str(threads or max(1, usable_cores() // concurrency))]
     arguments += ["--concurrency", str(concurrency), "--tasks-per-child", str(tasks_per_child)]
     arguments += ["--memory-per-child-kib", str(memory_per_child_mib * 1024), "--logs", str(log_folder(logs))]
+    arguments += ["--time-limit-s", str(time_limit_s), "--min-free-mib", str(min_free_mib)]
     if assets is not None:
         arguments += ["--assets", str(assets)]
     become_worker(arguments, url)

@@ -1,18 +1,24 @@
 """What every ledger offers. Losing one loses nothing that the folder and a new submission don't restore."""
 
-from collections.abc import Callable, Mapping
+import os
+from collections.abc import Callable, Iterable, Mapping
 from typing import Protocol
 
 from farm.model import Model
 
-CLAIM_S = 60.0
-"""A claim that is not refreshed for this long is void, in seconds."""
+CLAIM_VARIABLE = "FARM_CLAIM_S"
+
+CLAIM_S = float(os.environ.get(CLAIM_VARIABLE, "60"))
+"""A claim that is not refreshed for this long is void, in seconds. All processes of a farm must agree on it."""
 
 RECENT_COMPLETIONS = 200
 """The rate is taken over at most this many pictures..."""
 
 RECENT_S = 3600.0
 """...of the last hour, so that yesterday's run does not slow today's."""
+
+MAX_ABSENCES = 6
+"""So many workers in a row may end since their store lacks a dataset; then its run ends."""
 
 RETRY_OWNER = ""
 """Holds a job that waits for its next attempt; anyone may take it over."""
@@ -53,14 +59,6 @@ class Ledger(Protocol):
         """Give a claim up, if it is the owner's, as if the job had not been started."""
         ...
 
-    def count_trouble(self, job_id: str) -> int:
-        """Count a failure that may pass; returns how many there were."""
-        ...
-
-    def count_absence(self) -> int:
-        """Count a worker whose store lacks the dataset; returns how many since a job was last done, or forgiven."""
-        ...
-
     def postpone(self, job_id: str, owner: str, delay_s: float) -> None:
         """Turn the owner's claim into one that anyone may take over, and that lapses after `delay_s` seconds."""
         ...
@@ -69,20 +67,56 @@ class Ledger(Protocol):
         """The live claims: job id to owner."""
         ...
 
-    def record_done(self, job_id: str, picture: str) -> None:
-        """Note a finished job and its picture, and forget its starts, troubles and failure."""
+    def finish(self, job_id: str, owner: str, picture: str) -> bool:
+        """Note a finished job and its picture, forget its starts and troubles, and release its claim.
+
+        Returns:
+            False if the claim is no longer the owner's: then nothing is noted, as another will.
+        """
         ...
 
-    def record_failure(self, job_id: str, reason: str) -> None:
-        """Note that a job failed for good, with a one-line reason."""
+    def count_trouble(self, job_id: str) -> int:
+        """Count a failure that may pass; returns how many there were."""
         ...
 
-    def failures(self) -> Mapping[str, str]:
-        """The jobs that failed for good: id to reason."""
+    def count_absence(self) -> int:
+        """Count a worker whose store lacks the dataset; returns how many since a job was last done, or forgiven."""
         ...
 
-    def forget_failures(self) -> None:
-        """Forget every failure, and all that was counted of the failed jobs."""
+    def absences(self) -> int:
+        """What `count_absence` has counted."""
+        ...
+
+    def keep_log(self, job_id: str, text: str) -> None:
+        """Keep what a job printed before its process ended, for whoever gives it up."""
+        ...
+
+    def log_of(self, job_id: str) -> str:
+        """What `keep_log` kept last; empty if nothing."""
+        ...
+
+    def forgive(self, job_ids: Iterable[str]) -> None:
+        """Forget all that was counted of some jobs, and the absences."""
+        ...
+
+    def lead(self, owner: str, ttl_s: float) -> bool:
+        """Become, or stay for another `ttl_s` seconds, the one who queues this dataset's jobs; False if another is."""
+        ...
+
+    def leader(self) -> str | None:
+        """Who queues this dataset's jobs; None if nobody does."""
+        ...
+
+    def resign(self, owner: str) -> None:
+        """Stop being the one who queues, if it is the owner."""
+        ...
+
+    def add_figures(self, figures: Mapping[str, float]) -> None:
+        """Add to the running totals that metrics show, by name."""
+        ...
+
+    def figures(self) -> Mapping[str, float]:
+        """The running totals, by name."""
         ...
 
     def activity(self) -> Activity:
@@ -104,7 +138,7 @@ def images_per_hour(finished_s: list[float], now_s: float) -> float | None:
     Returns:
         None if fewer than two are recent.
     """
-    recent = sorted(moment for moment in finished_s if now_s - moment <= RECENT_S)
+    recent = sorted(moment for moment in finished_s if 0 <= now_s - moment <= RECENT_S)
     if len(recent) < 2 or now_s <= recent[0]:
         return None
     return (len(recent) - 1) / (now_s - recent[0]) * 3600.0

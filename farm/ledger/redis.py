@@ -1,6 +1,6 @@
 """The ledger in Redis, shared by all workers and coordinators. Times are the Redis server's own."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import cast
 
@@ -13,13 +13,17 @@ from farm.ledger.port import CLAIM_S, RECENT_COMPLETIONS, RETRY_OWNER, Activity,
 KEEP_S = 30 * 24 * 3600
 """What nobody has written to for so long is forgotten, so that a shared Redis does not fill up."""
 
+_LONGEST_HOLD_S = max(3600.0, 2 * CLAIM_S)
+"""No claim is held for longer, so one that seems to be is of a clock that was set back since: it is void."""
+
 # A claim is a member of a sorted set, scored with the time at which it lapses, and its owner in a hash beside it.
 # Scripts run whole: no other client sees a claim between its check and its change.
 _NOW = "local t = redis.call('TIME') local now = t[1] + t[2] / 1e6 "
 _OWNER = (
     "local owner = false "
     "local lapses = redis.call('ZSCORE', KEYS[1], ARGV[1]) "
-    "if lapses and tonumber(lapses) > now then owner = redis.call('HGET', KEYS[2], ARGV[1]) end "
+    f"if lapses and tonumber(lapses) > now and tonumber(lapses) < now + {_LONGEST_HOLD_S} then "
+    "owner = redis.call('HGET', KEYS[2], ARGV[1]) end "
 )
 _HOLD = (
     "local function hold(who, seconds) "
@@ -38,6 +42,21 @@ _RELEASE = (
     "redis.call('ZREM', KEYS[1], ARGV[1]) redis.call('HDEL', KEYS[2], ARGV[1]) "
     "if ARGV[3] == '1' then redis.call('HINCRBY', KEYS[3], ARGV[1], -1) end return 1"
 )
+# Keys 4 to 8: troubles, logs, absences, finished, last.
+_FINISH = (
+    _NOW + _OWNER + "if owner ~= ARGV[2] then return 0 end "
+    "redis.call('ZREM', KEYS[1], ARGV[1]) "
+    "for place = 2, 5 do redis.call('HDEL', KEYS[place], ARGV[1]) end "
+    "redis.call('DEL', KEYS[6]) "
+    "redis.call('LPUSH', KEYS[7], string.format('%.3f', now)) "
+    f"redis.call('LTRIM', KEYS[7], 0, {RECENT_COMPLETIONS - 1}) redis.call('EXPIRE', KEYS[7], {KEEP_S}) "
+    f"redis.call('SET', KEYS[8], ARGV[3], 'EX', {KEEP_S}) return 1"
+)
+_LEAD = (
+    "local leader = redis.call('GET', KEYS[1]) if leader and leader ~= ARGV[1] then return 0 end "
+    "redis.call('SET', KEYS[1], ARGV[1], 'PX', ARGV[2]) return 1"
+)
+_RESIGN = "if redis.call('GET', KEYS[1]) == ARGV[1] then redis.call('DEL', KEYS[1]) end return 1"
 
 
 @contextmanager
@@ -64,6 +83,9 @@ class RedisLedger:
         self._refresh = client.register_script(_REFRESH)
         self._postpone = client.register_script(_POSTPONE)
         self._release = client.register_script(_RELEASE)
+        self._finish = client.register_script(_FINISH)
+        self._lead = client.register_script(_LEAD)
+        self._resign = client.register_script(_RESIGN)
 
     def _key(self, name: str) -> str:
         return f"{self._prefix}:{name}"
@@ -120,49 +142,78 @@ class RedisLedger:
     def claims(self) -> Mapping[str, str]:
         """See `Ledger.claims`."""
         with _as_broker_error():
-            live = cast(list[str], self._client.zrangebyscore(self._key("claims"), f"({self._now():.6f}", "+inf"))
+            now = self._now()
+            until = f"({now + _LONGEST_HOLD_S:.6f}"
+            live = cast(list[str], self._client.zrangebyscore(self._key("claims"), f"({now:.6f}", until))
             if not live:
                 return {}
             owners = cast(list[str | None], self._client.hmget(self._key("owners"), live))
         return {job_id: owner for job_id, owner in zip(live, owners, strict=True) if owner is not None}
 
-    def record_done(self, job_id: str, picture: str) -> None:
-        """See `Ledger.record_done`."""
+    def finish(self, job_id: str, owner: str, picture: str) -> bool:
+        """See `Ledger.finish`."""
+        more = [self._key(name) for name in ("troubles", "logs", "absences", "finished", "last")]
         with _as_broker_error():
-            now = self._now()
+            return bool(self._finish(keys=[*self._claim_keys, *more], args=[job_id, owner, picture]))
+
+    def absences(self) -> int:
+        """See `Ledger.absences`."""
+        with _as_broker_error():
+            return int(cast(str | None, self._client.get(self._key("absences"))) or 0)
+
+    def keep_log(self, job_id: str, text: str) -> None:
+        """See `Ledger.keep_log`."""
+        with _as_broker_error():
             pipe = self._client.pipeline(transaction=True)
-            pipe.lpush(self._key("finished"), f"{now:.3f}")
-            pipe.ltrim(self._key("finished"), 0, RECENT_COMPLETIONS - 1)
-            pipe.expire(self._key("finished"), KEEP_S)
-            pipe.set(self._key("last"), picture, ex=KEEP_S)
-            for name in ("failures", "starts", "troubles"):
-                pipe.hdel(self._key(name), job_id)
+            pipe.hset(self._key("logs"), job_id, text)
+            pipe.expire(self._key("logs"), KEEP_S)
+            pipe.execute()
+
+    def log_of(self, job_id: str) -> str:
+        """See `Ledger.log_of`."""
+        with _as_broker_error():
+            return cast(str | None, self._client.hget(self._key("logs"), job_id)) or ""
+
+    def forgive(self, job_ids: Iterable[str]) -> None:
+        """See `Ledger.forgive`."""
+        forgiven = list(job_ids)
+        with _as_broker_error():
+            pipe = self._client.pipeline(transaction=True)
+            if forgiven:
+                for name in ("starts", "troubles", "logs"):
+                    pipe.hdel(self._key(name), *forgiven)
             pipe.delete(self._key("absences"))
             pipe.execute()
 
-    def record_failure(self, job_id: str, reason: str) -> None:
-        """See `Ledger.record_failure`."""
+    def lead(self, owner: str, ttl_s: float) -> bool:
+        """See `Ledger.lead`."""
+        with _as_broker_error():
+            return bool(self._lead(keys=[self._key("leader")], args=[owner, max(1, round(ttl_s * 1000))]))
+
+    def leader(self) -> str | None:
+        """See `Ledger.leader`."""
+        with _as_broker_error():
+            return cast(str | None, self._client.get(self._key("leader")))
+
+    def resign(self, owner: str) -> None:
+        """See `Ledger.resign`."""
+        with _as_broker_error():
+            self._resign(keys=[self._key("leader")], args=[owner])
+
+    def add_figures(self, figures: Mapping[str, float]) -> None:
+        """See `Ledger.add_figures`."""
         with _as_broker_error():
             pipe = self._client.pipeline(transaction=True)
-            pipe.hset(self._key("failures"), job_id, reason)
-            pipe.expire(self._key("failures"), KEEP_S)
+            for name, value in figures.items():
+                pipe.hincrbyfloat(self._key("figures"), name, value)
+            pipe.expire(self._key("figures"), KEEP_S)
             pipe.execute()
 
-    def failures(self) -> Mapping[str, str]:
-        """See `Ledger.failures`."""
+    def figures(self) -> Mapping[str, float]:
+        """See `Ledger.figures`."""
         with _as_broker_error():
-            return cast(dict[str, str], self._client.hgetall(self._key("failures")))
-
-    def forget_failures(self) -> None:
-        """See `Ledger.forget_failures`."""
-        failed = list(self.failures())
-        with _as_broker_error():
-            pipe = self._client.pipeline(transaction=True)
-            if failed:
-                for name in ("failures", "starts", "troubles"):
-                    pipe.hdel(self._key(name), *failed)
-            pipe.delete(self._key("absences"))
-            pipe.execute()
+            found = cast(dict[str, str], self._client.hgetall(self._key("figures")))
+        return {name: float(value) for name, value in found.items()}
 
     def activity(self) -> Activity:
         """See `Ledger.activity`."""

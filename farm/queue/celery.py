@@ -1,17 +1,21 @@
-"""Celery's queue, seen from the coordinator: sending tasks by name, and looking at those that wait."""
+"""Celery's queues, seen from the coordinator: sending tasks by name, and looking at those that wait."""
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any, cast
 
 import redis
-from kombu.exceptions import OperationalError
+from kombu.exceptions import BatchPublishError, OperationalError
 
-from farm.errors import BrokerError
-from farm.job import JobMessage, queue_key
-from farm.queue.settings import QUEUE, TASK_NAME
+from farm.board.port import PRIORITY_STEPS, Run
+from farm.errors import BrokerError, MessageError
+from farm.job import Job, JobMessage
+from farm.queue.settings import TASK_NAME, queue_name
 
 _PAGE = 500
+_BATCH = 500
+_PRIORITY_MARK = "\x06\x16"
+"""Between a queue's name and its priority in the name of its list; kombu's own, as the list without it is of step 0."""
 
 
 class CeleryQueue:
@@ -26,17 +30,18 @@ class CeleryQueue:
         self._app = app
         self._client = client
 
-    def submit(self, messages: Iterable[JobMessage]) -> int:
-        """See `JobQueue.submit`."""
+    def submit(self, run: Run, messages: Iterable[JobMessage]) -> int:
+        """See `JobQueue.submit`. A batch goes to Redis in one go; one that is cut off counts as not queued."""
         count = 0
         try:
-            with self._app.producer_pool.acquire(block=True) as producer:
+            with self._app.producer_pool.acquire(block=True) as producer, producer.batch(max_size=_BATCH):
                 for message in messages:
                     self._app.send_task(
                         TASK_NAME,
                         kwargs={"message": message.encode()},
                         task_id=message.task_id,
-                        queue=QUEUE,
+                        queue=queue_name(run.key),
+                        priority=run.priority.step,
                         producer=producer,
                         retry=False,
                         # Flower shows these instead of the whole message.
@@ -44,37 +49,54 @@ class CeleryQueue:
                         kwargsrepr=message.job_id,
                     )
                     count += 1
-        except (OperationalError, redis.RedisError) as error:
+        except (BatchPublishError, OperationalError, redis.RedisError, OSError) as error:
             raise BrokerError(
-                f"Redis went away after {count} jobs were queued: {error}; submit again, nothing is doubled"
+                f"Redis went away after about {count} jobs were queued: {error}; submit again, nothing is doubled"
             ) from error
         return count
 
-    def length(self) -> int:
+    def length(self, run: Run) -> int:
         """See `JobQueue.length`."""
         try:
-            return int(self._client.llen(QUEUE))
+            pipe = self._client.pipeline(transaction=False)
+            for name in _lists(run):
+                pipe.llen(name)
+            return sum(pipe.execute())
         except redis.RedisError as error:
             raise BrokerError(f"can't look at the queue: {error}") from error
 
-    def queued(self, dataset: str, spec_sha256: str) -> set[str]:
+    def queued(self, run: Run) -> Iterator[Job]:
         """See `JobQueue.queued`. Messages enter on the left, so reading from there misses none that stays."""
-        asked = queue_key(dataset, spec_sha256)
-        found: set[str] = set()
-        start = 0
         try:
-            while page := cast(list[str], self._client.lrange(QUEUE, start, start + _PAGE - 1)):
-                found.update(job_id for key, job_id in map(_names, page) if key == asked)
-                start += _PAGE
+            for name in _lists(run):
+                start = 0
+                while page := cast(list[str], self._client.lrange(name, start, start + _PAGE - 1)):
+                    for key, job in map(_names, page):
+                        if key == run.key and job is not None:
+                            yield job
+                    start += _PAGE
         except redis.RedisError as error:
             raise BrokerError(f"can't look at the queue: {error}") from error
-        return found
+
+    def clear(self, run: Run) -> int:
+        """See `JobQueue.clear`."""
+        count = self.length(run)
+        try:
+            self._client.delete(*_lists(run))
+        except redis.RedisError as error:
+            raise BrokerError(f"can't empty the queue: {error}") from error
+        return count
 
 
-def _names(envelope: str) -> tuple[str, str]:
+def _lists(run: Run) -> list[str]:
+    name = queue_name(run.key)
+    return [f"{name}{_PRIORITY_MARK}{step}" if step else name for step in PRIORITY_STEPS]
+
+
+def _names(envelope: str) -> tuple[str, Job | None]:
     # The task's id is in the envelope's headers, so the body need not be decoded. Foreign messages are passed over.
     try:
         key, _, job_id = str(json.loads(envelope)["headers"]["id"]).rpartition(":")
-    except (ValueError, TypeError, KeyError):
-        return "", ""
-    return key, job_id
+        return key, Job.from_id(job_id)
+    except (ValueError, TypeError, KeyError, RecursionError, MessageError):
+        return "", None

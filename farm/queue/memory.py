@@ -3,7 +3,8 @@
 from collections import deque
 from collections.abc import Iterable
 
-from farm.job import JobMessage
+from farm.board.port import Run
+from farm.job import Job, JobMessage
 
 
 class MemoryQueue:
@@ -12,17 +13,24 @@ class MemoryQueue:
     def __init__(self) -> None:
         self.messages: deque[JobMessage] = deque()
 
-    def submit(self, messages: Iterable[JobMessage]) -> int:
+    def submit(self, run: Run, messages: Iterable[JobMessage]) -> int:
         """See `JobQueue.submit`."""
-        before = len(self.messages)
+        before = self.length(run)
         self.messages.extend(messages)
-        return len(self.messages) - before
+        return self.length(run) - before
 
-    def length(self) -> int:
+    def length(self, run: Run) -> int:
         """See `JobQueue.length`."""
-        return len(self.messages)
+        return len(list(self.queued(run)))
 
-    def queued(self, dataset: str, spec_sha256: str) -> set[str]:
+    def queued(self, run: Run) -> Iterable[Job]:
         """See `JobQueue.queued`."""
-        asked = (dataset, spec_sha256)
-        return {message.job_id for message in self.messages if (message.dataset, message.spec_sha256) == asked}
+        asked = (run.dataset, run.spec_sha256)
+        return [message.job for message in self.messages if (message.dataset, message.spec_sha256) == asked]
+
+    def clear(self, run: Run) -> int:
+        """See `JobQueue.clear`."""
+        count = self.length(run)
+        asked = (run.dataset, run.spec_sha256)
+        self.messages = deque(message for message in self.messages if (message.dataset, message.spec_sha256) != asked)
+        return count

@@ -3,20 +3,25 @@
 from collections.abc import Iterable
 from typing import Protocol
 
-from farm.job import JobMessage
+from farm.board.port import Run
+from farm.job import Job, JobMessage
 
 
 class JobQueue(Protocol):
-    """Jobs that wait for a worker. Every method may raise BrokerError."""
+    """Jobs that wait for a worker, those of each run apart. Every method may raise BrokerError."""
 
-    def submit(self, messages: Iterable[JobMessage]) -> int:
+    def submit(self, run: Run, messages: Iterable[JobMessage]) -> int:
         """Queue the messages, taking them one by one; returns how many."""
         ...
 
-    def length(self) -> int:
-        """Messages that wait, of all datasets."""
+    def length(self, run: Run) -> int:
+        """Messages of a run that wait."""
         ...
 
-    def queued(self, dataset: str, spec_sha256: str) -> set[str]:
-        """The ids of the jobs that wait, of the dataset with this name and fingerprint."""
+    def queued(self, run: Run) -> Iterable[Job]:
+        """The jobs of a run that wait. One that enters or leaves meanwhile may be missed, or seen twice."""
+        ...
+
+    def clear(self, run: Run) -> int:
+        """Remove all messages of a run; returns how many."""
         ...

@@ -1,0 +1,62 @@
+"""`farm repair`, `farm retry`: putting back what was lost, damaged or given up."""
+
+from typing import Annotated
+
+import typer
+
+from farm.cli.connection import hints_if_reachable, hints_of
+from farm.cli.options import Broker, DatasetPlace
+from farm.coordinator import Coordinator
+from farm.dataset import Dataset, open_dataset, parse_destination
+from farm.errors import SpecError
+from farm.job import Job
+from farm.layout import manifest_path
+from farm.quarantine import Quarantine
+from farm.verify import damaged_jobs
+
+
+def repair(
+    place: DatasetPlace,
+    broker: Broker = None,
+    checksums: Annotated[
+        bool, typer.Option("--checksums", help="Read every file, and make again the images of which one is damaged.")
+    ] = False,
+) -> None:
+    """Compare folder and queue once, and queue every image that is neither done nor on its way."""
+    dataset = open_dataset(parse_destination(place))
+    hints = hints_of(dataset, broker)
+    damaged = list(damaged_jobs(dataset)) if checksums else []
+    for job in damaged:
+        dataset.storage.remove(manifest_path(job))
+    count = Coordinator(dataset, hints).submit_missing()
+    found = f", {len(damaged)} of them damaged" if damaged else ""
+    typer.echo(f"{count} of {dataset.header.spec.total} images queued for {place}{found}")
+
+
+def retry(
+    place: DatasetPlace,
+    jobs: Annotated[list[str] | None, typer.Argument(metavar="[JOB]...", help="Ids; all, if none.")] = None,
+    broker: Broker = None,
+) -> None:
+    """Put images that were given up back: into the queue if Redis is there, else for the next farm run."""
+    dataset = open_dataset(parse_destination(place))
+    released = _release(dataset, jobs or [])
+    hints = hints_if_reachable(dataset, broker)
+    if hints is None:
+        typer.echo(f"{len(released)} images put back; farm run or farm submit makes them")
+        return
+    hints.ledger.forgive(released)
+    count = Coordinator(dataset, hints).submit_missing()
+    typer.echo(f"{len(released)} images put back; {count} queued for {place}")
+
+
+def _release(dataset: Dataset, asked: list[str]) -> list[str]:
+    quarantine = Quarantine(dataset)
+    given_up = quarantine.look()
+    for job_id in asked:
+        Job.from_id(job_id)
+        if job_id not in given_up:
+            raise SpecError(f"{job_id}: not in quarantine; farm status {dataset.storage.location} lists those that are")
+    released = asked or list(given_up)
+    quarantine.release(released)
+    return released

@@ -1,0 +1,42 @@
+"""`farm replay`: one of a dataset's images again, here and now, to see why it failed."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from farm.cli.baking import bake_for
+from farm.cli.display import console
+from farm.cli.options import Assets, DatasetPlace, Device, DeviceChoice, Logs, log_folder
+from farm.cli.worker_program import ask_worker, require_blender
+from farm.dataset import open_dataset, parse_destination
+from farm.errors import DestinationError, SpecError
+from farm.job import Job
+
+
+def replay(
+    place: DatasetPlace,
+    job_id: Annotated[str, typer.Argument(metavar="JOB", help="Its id, as in far-000042.")],
+    out: Annotated[Path, typer.Option(help="Folder for the picture and its mask.")] = Path(),
+    device: Device = DeviceChoice.AUTO,
+    threads: Annotated[int, typer.Option(min=0, help="Of the renderer; 0: all cores.")] = 0,
+    assets: Assets = None,
+    logs: Logs = None,
+) -> None:
+    """Make one of a dataset's images again, beside the dataset: nothing in it is changed."""
+    dataset = open_dataset(parse_destination(place))
+    job = Job.from_id(job_id)
+    if not dataset.asks_for(job):
+        raise SpecError(f"{job.id}: outside the quotas of {dataset.storage.location}")
+    if not out.is_dir():
+        raise DestinationError(f"{out}: no such folder; make it first")
+    require_blender()
+    bake_for(dataset.header, assets, console())
+    picture, mask = out / f"{job.id}.png", out / f"{job.id}-mask.png"
+    arguments = ["preview", "--job", job.id, "--out", str(picture), "--mask", str(mask)]
+    arguments += ["--device", device, "--threads", str(threads)]
+    if assets is not None:
+        arguments += ["--assets", str(assets)]
+    with console().status(f"making {job.id}"):
+        ask_worker(arguments, dataset.header, log_folder(logs))
+    typer.echo(f"{picture} and {mask}")

@@ -1,0 +1,98 @@
+"""A claim while its job runs: kept alive, and asked before anything is written.
+
+A claim is a lease. Who asked for it knows, by its own clock, until when nobody else can have got it, even if the
+process was stopped in between and thinks no time has passed. So a worker that was thought dead and comes back writes
+nothing.
+"""
+
+import logging
+import threading
+import time
+from collections.abc import Callable
+from types import TracebackType
+from typing import Self
+
+from farm.errors import BrokerError, FarmError
+from farm.ledger.port import CLAIM_S, Ledger
+
+log = logging.getLogger(__name__)
+
+
+class ClaimLostError(FarmError):
+    """The job is another worker's by now, or may be."""
+
+
+class HeldClaim:
+    """Refreshes a claim from a thread of its own, inside `with`.
+
+    Args:
+        ledger: where the claim is.
+        job_id: the claimed job.
+        owner: who has claimed it, just now.
+        every_s: pause between two refreshes.
+        clock: counts seconds, also while the process is stopped.
+    """
+
+    def __init__(
+        self,
+        ledger: Ledger,
+        job_id: str,
+        owner: str,
+        *,
+        ttl_s: float = CLAIM_S,
+        every_s: float | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._ledger = ledger
+        self._job_id = job_id
+        self._owner = owner
+        self._ttl_s = ttl_s
+        self._every_s = ttl_s / 6 if every_s is None else every_s
+        self._clock = clock
+        # A tenth less than the ledger's, whose clock is another.
+        self._until_s = clock() + 0.9 * ttl_s
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._beat, name=f"heartbeat {job_id}", daemon=True)
+
+    def _beat(self) -> None:
+        while not self._stop.wait(self._every_s):
+            try:
+                self.renew()
+            except BrokerError as error:
+                log.warning("claim of %s not refreshed: %s", self._job_id, error)
+            except ClaimLostError:
+                return
+
+    def renew(self) -> None:
+        """Ask the ledger for more time.
+
+        Raises:
+            ClaimLostError: if the claim is no longer held.
+            BrokerError: if the ledger can't be reached.
+        """
+        asked_s = self._clock()
+        if not self._ledger.refresh(self._job_id, self._owner, self._ttl_s):
+            self._until_s = float("-inf")
+            raise ClaimLostError(f"{self._job_id}: this worker lost its claim, so nothing of it is written")
+        self._until_s = max(self._until_s, asked_s + 0.9 * self._ttl_s)
+
+    def check(self) -> None:
+        """Make sure that nobody else can have the job at this moment.
+
+        Raises:
+            ClaimLostError: if somebody may.
+        """
+        if self._clock() >= self._until_s:
+            raise ClaimLostError(f"{self._job_id}: this worker's claim has lapsed, so nothing of it is written")
+
+    def __enter__(self) -> Self:
+        """Start."""
+        self._thread.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        """Stop, and wait for a refresh that is under way."""
+        self._stop.set()
+        self._thread.join()

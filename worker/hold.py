@@ -1,0 +1,56 @@
+"""Why a worker takes no jobs for a while: its store is full, or can't be written."""
+
+import shutil
+import time
+from collections.abc import Callable
+
+_FIRST_S = 2.0
+_LONGEST_S = 60.0
+
+
+class Hold:
+    """Holds a worker back after failures of its store, longer after each, and while its disk is low.
+
+    Args:
+        store: folder or URL below which the datasets lie.
+        min_free_bytes: with less room than this no job is taken; of a URL the room is not known.
+        clock: counts seconds.
+    """
+
+    def __init__(self, store: str, min_free_bytes: int, clock: Callable[[], float] = time.monotonic) -> None:
+        self._store = store
+        self._min_free_bytes = min_free_bytes
+        self._clock = clock
+        self._pause_s = 0.0
+        self._until_s = float("-inf")
+        self._reason = ""
+
+    def fail(self, reason: str) -> None:
+        """Note a failure; the worker is held for twice as long as after the last, up to a minute."""
+        self._pause_s = min(_LONGEST_S, max(_FIRST_S, 2.0 * self._pause_s))
+        self._until_s = self._clock() + self._pause_s
+        self._reason = reason
+
+    def succeed(self) -> None:
+        """Note that a picture was written."""
+        self._pause_s = 0.0
+
+    def reason(self) -> str:
+        """Why no job may be taken now; empty if one may."""
+        if self._clock() < self._until_s:
+            return self._reason
+        free = free_bytes(self._store)
+        if free is not None and free < self._min_free_bytes:
+            mib = 2**20
+            return f"{self._store}: {free // mib} MiB free, kept free are {self._min_free_bytes // mib}; make room"
+        return ""
+
+
+def free_bytes(store: str) -> int | None:
+    """Room for more at a store; None where that is not known."""
+    if "://" in store and not store.startswith("file://"):
+        return None
+    try:
+        return shutil.disk_usage(store.removeprefix("file://")).free
+    except OSError:
+        return None  # not there yet: whoever writes to it will say more

@@ -1,0 +1,104 @@
+"""What is printed while a job runs, Blender's C code included: a file a job, bounded in size and number."""
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from farm.errors import DestinationError
+from farm.job import JobMessage, queue_key
+
+MAX_BYTES = 256 * 1024
+"""Of a job's log the end of this size is kept."""
+
+MAX_FILES = 1000
+"""Of so many of a dataset's newest jobs logs are kept, and of some more until somebody makes room."""
+
+_ROOM_EVERY = 100
+
+_TAIL_BYTES = 16 * 1024
+
+
+class JobLogs:
+    """The logs of the jobs that this machine's workers run.
+
+    Args:
+        folder: gets a folder for each dataset.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._taken = 0
+
+    def path(self, message: JobMessage) -> Path:
+        """The log of a job."""
+        run = queue_key(message.dataset, message.spec_sha256).replace(":", "-")
+        return self._folder / run / f"{message.job_id}.log"
+
+    @contextmanager
+    def taking(self, message: JobMessage) -> Iterator[None]:
+        """Send all that this process prints to the job's log, inside `with`.
+
+        Raises:
+            DestinationError: if the log can't be written.
+        """
+        path = self.path(message)
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            if self._taken % _ROOM_EVERY == 0:
+                self._make_room(path.parent)
+            self._taken += 1
+            descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_APPEND, 0o644)
+        except OSError as error:
+            raise DestinationError(f"{path}: can't write logs: {error.strerror}") from error
+        former = os.dup(1), os.dup(2)
+        try:
+            _send_output(descriptor, descriptor)
+            os.close(descriptor)
+            yield
+        finally:
+            _send_output(*former)
+            for each in former:
+                os.close(each)
+            _keep_the_end(path)
+
+    @staticmethod
+    def _make_room(folder: Path) -> None:
+        dated = []
+        for path in folder.iterdir():
+            # Another worker may be making room, too.
+            with suppress(FileNotFoundError):
+                dated.append((path.stat().st_mtime_ns, path))
+        for _, path in sorted(dated)[:-MAX_FILES]:
+            path.unlink(missing_ok=True)
+
+    def tail(self, message: JobMessage) -> str:
+        """The end of a job's log; empty if there is none here."""
+        try:
+            with self.path(message).open("rb") as file:
+                file.seek(0, os.SEEK_END)
+                file.seek(max(0, file.tell() - _TAIL_BYTES))
+                return file.read().decode(errors="replace")
+        except OSError:
+            return ""
+
+
+def _send_output(standard: int, error: int) -> None:
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os.dup2(standard, 1)
+    os.dup2(error, 2)
+
+
+def _keep_the_end(path: Path) -> None:
+    # The process goes on whatever becomes of a log.
+    with suppress(OSError):
+        size = path.stat().st_size
+        if size > MAX_BYTES:
+            with path.open("r+b") as file:
+                file.seek(size - MAX_BYTES)
+                end = file.read()
+                file.seek(0)
+                file.write(end)
+                file.truncate()
