@@ -86,9 +86,9 @@ class Coordinator:
         return self._feeder.feed(undone, on_submitted)
 
     @property
-    def undone(self) -> int:
-        """Jobs that were neither done nor given up at the last look."""
-        return len(self._undone())
+    def left_out(self) -> int:
+        """Jobs that were undone at the last look and are not on their way, as the window is full."""
+        return self._feeder.left_out(self._undone())
 
     def _undone(self) -> JobSet:
         given_up = JobSet(self._dataset.header.spec.quotas)
@@ -177,8 +177,8 @@ class Coordinator:
             return
         if self._hints.ledger.absences() > MAX_ABSENCES:
             raise DatasetMissingError(
-                f"{self._dataset.storage.location}: {MAX_ABSENCES} workers in a row found no such dataset in their store; "
-                "give them the --store that holds it, then submit it again"
+                f"{self._dataset.storage.location}: {MAX_ABSENCES} workers in a row found no such dataset in their "
+                "store; give them the --store that holds it, then submit it again"
             )
         undone = self._undone()
         self._feeder.mend(undone)

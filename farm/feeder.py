@@ -92,6 +92,10 @@ class Feeder:
             self._on_the_way.add(job)
         return count
 
+    def left_out(self, undone: JobSet) -> int:
+        """How many of some undone jobs are not on their way."""
+        return len(undone - self._on_the_way)
+
     def mend(self, undone: JobSet) -> None:
         """Look for jobs that were queued and are nowhere now; the next feed queues those that stay lost.
 

@@ -115,13 +115,15 @@ class Foreman:
     def report(self) -> WorkerReport:
         """What this worker does."""
         jobs = tuple(str(request.id).rpartition(":")[2] for request in list(state.active_requests))
-        if jobs:
-            doing = WorkerState.WORKING
-        else:
-            doing = WorkerState.HELD if self._held_reason else WorkerState.IDLE
+        unoccupied = WorkerState.HELD if self._held_reason else WorkerState.IDLE
         memory = sum(_rss_bytes(pid) for pid in self._children())
         return WorkerReport(
-            name=self._name, state=doing, reason=self._held_reason, jobs=jobs, done=self._done, rss_bytes=memory
+            name=self._name,
+            state=WorkerState.WORKING if jobs else unoccupied,
+            reason=self._held_reason,
+            jobs=jobs,
+            done=self._done,
+            rss_bytes=memory,
         )
 
     def _children(self) -> list[int]:

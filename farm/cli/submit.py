@@ -45,10 +45,7 @@ def submit(
         count = coordinator.submit_missing(lambda so_far: status.update(f"queueing: {so_far}"))
     place = dataset.storage.location
     typer.echo(f"{count} of {dataset.header.spec.total} images queued for {place}")
-    waiting = hints.queue.length(hints.run)
-    if coordinator.undone > max(count, waiting) and not wait:
-        typer.echo(
-            f"{coordinator.undone - waiting} more follow as these are taken, while this runs: farm watch {place}"
-        )
     if wait:
         watch_to_the_end(dataset, coordinator)
+    elif coordinator.left_out:
+        typer.echo(f"{coordinator.left_out} more follow as these are taken, while this runs: farm watch {place}")

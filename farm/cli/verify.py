@@ -28,8 +28,8 @@ def verify(place: DatasetPlace, as_json: AsJson = False) -> None:
         raise VerificationError(_summary(verdict, listed=not as_json))
     if verdict.quarantined:
         raise IncompleteError(
-            f"{verdict.location}: {verdict.images} images, every file as its manifest tells; {len(verdict.quarantined)} "
-            "are in quarantine; farm status tells why, farm retry puts them back"
+            f"{verdict.location}: {verdict.images} images, every file as its manifest tells; "
+            f"{len(verdict.quarantined)} are in quarantine; farm status tells why, farm retry puts them back"
         )
     if not as_json:
         typer.echo(f"{verdict.location}: {verdict.images} images, every file as its manifest tells")
@@ -38,7 +38,7 @@ def verify(place: DatasetPlace, as_json: AsJson = False) -> None:
 def _summary(verdict: Verdict, *, listed: bool) -> str:
     counts = Counter(finding.fault for finding in verdict.findings)
     words = ", ".join(f"{count} {fault}" for fault, count in counts.items())
-    remedy = "remove extra files; farm repair --checksums, or farm run again, makes what is missing or damaged"
+    remedy = "remove the altered and extra files, then run or submit it again to make what is missing"
     lines = [f"{verdict.location}: {words}; {verdict.images} of {verdict.quota} images are as they should be; {remedy}"]
     if listed:
         findings = verdict.findings

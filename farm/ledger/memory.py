@@ -118,7 +118,7 @@ class MemoryLedger:
 
     def add_figures(self, figures: Mapping[str, float]) -> None:
         """See `Ledger.add_figures`."""
-        self._figures.update(figures)  # type: ignore[arg-type]  # a Counter adds floats, too
+        self._figures.update(figures)
 
     def figures(self) -> Mapping[str, float]:
         """See `Ledger.figures`."""

@@ -100,10 +100,10 @@ def test_run(destination: Destination, header: DatasetHeader, how: LocalRun) -> 
 def test_chatter_goes_to_the_log(
     destination: Destination, header: DatasetHeader, how: LocalRun, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    """What a maker prints is in a worker's log, not in the terminal."""
+    """What a maker prints is in the job's log, not in the terminal."""
     run_locally(destination, header, how)
     assert "noise of Blender" not in "".join(capfd.readouterr())
-    assert any("noise of Blender" in log.read_text() for log in how.logs.glob("*.log"))
+    assert any("noise of Blender" in log.read_text() for log in how.logs.glob("jobs/*/*.log"))
 
 
 def test_second_run_has_nothing_to_do(destination: Destination, header: DatasetHeader, how: LocalRun) -> None:
@@ -149,7 +149,9 @@ def test_job_that_always_kills_its_process(
     monkeypatch.setenv("STAND_IN_FAILS", "far-000001=crash")
     with pytest.raises(IncompleteError, match=r"far-000001: its process died"):
         run_locally(destination, header, how)
-    assert [finding.path for finding in verify(open_dataset(destination)).findings] == ["far/manifests/far-000001.json"]
+    verdict = verify(open_dataset(destination))
+    assert verdict.clean
+    assert list(verdict.quarantined) == ["far-000001"]
 
 
 def test_permanent_failure(
