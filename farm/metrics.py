@@ -12,7 +12,7 @@ from typing import ClassVar
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
 from prometheus_client.registry import Collector
 
-from farm.board.port import RunState, WorkerState
+from farm.board.port import Board, RunState, WorkerState
 from farm.completion import Completion
 from farm.dataset import Dataset
 from farm.errors import BrokerError, DestinationError
@@ -35,41 +35,45 @@ class _Folder:
     looked_s: float = float("-inf")
 
 
+Found = tuple[Dataset, Hints]
+
+
 class FarmCollector(Collector):
     """Collects what there is to know of some datasets and of all workers.
 
     Args:
-        datasets: each with its run in Redis.
+        find: the datasets, each with its run in Redis; asked at each scrape. May raise BrokerError.
+        board: where workers report.
         clock: counts seconds.
     """
 
-    def __init__(self, datasets: Sequence[tuple[Dataset, Hints]], clock: Callable[[], float] = time.monotonic) -> None:
-        self._datasets = datasets
+    def __init__(
+        self, find: Callable[[], Sequence[Found]], board: Board, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._find = find
+        self._board = board
         self._clock = clock
-        self._folders = {
-            dataset.storage.location: _Folder(
-                Completion(dataset), Quarantine(dataset), JobSet(dataset.header.spec.quotas)
-            )
-            for dataset, _ in datasets
-        }
+        self._known: Sequence[Found] = ()
+        self._folders: dict[str, _Folder] = {}
 
     def collect(self) -> Iterator[Metric]:
         """All families; those that Redis tells are left out while it is away, and `farm_redis_up` is 0."""
+        up = True
+        try:
+            self._known = self._find()
+            told = list(self._from_redis())
+        except BrokerError:
+            up, told = False, []
         images = GaugeMetricFamily(
             "farm_images", "Images by category and state.", labels=["dataset", "category", "state"]
         )
-        for dataset, _ in self._datasets:
+        for dataset, _ in self._known:
             self._add_images(images, dataset)
-        yield images
-        up = True
-        try:
-            yield from self._from_redis()
-        except BrokerError:
-            up = False
+        yield from (images, *told)
         yield GaugeMetricFamily("farm_redis_up", "Whether Redis answers.", value=float(up))
 
     def _add_images(self, images: GaugeMetricFamily, dataset: Dataset) -> None:
-        folder = self._folders[dataset.storage.location]
+        folder = self._folders.setdefault(dataset.storage.location, _folder(dataset))
         if self._clock() - folder.looked_s >= FOLDER_EVERY_S:
             try:
                 folder.completion.look()
@@ -95,7 +99,7 @@ class FarmCollector(Collector):
         retrying = GaugeMetricFamily("farm_jobs_postponed", "Jobs that wait for their next try.", labels=["dataset"])
         active = GaugeMetricFamily("farm_run_active", "Whether the run may be worked on.", labels=["dataset"])
         totals = _Totals()
-        for dataset, hints in self._datasets:
+        for dataset, hints in self._known:
             owners = list(live_claims(hints.ledger).values())
             run = hints.board.runs().get(hints.run.key)
             waiting.add_metric([dataset.name], hints.queue.length(hints.run))
@@ -104,8 +108,7 @@ class FarmCollector(Collector):
             active.add_metric([dataset.name], float(run is not None and run.state is RunState.ACTIVE))
             totals.add(dataset.name, hints.ledger.figures())
         yield from (waiting, running, retrying, active, *totals.families())
-        if self._datasets:
-            yield from _workers(self._datasets[0][1])
+        yield from _workers(self._board)
 
 
 class _Totals:
@@ -144,13 +147,17 @@ class _Totals:
         yield from (*self._plain.values(), self._made, self._seconds)
 
 
-def _workers(hints: Hints) -> Iterator[Metric]:
+def _folder(dataset: Dataset) -> _Folder:
+    return _Folder(Completion(dataset), Quarantine(dataset), JobSet(dataset.header.spec.quotas))
+
+
+def _workers(board: Board) -> Iterator[Metric]:
     states = GaugeMetricFamily("farm_workers", "Workers by state.", labels=["state"])
     done = CounterMetricFamily("farm_worker_jobs", "Jobs a worker finished since it started.", labels=["worker"])
     memory = GaugeMetricFamily(
         "farm_worker_resident_memory_bytes", "Resident memory of a worker's renderers.", labels=["worker"]
     )
-    reports = hints.board.workers()
+    reports = board.workers()
     for state in WorkerState:
         states.add_metric([str(state)], sum(report.state is state for report in reports))
     for report in reports:

@@ -110,7 +110,11 @@ def _stand_ins(count: int, store: str, url: str, hints: Hints) -> Iterator[list[
             command += ["--logs", f"{store}/logs", "--tasks-per-child", "1000000"]
             started.append(
                 subprocess.Popen(
-                    tied(command), env=environment, stderr=subprocess.DEVNULL, start_new_session=True
+                    tied(command),
+                    env=environment,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,
+                    start_new_session=True,
                 )
             )
         give_up_s = time.monotonic() + _PATIENCE_S

@@ -44,9 +44,7 @@ def measure_submission(images: int, seed: int) -> SubmissionCost:
         place = str(Path(folder) / "cables")
         command = [sys.executable, "-P", "-m", "farm", "submit", "--images", str(images), "--seed", str(seed)]
         start_s = time.perf_counter()
-        process = subprocess.Popen(
-            [*command, "--out", place, "--broker", server.url], stdout=subprocess.DEVNULL
-        )
+        process = subprocess.Popen([*command, "--out", place, "--broker", server.url], stdout=subprocess.DEVNULL)
         _, status, used = os.wait4(process.pid, 0)
         wall_s = time.perf_counter() - start_s
         process.returncode = os.waitstatus_to_exitcode(status)
