@@ -130,6 +130,7 @@ account_autocreate = true
 node_timeout = 60
 conn_timeout = 10
 recoverable_node_timeout = 60
+error_suppression_limit = 1000000
 """
 
 
@@ -194,20 +195,20 @@ class ObjectStore:
             skip_instance_cache=True,
         )
 
-    def kill_front(self) -> None:
-        """End by SIGKILL the server that clients talk to, whatever it is about."""
-        process = self._processes.pop("proxy")
+    def kill(self, kind: str = "proxy") -> None:
+        """End one of the servers by SIGKILL, whatever it is about: `object`, or `proxy`, which clients talk to."""
+        process = self._processes.pop(kind)
         process.kill()
         process.wait()
 
-    def start_front(self) -> None:
-        """Start it again, on the same port.
+    def revive(self, kind: str = "proxy") -> None:
+        """Start a killed server again, on the same port.
 
         Raises:
             RuntimeError: if it does not answer.
         """
-        self._start_server("proxy")
-        self._wait("proxy")
+        self._start_server(kind)
+        self._wait(kind)
 
     def stop(self) -> None:
         """End every process."""

@@ -46,6 +46,8 @@ def _lacks_bucket(error: Exception) -> bool:
 def _reason(error: Exception) -> str:
     if _lacks_bucket(error):
         return "there is no such bucket"
+    if isinstance(error, TimeoutError):
+        return "no answer in time"
     return _USER_IN_URL.sub("//", " ".join(str(error).split())) or type(error).__name__
 
 

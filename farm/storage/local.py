@@ -69,9 +69,12 @@ class LocalStorage:
     def files(self, under: str = "") -> dict[str, StoredFile]:
         """Every file below the folder; see `Storage.files`."""
         found: dict[str, StoredFile] = {}
-        folder, prefix = (self._root / under, f"{under}/") if under else (self._root, "")
+        folder = self._root / under
         with _as_destination_error("list", str(folder)), suppress(FileNotFoundError):
-            self._collect(folder, prefix, found)
+            if not under:
+                self._collect(folder, "", found)
+            elif folder.is_dir():
+                self._collect(folder, f"{under}/", found)
         return found
 
     def _collect(self, folder: Path, prefix: str, found: dict[str, StoredFile]) -> None:

@@ -1,5 +1,6 @@
 """From a path or URL to the storage there."""
 
+import re
 from pathlib import Path
 
 from farm.errors import DestinationError, EnvironmentMissingError
@@ -8,6 +9,9 @@ from farm.storage.faults import as_destination_error
 from farm.storage.local import LocalStorage
 from farm.storage.objects import ObjectStorage
 from farm.storage.port import Storage
+
+# A name, a colon and a password before an @; the password may hold slashes. A port is none, nor is Amazon's `arn:`.
+_USER = re.compile(r"(?!arn:)[^/:@]*:(?!\d+/)[^@]*@")
 
 
 def open_storage(location: str) -> Storage:
@@ -40,8 +44,7 @@ def refuse_credentials(location: str) -> None:
         DestinationError: if it holds a password or key; the text does not.
     """
     protocol, _, rest = location.partition("://")
-    user, at, _ = rest.partition("/")[0].rpartition("@")
-    if at and (":" in user or is_s3(location)):
+    if _USER.match(rest) or (is_s3(location) and "@" in rest.partition("/")[0]):
         raise DestinationError(
             f"{protocol}://: this URL holds credentials, which would be shown wherever it is; "
             "give them by the environment instead (for S3: AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY)"
