@@ -16,7 +16,7 @@ $(VENV)/installed: pyproject.toml constraints.txt docker/debian-packages.txt
 	    { echo "Python 3.11 with venv is missing; on Debian 12: apt-get install -y python3.11-venv"; exit 1; }
 	@docker/missing-packages.sh docker/debian-packages.txt
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[worker,local,flower,metrics,dev]'
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[worker,local,s3,flower,metrics,dev]'
 	$(BIN)/python -m worker.rod
 	@touch $@
 
