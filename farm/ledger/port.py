@@ -1,12 +1,13 @@
 """What every ledger offers. Losing one loses nothing that the folder and a new submission don't restore."""
 
+import os
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
 from farm.model import Model
 
-CLAIM_S = 60.0
-"""A claim that is not refreshed for this long is void, in seconds."""
+CLAIM_S = float(os.environ.get("FARM_CLAIM_S", "60"))
+"""A claim that is not refreshed for this long is void, in seconds. Tests of lapsing claims make it shorter."""
 
 RECENT_COMPLETIONS = 200
 """The rate is taken over at most this many pictures..."""
