@@ -19,13 +19,12 @@ from tests.chaos.proxy import Proxy
 from tests.chaos.redis_service import RedisService
 from tests.chaos.service import Service
 
-COORDINATOR = Path(__file__).with_name("coordinator_program.py")
-
 CLAIM_S = 3.0
 """Claims are so short here, that a stopped worker loses its own within seconds."""
 
 _END_S = 20.0
 _DISK_MIB = 24
+_MIN_FREE_MIB = 1
 
 
 class NoMeansError(Exception):
@@ -78,7 +77,7 @@ class FarmUnderTest:
         ]
         self.coordinator = Service(
             "coordinator",
-            [self._python, "-P", str(COORDINATOR), str(self.folder)],
+            [self._python, "-P", "-m", "farm", "watch", str(self.folder)],
             shared,
             self.logs / "coordinator.out",
             final_codes=frozenset({0, IncompleteError.exit_code}),
@@ -92,7 +91,13 @@ class FarmUnderTest:
 
     def _worker_command(self, name: str) -> list[str]:
         options = WorkerOptions(
-            store=str(self.store), broker_url=self.proxy.url, device="cpu", threads=1, assets=None, logs=self.logs
+            store=str(self.store),
+            broker_url=self.proxy.url,
+            device="cpu",
+            threads=1,
+            assets=None,
+            logs=self.logs,
+            min_free_mib=_MIN_FREE_MIB,
         )
         return [*self.plan.worker, *options.serve_arguments(name)]
 

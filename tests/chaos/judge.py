@@ -91,7 +91,7 @@ def judge(farm: FarmUnderTest, claims: Claims) -> Judgement:
 def given_up(farm: FarmUnderTest, status: Mapping[str, Any]) -> set[str]:
     """The jobs that were given up: those with a record in the folder, and those that the ledger lists."""
     records = {path.stem for path in (farm.folder / QUARANTINE).glob("*.json")}
-    return records | set(status.get("failures") or {})
+    return records | set(status.get("quarantined") or {})
 
 
 def starts(farm: FarmUnderTest) -> Counter[str]:
