@@ -9,12 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from farm.dataset import Dataset
+from farm.dataset import Dataset, Destination, create_dataset
+from farm.header import DatasetHeader
 from farm.job import Job
 from farm.layout import FileRole, file_path, manifest_path
 from farm.manifest import FileRecord, Manifest
 from farm.storage import LocalStorage
 from farm.verify import Fault, verify
+from tests.object_store import ObjectStore
 from tests.stand_in import StandInMaker
 from worker.upload import encode_png, upload
 
@@ -79,6 +81,39 @@ def test_altered(made: Dataset, path: str) -> None:
     content[-20] ^= 1
     made.storage.write(path, bytes(content))
     assert found(made) == [(Fault.ALTERED, path)]
+
+
+def test_anywhere(any_store: Callable[[str], str], header: DatasetHeader) -> None:
+    """The same faults are found in a folder and in a bucket."""
+    dataset = create_dataset(Destination(any_store("store"), "cables"), header)
+    for job in header.spec.jobs():
+        upload(StandInMaker().make(job, header), job, dataset)
+    assert found(dataset) == []
+    dataset.storage.write(MASK, dataset.storage.read(MASK)[:20])
+    dataset.storage.write(INSTANCES, dataset.storage.read(INSTANCES)[::-1])
+    dataset.storage.remove(IMAGE)
+    dataset.storage.write("stray.txt", b"")
+    assert dict(found(dataset)) == {
+        Fault.TRUNCATED: MASK,
+        Fault.ALTERED: INSTANCES,
+        Fault.MISSING: IMAGE,
+        Fault.EXTRA: "stray.txt",
+    }
+
+
+@pytest.mark.swift
+def test_unfinished_upload_to_a_bucket(bucket: str, object_store: ObjectStore, header: DatasetHeader) -> None:
+    """Parts of an object that its killed writer never completed count for nothing."""
+    dataset = create_dataset(Destination(bucket, "cables"), header)
+    for job in header.spec.jobs():
+        upload(StandInMaker().make(job, header), job, dataset)
+    name, prefix = bucket.removeprefix("s3://").split("/", 1)
+    client = object_store.client()
+    for path in (IMAGE, "far/images/far-000009.png"):
+        where = {"Bucket": name, "Key": f"{prefix}/cables/{path}"}
+        begun = client.call_s3("create_multipart_upload", **where)
+        client.call_s3("upload_part", **where, UploadId=begun["UploadId"], PartNumber=1, Body=bytes(5 * 1024 * 1024))
+    assert found(dataset) == []
 
 
 class GrowingStorage(LocalStorage):

@@ -128,6 +128,23 @@ def test_no_file_is_no_fault(bucket: str) -> None:
         open_storage(bucket).read("a/b")
 
 
+def test_others_changes_are_seen(bucket: str, object_store: ObjectStore) -> None:
+    """What another process puts and removes shows in the next look, whatever was looked at before."""
+    storage = open_storage(bucket)
+    client, place = object_store.client(), bucket.removeprefix("s3://")
+    storage.write("a/1", b"old")
+    assert not storage.is_empty()
+    assert storage.files().keys() == {"a/1"}
+    client.pipe_file(f"{place}/a/2", b"")
+    client.pipe_file(f"{place}/a/1", b"newer")
+    assert {path: stored.bytes for path, stored in storage.files().items()} == {"a/1": 5, "a/2": 0}
+    assert storage.read("a/1") == b"newer"
+    client.rm_file(f"{place}/a/1")
+    client.rm_file(f"{place}/a/2")
+    assert storage.files() == {}
+    assert storage.is_empty()
+
+
 def test_markers_of_folders(bucket: str, object_store: ObjectStore) -> None:
     """The empty object by which a console makes a folder is no file."""
     client = object_store.client()

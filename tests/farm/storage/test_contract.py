@@ -105,21 +105,6 @@ def test_lists_many(storage: Storage) -> None:
     assert storage.files().keys() == storage.files("a").keys() == paths
 
 
-def test_listing_is_fresh(storage: Storage, any_store: Callable[[str], str]) -> None:
-    """What another process wrote or removed is in the next listing, and in the next read."""
-    other = open_storage(any_store("place"))
-    storage.write("a/1", b"old")
-    assert not storage.is_empty()
-    assert storage.files().keys() == {"a/1"}
-    other.write("a/2", b"")
-    other.write("a/1", b"newer")
-    assert {path: stored.bytes for path, stored in storage.files().items()} == {"a/1": 5, "a/2": 0}
-    assert storage.read("a/1") == b"newer"
-    other.remove("a/1")
-    other.remove("a/2")
-    assert storage.files() == storage.files("a") == {}
-
-
 def test_odd_names(storage: Storage) -> None:
     """A path with signs that mean something in URLs is a path like others."""
     path = "a b/c+d%20?e=1&f#g/ä.bin"
