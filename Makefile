@@ -3,10 +3,11 @@ SHELL := /bin/sh
 PYTHON ?= python3.11
 VENV := .venv
 BIN := $(VENV)/bin
+SECONDS_EACH ?= 30
 WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup bench-queue masks soak stress flower template clean
+.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup bench-queue masks soak stress flower template clean fuzz audit
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -75,6 +76,12 @@ bench-queue: setup ## jobs a second through the queue and what a submission cost
 soak: setup ## memory of renderers over 1,100 images; writes bench/soak.json and .png
 	$(BIN)/farm assets build
 	$(BIN)/python -m worker.bench soak --out bench
+fuzz: setup ## feed all parsers hostile bytes, guided by coverage (SECONDS_EACH); writes bench/fuzz.json
+	$(BIN)/pip install --quiet --disable-pip-version-check --only-binary :all: -c constraints.txt -e '.[fuzz]'
+	$(BIN)/python -m tests.fuzz --seconds $(SECONDS_EACH) --out bench
+
+audit: setup ## look all pinned packages up in the databases of known vulnerabilities
+	$(BIN)/python .ci/audit.py
 
 flower: setup ## watch the tasks of a farm in the browser (FARM_BROKER_URL)
 	$(BIN)/farm flower

@@ -19,6 +19,9 @@ LINES_PER_CHUNK = {0: 1, 1: 1, 2: 1, 3: 16, 4: 32, 5: 16, 6: 32, 7: 32, 8: 32, 9
 """Scan lines in a chunk, by the number of the compression method in the file format."""
 
 LARGEST_EDGE = 16384
+LARGEST_PIXELS = 2**26
+"""Checking that many takes about 3 GB; a few megabytes may claim them."""
+
 AGAIN = "download or export it again"
 
 
@@ -83,6 +86,8 @@ def _check_chunks(path: Path, data: bytes) -> tuple[int, int]:
     width, height = right - left + 1, bottom - top + 1
     if not (1 <= width <= LARGEST_EDGE and 1 <= height <= LARGEST_EDGE):
         raise AssetError(f"{path}: {width} x {height} pixels is outside 1 to {LARGEST_EDGE} an edge; resize it")
+    if width * height > LARGEST_PIXELS:
+        raise AssetError(f"{path}: {width} x {height} pixels is more than {LARGEST_PIXELS // 2**20} Mi; resize it")
     if version & TILED:
         # The first tile follows the table of offsets directly; each entry has 8 bytes.
         first = min(struct.unpack_from("<Q", data, table))

@@ -3,6 +3,8 @@
 import hashlib
 import os
 import secrets
+import stat
+from io import BufferedReader
 from pathlib import Path
 
 from farm.errors import AssetError
@@ -21,21 +23,38 @@ def read_bounded(path: Path) -> bytes:
         Its bytes.
 
     Raises:
-        AssetError: It can't be read, is empty or is larger than `LARGEST_FILE`.
+        AssetError: It can't be read, is no regular file, is empty or is larger than `LARGEST_FILE`.
     """
     try:
-        size = path.stat().st_size
-        if size > LARGEST_FILE:
-            raise AssetError(
-                f"{path}: {size / 2**20:.0f} MiB is more than the {LARGEST_FILE // 2**20} MiB allowed; "
-                "use a smaller resolution"
-            )
-        data = path.read_bytes()
+        with open_regular(path) as file:
+            size = os.fstat(file.fileno()).st_size
+            if size > LARGEST_FILE:
+                raise AssetError(
+                    f"{path}: {size / 2**20:.0f} MiB is more than the {LARGEST_FILE // 2**20} MiB allowed; "
+                    "use a smaller resolution"
+                )
+            # No more than it was just measured at, should it grow meanwhile.
+            data = file.read(LARGEST_FILE)
     except OSError as error:
         raise AssetError(f"{path}: can't be read ({error.strerror}); check the file and its permissions") from error
     if not data:
         raise AssetError(f"{path}: the file is empty; copy or download it again")
     return data
+
+
+def open_regular(path: Path) -> BufferedReader:
+    """Open a file for reading; a link is followed.
+
+    Raises:
+        AssetError: It is a device, pipe or the like, which may have no end or never begin.
+        OSError: It can't be opened.
+    """
+    # Without this flag opening a pipe waits for somebody to write to it.
+    descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+        os.close(descriptor)
+        raise AssetError(f"{path}: isn't a regular file; name one")
+    return os.fdopen(descriptor, "rb")
 
 
 def sha256(data: bytes) -> str:

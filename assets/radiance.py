@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from assets.exr import colour_channels
+from assets.exr import LARGEST_PIXELS, colour_channels
 from farm.errors import AssetError
 
 LARGEST_EDGE = 16384
@@ -62,6 +62,8 @@ def check_radiance(path: Path, data: bytes) -> tuple[int, int]:
     height, width = int(found[1]), int(found[2])
     if not (1 <= width <= LARGEST_EDGE and 1 <= height <= LARGEST_EDGE):
         raise AssetError(f"{path}: {width} x {height} pixels is outside 1 to {LARGEST_EDGE} an edge; resize it")
+    if width * height > LARGEST_PIXELS:
+        raise AssetError(f"{path}: {width} x {height} pixels is more than {LARGEST_PIXELS // 2**20} Mi; resize it")
     place = found.end()
     if not _has_runs(data, place, width):
         if len(data) - place < 4 * width * height:

@@ -108,8 +108,9 @@ def template_ref(template: Path | None) -> TemplateRef:
     path = template or _builtin_template()
     try:
         content = path.read_bytes()
-    except OSError as error:
-        raise TemplateError(f"{path}: can't read the template: {error.strerror}; check --template") from error
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)  # a NUL byte is no OSError
+        raise TemplateError(f"{path}: can't read the template: {reason}; check --template") from error
     if not content.startswith(_BLEND_STARTS):
         raise TemplateError(f"{path}: not a .blend file; save the template in Blender and name that file")
     absolute = None if template is None else str(template.resolve())

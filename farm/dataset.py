@@ -60,7 +60,11 @@ def parse_destination(out: str) -> Destination:
             raise DestinationError(f"{out}: names no folder for the dataset; write {kind}://BUCKET/FOLDER")
         store = f"{kind}://{store}"
     else:
-        path = Path(out).expanduser().resolve()
+        try:
+            path = Path(out).expanduser().resolve()
+        except (ValueError, RuntimeError, OSError) as error:
+            # A NUL byte, an unknown user's home, a ring of links.
+            raise DestinationError(f"{out!a}: no path: {error}") from error
         store, name = str(path.parent), path.name
     try:
         return Destination(store=store, name=_NAME.validate_python(name))

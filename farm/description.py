@@ -10,6 +10,9 @@ from farm.category import Category
 from farm.errors import SpecError
 from farm.spec import DatasetSpec, parse_spec, read_toml
 
+_MOST_DIGITS = 12
+"""More than any quota has; Python refuses to read thousands."""
+
 
 @dataclass(frozen=True, slots=True)
 class Description:
@@ -30,7 +33,7 @@ def parse_quotas(pairs: Sequence[str]) -> dict[str, int]:
         name, _, number = pair.partition("=")
         if name not in set(Category):
             raise SpecError(f"--quota {pair}: unknown category '{name}'; there are {', '.join(Category)}")
-        if not number.isascii() or not number.isdigit():
+        if not number.isascii() or not number.isdigit() or len(number) > _MOST_DIGITS:
             raise SpecError(f"--quota {pair}: expected CATEGORY=NUMBER with a whole number, 0 or more")
         if name in quotas:
             raise SpecError(f"--quota {pair}: {name} has a quota already")
@@ -76,5 +79,7 @@ def _read_inputs(data: Mapping[str, object], folder: Path, source: str) -> dict[
             inputs[key] = value
         else:
             expected = {"template": "a path", "textures": "a list of paths", "hdris": "a list of paths"}
-            raise SpecError(f"{source}: {key}: expected {expected.get(key, 'true or false')}, not {value!r}")
+            raise SpecError(
+                f"{source}: {key}: expected {expected.get(key, 'true or false')}, not {type(value).__name__}"
+            )
     return inputs

@@ -18,7 +18,7 @@ DatasetName = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]{0,99}$")
 _MOST_KEYS = 32
 """Above this an object is not looked at key by key: each unknown one would cost an error."""
 
-_JOB_ID = re.compile(r"^(?P<category>[a-z_]+)-(?P<index>\d{6,9})$", re.ASCII)
+_JOB_ID = re.compile(r"(?P<category>[a-z_]+)-(?P<index>\d{6,9})", re.ASCII)
 
 
 class Job(Model):
@@ -39,13 +39,13 @@ class Job(Model):
         Raises:
             MessageError: if it is not the id of a job.
         """
-        match = _JOB_ID.match(job_id)
+        match = _JOB_ID.fullmatch(job_id)
         if match is None or match["category"] not in set(Category):
             # As it may come from anybody: quoted, so that it stays one line.
             raise MessageError(f"{job_id[:80]!a} is no job id: expected <category>-<six digits>, as in far-000042")
         job = cls(category=Category(match["category"]), index=int(match["index"]))
         if job.id != job_id:
-            raise MessageError(f"'{job_id}' is no job id: its index is padded; expected {job.id}")
+            raise MessageError(f"{job_id!a} is no job id: its index is padded; expected {job.id}")
         return job
 
 
@@ -87,7 +87,8 @@ class JobMessage(Model):
             message = cls.model_validate(payload)
         except ValidationError as error:
             first = error.errors(include_url=False, include_context=False, include_input=False)[0]
-            where = ".".join(str(part) for part in first["loc"]) or "message"
+            # An unknown key is told as it came, so it may hold a line break.
+            where = ascii(".".join(str(part) for part in first["loc"]))[1:80].rstrip("'") or "message"
             raise MessageError(f"job message refused: {where}: {first['msg']}") from error
         Job.from_id(message.job_id)
         return message

@@ -122,7 +122,8 @@ def read_toml(path: Path) -> dict[str, Any]:
             return tomllib.load(file)
     except OSError as error:
         raise SpecError(f"{path}: can't read the dataset's description: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (ValueError, RecursionError) as error:
+        # Besides those of its own, tomllib raises what Python does over numbers of thousands of digits and deep tables.
         raise SpecError(f"{path}: not valid TOML: {error}") from error
 
 

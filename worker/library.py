@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from assets.baked import BakedSurface, load_surface, surface_directory
+from assets.files import open_regular
 from assets.hdris import Hdri, builtin_hdris
 from farm.errors import AssetError
 from farm.header import BuiltinSurfaceRef, DatasetHeader, FileRef, FolderSurfaceRef
@@ -121,7 +122,7 @@ def checked(reference: FileRef) -> Path:
     """
     path = Path(reference.path)
     try:
-        with path.open("rb") as file:
+        with open_regular(path) as file:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
     except OSError as error:
         raise AssetError(

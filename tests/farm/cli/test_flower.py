@@ -13,18 +13,20 @@ from contextlib import contextmanager
 
 import pytest
 
-from farm.errors import SpecError
+from farm.errors import BrokerError, SpecError
 from tests.farm.cli.result import Farm, assert_refused
 from tests.farm.queue.servers import free_port
 
 START_S = 30.0
+PASSWORD = "me:hush"  # noqa: S105  # of a server that lives for one test
+EVERYWHERE = "0.0.0.0"  # noqa: S104  # nothing is bound to it here
 
 
 @contextmanager
-def flower(redis_url: str, *options: str, password: str | None) -> Iterator[str]:
+def flower(redis_url: str, *, password: str | None) -> Iterator[str]:
     """Run the real Flower by the farm's command inside `with`; yields its address."""
     port = free_port()
-    command = [sys.executable, "-P", "-m", "farm", "flower", "--broker", redis_url, f"--port={port}", *options]
+    command = [sys.executable, "-P", "-m", "farm", "flower", "--broker", redis_url, f"--port={port}"]
     environment = {key: value for key, value in os.environ.items() if key != "FLOWER_BASIC_AUTH"}
     if password is not None:
         environment["FLOWER_BASIC_AUTH"] = password
@@ -62,12 +64,12 @@ def status(url: str, user: str | None = None, method: str = "GET") -> int | None
 
 @pytest.mark.redis
 def test_flower_asks_for_the_password(redis_url: str) -> None:
-    """On all addresses: 401 without it or with another, for pages and for commands to workers; with it, pages."""
-    with flower(redis_url, "--address=0.0.0.0", password="me:hush") as url:
+    """401 without it or with another, for pages and for commands to workers; with it, pages."""
+    with flower(redis_url, password=PASSWORD) as url:
         for place, method in (("/workers", "GET"), ("/api/workers", "GET"), ("/api/worker/shutdown/x", "POST")):
             assert status(url + place, None, method) == 401
             assert status(url + place, "me:wrong", method) == 401
-        assert status(f"{url}/workers", "me:hush") == 200
+        assert status(f"{url}/workers", PASSWORD) == 200
 
 
 @pytest.mark.redis
@@ -80,15 +82,22 @@ def test_flower_without_a_password_stays_on_this_machine(redis_url: str) -> None
         assert status(f"{url}/api/worker/shutdown/x", method="POST") == 401
 
 
-@pytest.mark.parametrize("address", ["0.0.0.0", "::", "", "192.168.0.1", "example.org", "127.0.0.1.example.org"])
+@pytest.mark.parametrize("address", [EVERYWHERE, "::", "", "192.168.0.1", "example.org", "127.0.0.1.example.org"])
 def test_the_network_needs_a_password(farm: Farm, monkeypatch: pytest.MonkeyPatch, address: str) -> None:
     """Refused before anything is started, with what to set."""
     monkeypatch.delenv("FLOWER_BASIC_AUTH", raising=False)
     assert_refused(farm("flower", f"--address={address}"), SpecError.exit_code, "FLOWER_BASIC_AUTH", "127.0.0.1")
 
 
+def test_the_network_is_let_in_with_a_password(farm: Farm, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Then the next thing to fail is Redis, which isn't there."""
+    monkeypatch.setenv("FLOWER_BASIC_AUTH", PASSWORD)
+    refused = farm("flower", f"--address={EVERYWHERE}", "--broker", "redis://127.0.0.1:1/0")
+    assert_refused(refused, BrokerError.exit_code, "no Redis at")
+
+
 @pytest.mark.parametrize("password", ["hush", ":", "me:", ":hush", "me:hush,"])
-@pytest.mark.parametrize("address", ["127.0.0.1", "0.0.0.0"])
+@pytest.mark.parametrize("address", ["127.0.0.1", EVERYWHERE])
 def test_half_a_password_is_none(farm: Farm, monkeypatch: pytest.MonkeyPatch, address: str, password: str) -> None:
     """User and password, both with something in them; the text isn't repeated."""
     monkeypatch.setenv("FLOWER_BASIC_AUTH", password)

@@ -1,0 +1,175 @@
+"""What is fuzzed: each target takes bytes, and may raise nothing but a FarmError."""
+
+import atexit
+import base64
+import json
+import shutil
+import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from assets.exr import check_exr
+from assets.radiance import check_radiance
+from farm.completion import job_of_manifest, parse_manifest
+from farm.dataset import Dataset, Destination, create_dataset, open_dataset, parse_destination
+from farm.description import describe, parse_quotas
+from farm.errors import FarmError
+from farm.job import Job, JobMessage
+from farm.layout import HEADER_FILE, FileRole, file_path, manifest_path
+from farm.quality import read_quality
+from farm.queue.broker import broker_url, masked
+from farm.queue.wire import ENVELOPE_BYTES, checked_envelope, decode_json
+from tests.stand_in import StandInMaker, stand_in_header
+from worker.upload import upload
+
+JOB = Job.from_id("far-000000")
+_SPEC = b"""
+images = 6
+seed = 1
+resolution = 64
+quality = 0.05
+textures = ["a"]
+[ranges.wind]
+strength = [0.0, 1.0]
+"""
+
+
+@dataclass(frozen=True)
+class Target:
+    """Something that parses.
+
+    Attributes:
+        parse: is given the bytes.
+        seeds: good inputs to begin with.
+    """
+
+    parse: Callable[[bytes], object]
+    seeds: tuple[bytes, ...]
+
+
+@cache
+def _folder() -> Path:
+    folder = Path(tempfile.mkdtemp(prefix="farm-fuzz-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
+@cache
+def _dataset() -> Dataset:
+    dataset = create_dataset(Destination(str(_folder() / "store"), "cables"), stand_in_header())
+    upload(StandInMaker().make(JOB, dataset.header), JOB, dataset)
+    return dataset
+
+
+def _one_line(parse: Callable[[bytes], object]) -> Callable[[bytes], object]:
+    """Messages about what came from afar go into logs: none may begin a line of its own there."""
+
+    def parse_and_look(data: bytes) -> None:
+        try:
+            parse(data)
+        except FarmError as error:
+            if len(str(error).splitlines()) > 1:
+                raise ValueError("the error has several lines") from None
+            raise
+
+    return parse_and_look
+
+
+def _text(data: bytes) -> str:
+    return data.decode("utf-8", "surrogateescape")
+
+
+def _message(data: bytes) -> None:
+    message = JobMessage.decode(decode_json(data))
+    assert JobMessage.decode(message.encode()) == message
+    assert message.job.id == message.job_id
+
+
+def _envelope(data: bytes) -> None:
+    passed = checked_envelope(decode_json(data, ENVELOPE_BYTES))
+    assert checked_envelope(passed) == passed
+
+
+def _job_id(data: bytes) -> None:
+    text = _text(data)
+    job_of_manifest(text)
+    assert Job.from_id(text).id == text
+
+
+def _spec(data: bytes) -> None:
+    path = _folder() / "spec.toml"
+    path.write_bytes(data)
+    spec = describe(path, {}, {}).spec
+    assert spec.total > 0
+
+
+def _header(data: bytes) -> None:
+    folder = _folder() / "fuzzed" / "cables"
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / HEADER_FILE).write_bytes(data)
+    assert len(open_dataset(Destination(str(folder.parent), "cables")).header.spec_sha256) == 64
+
+
+def _manifest(data: bytes) -> None:
+    manifest = parse_manifest(data, _dataset(), JOB)
+    if manifest is not None:
+        assert {record.path for record in manifest.files.values()} == {file_path(JOB, role) for role in FileRole}
+
+
+def _destination(data: bytes) -> None:
+    place = parse_destination(_text(data))
+    assert "/" not in place.name
+    assert place.name not in {"", ".", ".."}
+
+
+def _quotas(data: bytes) -> None:
+    assert all(number >= 0 for number in parse_quotas(_text(data).split("\n")).values())
+
+
+def _address(data: bytes) -> None:
+    text = _text(data)
+    masked(text)
+    # An empty one stands for the environment's.
+    url = broker_url(text or "redis://there")
+    assert not url.startswith("rediss") or "ssl_cert_reqs=required" in url
+
+
+def _good_envelope() -> bytes:
+    body = [[], {"message": _dataset().message(JOB).encode()}, {"callbacks": None, "chain": None}]
+    envelope = {
+        "body": base64.b64encode(json.dumps(body).encode()).decode(),
+        "content-encoding": "utf-8",
+        "content-type": "application/json",
+        "headers": {"task": "farm.render_image", "id": "cables:0:far-000000", "eta": None, "retries": 0},
+        "properties": {
+            "delivery_tag": "1",
+            "delivery_info": {"exchange": "", "routing_key": "farm"},
+            "body_encoding": "base64",
+        },
+    }
+    return json.dumps(envelope).encode()
+
+
+def targets() -> dict[str, Target]:
+    """All of them, by name."""
+    dataset = _dataset()
+    message = json.dumps(dataset.message(JOB).encode()).encode()
+    exr = b"\x76\x2f\x31\x01\x02\0\0\0compression\0compression\0\x01\0\0\0\0dataWindow\0box2i\0\x10\0\0\0" + bytes(17)
+    return {
+        "job message": Target(_one_line(_message), (message,)),
+        "envelope": Target(_one_line(_envelope), (_good_envelope(),)),
+        "job id": Target(_one_line(_job_id), (b"far-000042", manifest_path(JOB).encode())),
+        "description": Target(_spec, (_SPEC, b"[quotas]\nfar = 2\n")),
+        "header": Target(_header, (dataset.storage.read(HEADER_FILE),)),
+        "manifest": Target(_manifest, (dataset.storage.read(manifest_path(JOB)),)),
+        "destination": Target(_destination, (b"a/b", b"s3://bucket/cables", b"~/x", b"file:///a/b")),
+        "quotas": Target(_quotas, (b"far=2\nfar_aligned=3",)),
+        "quality": Target(lambda data: read_quality(_text(data)), (b"draft", b"0.02")),
+        "broker address": Target(_address, (b"rediss://:word@there:1/0?ssl_ca_certs=/a.pem", b"redis+socket:///a")),
+        "EXR structure": Target(lambda data: check_exr(Path("x.exr"), data), (exr,)),
+        "Radiance structure": Target(
+            lambda data: check_radiance(Path("x.hdr"), data), (b"#?RADIANCE\n\n-Y 4 +X 6\n" + bytes(96),)
+        ),
+    }
