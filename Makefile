@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup masks stress flower template clean
+.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup chaos masks stress flower template clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -33,6 +33,9 @@ test: setup ## lint, check types, run the whole test suite
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/pytest
+
+chaos: setup ## kill, stop, cut, fill and spoil a farm while it works; writes bench/chaos.json and .png
+	$(BIN)/python -m tests.chaos --out bench
 
 lint: setup ## lint and check types only
 	$(BIN)/ruff check .
