@@ -7,7 +7,7 @@ SECONDS_EACH ?= 30
 WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup bench-queue masks soak stress flower template clean fuzz audit
+.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup bench-queue masks soak stress flower template clean fuzz audit chaos
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -34,6 +34,9 @@ test: setup ## lint, check types, run the whole test suite
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/pytest
+
+chaos: setup ## kill, stop, cut, fill and spoil a farm while it works; writes bench/chaos.json and .png
+	$(BIN)/python -m tests.chaos --out bench
 
 lint: setup ## lint and check types only
 	$(BIN)/ruff check .

@@ -1,10 +1,12 @@
 """A clock that can be set wrong while processes look at it: Debian's libfaketime, preloaded into them."""
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 
 _PLACES = ("/usr/lib/*/faketime", "/usr/lib*/faketime", "/usr/local/lib/faketime")
 _LIBRARY = "libfaketimeMT.so.1"
+_PRELOAD = Path(__file__).with_name("preload")
 
 HOUR_S = 3600
 
@@ -45,4 +47,5 @@ class WrongClock:
             "FAKETIME_TIMESTAMP_FILE": str(self._file),
             "FAKETIME_NO_CACHE": "1",
             "FAKETIME_DONT_FAKE_MONOTONIC": "1",
+            "PYTHONPATH": os.pathsep.join([str(_PRELOAD), *filter(None, [os.environ.get("PYTHONPATH")])]),
         }

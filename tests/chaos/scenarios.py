@@ -19,6 +19,9 @@ _OVER_A_CLAIM_S = (CLAIM_S + 1.0, 2 * CLAIM_S)
 _OVER_ITS_MENDING_S = (CLAIM_S + 13.0, CLAIM_S + 15.0)
 """Longer than a claim lives and a coordinator waits, so that another worker makes the job meanwhile."""
 
+_OVER_A_RESTORING_S = (11.0, 13.0)
+"""Celery looks every 10 s for messages that were not acknowledged in time."""
+
 _ATTEMPTS = 3
 """A job that takes its process with it is begun so often."""
 
@@ -125,7 +128,13 @@ SCENARIOS: Sequence[Scenario] = (
     Scenario("messages-doubled", 120, [Recipe(Fault.DUPLICATE, 2), Recipe(Fault.REDELIVER_DONE, 2)]),
     Scenario("messages-lost", 120, [Recipe(Fault.LOSE_MESSAGES, 3)]),
     Scenario("segfault", 80, [], lethal=2),
-    Scenario("clock-jumped", 120, [Recipe(Fault.JUMP_CLOCK, 3, (1.0, 4.0))], with_clock=True),
+    Scenario(
+        "clock-jumped",
+        120,
+        [Recipe(Fault.JUMP_CLOCK, 2, (1.0, 4.0)), Recipe(Fault.JUMP_CLOCK, 1, _OVER_A_RESTORING_S)],
+        delay_s=0.25,
+        with_clock=True,
+    ),
     Scenario("queue-poisoned", 120, [Recipe(Fault.POISON, 6)]),
 )
 """With stand-in workers; the longest first, so that scenarios side by side end together."""
