@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup masks stress flower template clean
+.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup bench-queue masks soak stress flower template clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -16,7 +16,7 @@ $(VENV)/installed: pyproject.toml constraints.txt docker/debian-packages.txt
 	    { echo "Python 3.11 with venv is missing; on Debian 12: apt-get install -y python3.11-venv"; exit 1; }
 	@docker/missing-packages.sh docker/debian-packages.txt
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[worker,local,flower,dev]'
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[worker,local,s3,flower,metrics,dev]'
 	$(BIN)/python -m worker.rod
 	@touch $@
 
@@ -67,6 +67,14 @@ bench-skips: setup ## what is left out of a picture, and the time that saves; wr
 bench-startup: setup ## from a worker's start to its first picture; writes bench/startup.json and .png
 	$(BIN)/farm assets build
 	$(BIN)/python -m worker.bench startup --out bench
+
+bench-queue: setup ## jobs a second through the queue and what a submission costs; writes bench/queue.* and submit.*
+	$(BIN)/python -m tests.load jobs --out bench
+	$(BIN)/python -m tests.load submit --out bench
+
+soak: setup ## memory of renderers over 1,100 images; writes bench/soak.json and .png
+	$(BIN)/farm assets build
+	$(BIN)/python -m worker.bench soak --out bench
 
 flower: setup ## watch the tasks of a farm in the browser (FARM_BROKER_URL)
 	$(BIN)/farm flower

@@ -7,6 +7,7 @@ from typing import Any, Final
 import bpy
 
 from blend import names
+from blend.unsafe import find_unsafe
 from farm.errors import TemplateError
 
 _OBJECTS: Final = (
@@ -40,7 +41,7 @@ def open_template(path: Path) -> None:
     """Open a template in this process, with the scripts in it left off, and check it.
 
     Raises:
-        TemplateError: if it can't be opened, or lacks something; the text names what.
+        TemplateError: if it can't be opened, lacks something, or brings code or outside files; the text names what.
     """
     if not path.is_file():
         raise TemplateError(f"{path}: no such template; give --template a .blend file")
@@ -52,6 +53,9 @@ def open_template(path: Path) -> None:
     missing = list(find_missing())
     if missing:
         raise TemplateError(f"{path}: the template lacks {'; '.join(missing)}")
+    unsafe = list(find_unsafe())
+    if unsafe:
+        raise TemplateError(f"{path}: the template must not hold {'; '.join(unsafe)}")
 
 
 def find_missing() -> Iterator[str]:

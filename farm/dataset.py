@@ -10,7 +10,7 @@ from farm.errors import ConflictError, DatasetMissingError, DestinationError, Me
 from farm.header import DatasetHeader
 from farm.job import DatasetName, Job, JobMessage
 from farm.layout import HEADER_FILE
-from farm.storage import Storage, open_storage
+from farm.storage import Storage, open_storage, refuse_credentials
 
 _NAME: TypeAdapter[str] = TypeAdapter(DatasetName)
 
@@ -49,9 +49,11 @@ def parse_destination(out: str) -> Destination:
     """Split a place, a path or URL, into the store and the dataset's name.
 
     Raises:
-        DestinationError: if a URL names no folder in a bucket, or the last part can't be the name of a dataset.
+        DestinationError: if a URL names no folder in a bucket or holds credentials, or the last part can't be the name
+            of a dataset.
     """
     if "://" in out:
+        refuse_credentials(out)
         kind, _, rest = out.partition("://")
         store, _, name = rest.rstrip("/").rpartition("/")
         if not store.strip("/"):

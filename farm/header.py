@@ -1,5 +1,6 @@
 """The header of a dataset, `dataset.json`: written first, it fixes all that decides the pictures."""
 
+import functools
 import hashlib
 from collections.abc import Mapping
 from typing import Annotated, Literal
@@ -86,7 +87,7 @@ class DatasetHeader(Model):
     hdris: Annotated[tuple[HdriRef, ...], Field(min_length=1)]
     rendering: Mapping[Category, ChosenSettings] = {}
 
-    @property
+    @functools.cached_property  # it takes part in every message
     def spec_sha256(self) -> str:
         """Fingerprint of all that decides the pictures: everything but the farm's version."""
         content = self.model_dump(mode="json", exclude={"farm_version"})

@@ -1,6 +1,7 @@
 """A job: one image of a dataset, and the message that asks a worker for it."""
 
 import re
+from collections.abc import Mapping
 from typing import Annotated, Self
 
 from pydantic import Field, ValidationError
@@ -13,6 +14,9 @@ MAX_INDEX = 10**9 - 1
 
 DatasetName = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]{0,99}$")]
 """One folder name, which can neither climb out of the store nor hide in it."""
+
+_MOST_KEYS = 32
+"""Above this an object is not looked at key by key: each unknown one would cost an error."""
 
 _JOB_ID = re.compile(r"^(?P<category>[a-z_]+)-(?P<index>\d{6,9})$", re.ASCII)
 
@@ -37,7 +41,8 @@ class Job(Model):
         """
         match = _JOB_ID.match(job_id)
         if match is None or match["category"] not in set(Category):
-            raise MessageError(f"'{job_id[:80]}' is no job id: expected <category>-<six digits>, as in far-000042")
+            # As it may come from anybody: quoted, so that it stays one line.
+            raise MessageError(f"{job_id[:80]!a} is no job id: expected <category>-<six digits>, as in far-000042")
         job = cls(category=Category(match["category"]), index=int(match["index"]))
         if job.id != job_id:
             raise MessageError(f"'{job_id}' is no job id: its index is padded; expected {job.id}")
@@ -76,6 +81,8 @@ class JobMessage(Model):
         Raises:
             MessageError: on a wrong type, an unknown key or version, or an id that is none.
         """
+        if isinstance(payload, Mapping) and len(payload) > _MOST_KEYS:
+            raise MessageError(f"job message refused: {len(payload)} keys; there are {len(cls.model_fields)}")
         try:
             message = cls.model_validate(payload)
         except ValidationError as error:

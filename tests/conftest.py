@@ -1,4 +1,4 @@
-"""What the tests share: a private Redis, a stand-in worker's command, and datasets in memory and on disk."""
+"""What the tests share: a private Redis, an object store, a stand-in worker's command, and datasets in all places."""
 
 import os
 import sys
@@ -13,8 +13,11 @@ from farm.dataset import Dataset, Destination, create_dataset
 from farm.header import DatasetHeader
 from farm.local.redis_server import find_redis_server, private_redis
 from farm.queue.broker import connect
+from tests.object_store import ObjectStore, has_object_store, private_object_store
 from tests.stand_in import stand_in_header
 from worker.leave import leave
+
+BUCKET = "farm-tests"
 
 exit_status = pytest.StashKey[int]()
 
@@ -66,11 +69,34 @@ def dataset(tmp_path: Path, header: DatasetHeader) -> Dataset:
     return create_dataset(Destination(str(tmp_path / "store"), "cables"), header)
 
 
-@pytest.fixture(params=["folder", "bucket"])
+@pytest.fixture(scope="session")
+def object_store() -> Iterator[ObjectStore]:
+    """An S3 server of these tests' own, with a bucket. A laptop may lack Swift, continuous integration may not."""
+    if not has_object_store() and os.environ.get("CI") != "true":
+        pytest.skip("no Swift; apt-get install swift-proxy swift-account swift-container swift-object")
+    with private_object_store() as store:
+        store.client().mkdir(BUCKET)
+        yield store
+
+
+@pytest.fixture
+def bucket(object_store: ObjectStore, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """The URL of an empty folder in the bucket; the environment has the address and key. Faults are told at once."""
+    for name, value in object_store.environment().items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setenv("AWS_MAX_ATTEMPTS", "1")
+    return f"s3://{BUCKET}/{tmp_path.name}"
+
+
+@pytest.fixture(params=["folder", "memory", pytest.param("bucket", marks=pytest.mark.swift)])
 def any_store(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callable[[str], str]]:
-    """Makes the location of a new folder, once on disk and once in memory, which stands for a bucket."""
+    """Makes the location of a new folder: on disk, in memory, and in a bucket of a real object store."""
     if request.param == "folder":
         yield lambda name: str(tmp_path / name)
+        return
+    if request.param == "bucket":
+        url = request.getfixturevalue("bucket")
+        yield lambda name: f"{url}/{name}"
         return
     root = f"memory://{tmp_path.name}"
     yield lambda name: f"{root}/{name}"

@@ -3,9 +3,11 @@
 As a program it is a worker with this maker: `python -P tests/stand_in.py serve ...`. Environment variables make it
 slow or failing: `STAND_IN_DELAY_S`; `STAND_IN_UNFIT` with a reason why it can't be opened; and `STAND_IN_FAILS` with
 `job id=kind` pairs. The kinds: `permanent`; `passing`, which never passes; `once` in each process; `crash` of the
-process; `hang`; `asset`, which this machine lacks; `defect`, an exception of no FarmError.
+process; `segfault`, a real one; `hang`; `asset`, which this machine lacks; `defect`, an exception of no FarmError.
+`STAND_IN_STARTS` names a file that takes a line for each start: job id and process id.
 """
 
+import ctypes
 import os
 import signal
 import sys
@@ -13,6 +15,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from farm import __version__
 from farm.category import Category
@@ -90,21 +93,29 @@ def stand_in_scene(job: Job) -> Scene:
     )
 
 
+def stand_in_pixels(job: Job, header: DatasetHeader) -> tuple[NDArray[np.uint8], NDArray[np.uint16]]:
+    """The image and the instances of a job, which no other job has."""
+    size = header.spec.resolution
+    draw = generator(header.spec.seed, job.category, job.index, 0, Stage.CABLES)
+    instances = np.zeros((size, size), np.uint16)
+    top = int(draw.integers(1, size - 5))
+    instances[top : top + 4] = 1
+    return draw.integers(0, 256, (size, size, 3), dtype=np.uint8), instances
+
+
 class StandInMaker:
     """Implements `worker.made.ImageMaker`."""
 
     def make(self, job: Job, header: DatasetHeader) -> MadeImage:
         """Draw noise, with one cable across."""
+        _note_start(job)
         time.sleep(float(os.environ.get("STAND_IN_DELAY_S", "0")))
         _fail_if_told(job)
         size = header.spec.resolution
-        draw = generator(header.spec.seed, job.category, job.index, 0, Stage.CABLES)
-        instances = np.zeros((size, size), np.uint16)
-        top = int(draw.integers(1, size - 5))
-        instances[top : top + 4] = 1
+        image, instances = stand_in_pixels(job, header)
         print("noise of Blender, which belongs in the log")
         return MadeImage(
-            image=draw.integers(0, 256, (size, size, 3), dtype=np.uint8),
+            image=image,
             mask=np.where(instances > 0, 255, 0).astype(np.uint8),
             instances=instances,
             scene=stand_in_scene(job),
@@ -114,6 +125,13 @@ class StandInMaker:
             timings_s={"render": 0.01},
             versions={"farm": __version__},
         )
+
+
+def _note_start(job: Job) -> None:
+    if journal := os.environ.get("STAND_IN_STARTS"):
+        # Opened to append, and one write a line: lines of several processes don't mix.
+        with Path(journal).open("a") as file:
+            file.write(f"{job.id} {os.getpid()}\n")
 
 
 def _fail_if_told(job: Job) -> None:
@@ -131,6 +149,8 @@ def _fail_if_told(job: Job) -> None:
     if kind == "hang":
         signal.signal(signal.SIGUSR1, signal.SIG_IGN)  # Celery's soft limit does not reach into Blender's C code
         time.sleep(3600)
+    if kind == "segfault":
+        ctypes.string_at(0)
     if kind == "crash":
         os.kill(os.getpid(), signal.SIGKILL)
 

@@ -23,6 +23,7 @@ from farm.local.tied import die_with_parent
 from farm.queue.broker import connect
 from farm.queue.celery import CeleryQueue
 from farm.queue.settings import HARD_LIMIT_S, QUEUE, SOFT_LIMIT_S, make_app
+from farm.queue.wire import install, keep_only_task
 from farm.storage import open_storage
 from worker.foreman import Foreman, kill_group
 from worker.hold import Hold
@@ -77,6 +78,7 @@ def serve(settings: WorkerSettings, open_maker: MakerFactory) -> int:
     open_storage(settings.store).is_empty()  # it may be empty or not there yet, but must be readable
     log_file = prepare_log(settings.log_folder, f"{settings.name}.log")
     logging.basicConfig(level=logging.INFO, format=_LOG_FORMAT)
+    install()
     app = make_app(settings.broker_url)
     app.conf.update(
         worker_max_tasks_per_child=settings.tasks_per_child,
@@ -97,6 +99,7 @@ def serve(settings: WorkerSettings, open_maker: MakerFactory) -> int:
     )
     runner = JobRunner(settings.store, open_maker, _RedisOfProcess(settings.broker_url).ledger, job_logs)
     register_tasks(app, runner, foreman)
+    keep_only_task(app)
     app.steps["consumer"].add(foreman.step())
 
     main_process = os.getpid()

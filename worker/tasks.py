@@ -36,14 +36,17 @@ def register_tasks(app: Any, runner: JobRunner, foreman: Foreman) -> Any:
     class WatchedRequest(Request):  # type: ignore[misc]  # celery is untyped
         """What the main process knows of a message that a child works on."""
 
-        def on_success(self, failed__retval__runtime: Any, **kwargs: Any) -> Any:
-            """Learn that a job ended well."""
-            if not failed__retval__runtime[0]:
+        failed = False
+
+        def acknowledge(self) -> Any:
+            """Learn that a job ended well: Celery replaces `on_success`, but acknowledges there."""
+            if not self.failed:
                 foreman.note_done()
-            return super().on_success(failed__retval__runtime, **kwargs)
+            return super().acknowledge()
 
         def on_failure(self, exc_info: Any, send_failed_event: bool = True, return_ok: bool = False) -> Any:
             """Learn that this worker is unfit, its store full, or its child dead."""
+            self.failed = True
             error = getattr(exc_info.exception, "exc", exc_info.exception)
             if isinstance(error, Reject) and isinstance(error.reason, UnfitWorkerError):
                 foreman.note_unfit(error.reason)
@@ -56,6 +59,7 @@ def register_tasks(app: Any, runner: JobRunner, foreman: Foreman) -> Any:
         def on_timeout(self, soft: bool, timeout: float) -> Any:
             """Learn that a child is about to be killed at the hard limit."""
             if not soft:
+                self.failed = True
                 foreman.note_crash(self)
             return super().on_timeout(soft, timeout)
 

@@ -13,6 +13,7 @@ from farm.cli.control import cancel, pause, resume
 from farm.cli.doctor import doctor
 from farm.cli.flower import flower
 from farm.cli.mending import repair, retry
+from farm.cli.metrics import metrics
 from farm.cli.preview import preview
 from farm.cli.replay import replay
 from farm.cli.report import report
@@ -50,7 +51,7 @@ def _options(
 
 COMMANDS = (
     *(run, submit, worker, status, watch, pause, resume, cancel),
-    *(repair, retry, replay, verify, report, preview, doctor, flower),
+    *(repair, retry, replay, verify, report, preview, doctor, flower, metrics),
 )
 for command in COMMANDS:
     app.command()(command)

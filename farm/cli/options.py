@@ -42,6 +42,9 @@ Assets = Annotated[
     Path | None, typer.Option("--assets", envvar="FARM_ASSETS", help="Folder of the baked surfaces; a default one.")
 ]
 Logs = Annotated[Path | None, typer.Option("--logs", envvar="FARM_LOGS", help="Folder for what Blender prints.")]
+MinFree = Annotated[
+    int, typer.Option("--min-free-mib", min=0, help="Make no picture while the store's disk has less room.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
 
 

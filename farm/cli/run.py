@@ -8,13 +8,24 @@ from farm.asset_source import InstalledAssets
 from farm.catalogue import make_header
 from farm.cli.baking import bake_for
 from farm.cli.display import ProgressDisplay, console
-from farm.cli.options import Assets, DatasetOptions, Device, DeviceChoice, Logs, Out, log_folder, takes_dataset_options
+from farm.cli.options import (
+    Assets,
+    DatasetOptions,
+    Device,
+    DeviceChoice,
+    Logs,
+    MinFree,
+    Out,
+    log_folder,
+    takes_dataset_options,
+)
 from farm.cli.worker_program import ask_worker, check_device, require_blender
 from farm.dataset import find_dataset, open_dataset, parse_destination
 from farm.errors import IncompleteError
 from farm.layout import REPORT_FILE
 from farm.local.run import LocalRun, default_workers, run_locally
 from farm.machine import usable_cores
+from farm.queue.settings import MIN_FREE_MIB
 from farm.report import write_overview
 
 
@@ -32,6 +43,7 @@ def run(
     ] = None,
     assets: Assets = None,
     logs: Logs = None,
+    min_free_mib: MinFree = MIN_FREE_MIB,
 ) -> None:
     """Make a dataset here and now, with a private Redis and workers that end with it.
 
@@ -54,6 +66,7 @@ def run(
         threads=threads or max(1, usable_cores() // workers),
         assets=assets,
         logs=log_folder(logs),
+        min_free_mib=min_free_mib,
     )
     with ProgressDisplay(screen) as display:
         try:

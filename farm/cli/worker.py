@@ -9,7 +9,7 @@ import typer
 from assets.surfaces.catalogue import SURFACES
 from farm.cli.baking import bake
 from farm.cli.display import console
-from farm.cli.options import Assets, Broker, Device, DeviceChoice, Logs, log_folder
+from farm.cli.options import Assets, Broker, Device, DeviceChoice, Logs, MinFree, log_folder
 from farm.cli.worker_program import become_worker, check_device, require_blender
 from farm.machine import usable_cores
 from farm.queue.broker import broker_url, connect
@@ -35,9 +35,7 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
     time_limit_s: Annotated[
         float, typer.Option(min=1, max=HARD_LIMIT_S, help="A job's process is killed after so long.")
     ] = HARD_LIMIT_S,
-    min_free_mib: Annotated[
-        int, typer.Option(min=0, help="Take no job while the store's disk has less room.")
-    ] = MIN_FREE_MIB,
+    min_free_mib: MinFree = MIN_FREE_MIB,
     assets: Assets = None,
     logs: Logs = None,
 ) -> None:

@@ -13,6 +13,7 @@ from farm.local.workers import WORKER_COMMAND, LocalWorkers, WorkerOptions
 from farm.machine import memory_bytes, usable_cores
 from farm.progress import Progress
 from farm.queue.broker import connect
+from farm.queue.settings import MIN_FREE_MIB
 from farm.redis_hints import redis_hints
 
 _WORKER_BYTES = 2 * 2**30
@@ -30,6 +31,7 @@ class LocalRun:
         assets: folder of baked surfaces; None for the default one.
         logs: folder for the workers' logs.
         worker_command: the program that is a worker.
+        min_free_mib: no picture is made while the dataset's disk has less room.
         lost_after_s: see `farm.feeder.LOST_AFTER_S`.
     """
 
@@ -39,6 +41,7 @@ class LocalRun:
     assets: Path | None
     logs: Path
     worker_command: Sequence[str] = WORKER_COMMAND
+    min_free_mib: int = MIN_FREE_MIB
     lost_after_s: float = LOST_AFTER_S
 
 
@@ -76,6 +79,7 @@ def run_locally(
             threads=how.threads,
             assets=how.assets,
             logs=how.logs,
+            min_free_mib=how.min_free_mib,
         )
         with LocalWorkers(how.workers, options, how.worker_command) as workers:
 

@@ -14,6 +14,7 @@ from farm.errors import DestinationError, EnvironmentMissingError, error_of
 from farm.local.processes import stop
 from farm.local.tied import tied
 from farm.queue.broker import BROKER_VARIABLE
+from farm.queue.settings import MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
 
 WORKER_COMMAND = (sys.executable, "-P", "-m", "worker")
 """Started as a program of its own, as this package must not import it."""
@@ -33,6 +34,9 @@ class WorkerOptions:
         threads: of each worker's renderer; 0 for all cores.
         assets: folder of baked surfaces; None for the default one.
         logs: folder that takes each worker's log.
+        tasks_per_child: a renderer is replaced after so many jobs.
+        memory_per_child_kib: or when it has grown above this.
+        min_free_mib: no job is taken while the store's disk has less room.
     """
 
     store: str
@@ -41,11 +45,17 @@ class WorkerOptions:
     threads: int
     assets: Path | None
     logs: Path
+    tasks_per_child: int = TASKS_PER_CHILD
+    memory_per_child_kib: int = MEMORY_PER_CHILD_KIB
+    min_free_mib: int = MIN_FREE_MIB
 
     def serve_arguments(self, name: str) -> list[str]:
         """Arguments of one worker's command."""
         arguments = ["serve", "--store", self.store, "--name", name, "--device", self.device]
         arguments += ["--threads", str(self.threads), "--logs", str(self.logs)]
+        arguments += ["--tasks-per-child", str(self.tasks_per_child)]
+        arguments += ["--memory-per-child-kib", str(self.memory_per_child_kib)]
+        arguments += ["--min-free-mib", str(self.min_free_mib)]
         return arguments if self.assets is None else [*arguments, "--assets", str(self.assets)]
 
     def environment(self) -> Mapping[str, str]:
@@ -64,8 +74,10 @@ class _Running:
 class LocalWorkers:
     """A number of workers, inside `with`. Whoever holds this calls `supervise` now and then."""
 
-    def __init__(self, count: int, options: WorkerOptions, command: Sequence[str] = WORKER_COMMAND) -> None:
-        self._names = [f"local-{number}" for number in range(1, count + 1)]
+    def __init__(
+        self, count: int, options: WorkerOptions, command: Sequence[str] = WORKER_COMMAND, *, name: str = "local"
+    ) -> None:
+        self._names = [f"{name}-{number}" for number in range(1, count + 1)]
         self._options = options
         self._command = command
         self._running: list[_Running] = []

@@ -1,6 +1,8 @@
 """The broker's address, and a direct line to it."""
 
 import os
+from pathlib import Path
+from urllib.parse import parse_qsl
 
 import redis
 from redis.backoff import NoBackoff
@@ -10,24 +12,66 @@ from farm.errors import BrokerError
 
 DEFAULT_BROKER_URL = "redis://localhost:6379/0"
 BROKER_VARIABLE = "FARM_BROKER_URL"
+BROKER_FILE_VARIABLE = "FARM_BROKER_URL_FILE"
+"""Names a file that holds the address, as container secrets come."""
 
 _CONNECT_S = 2.0
 _ANSWER_S = 10.0
 _KINDS = ("redis", "rediss", "redis+socket")
 
+_TLS_OPTIONS = frozenset({"ssl_ca_certs", "ssl_certfile", "ssl_keyfile"})
+"""What an address may say of TLS, besides the one value of `ssl_cert_reqs`."""
+
 
 def broker_url(given: str | None) -> str:
-    """The address given, else that of the environment, else the local default.
+    """The address given, else that of the environment, else that in the file which the environment names, else ours.
+
+    Celery takes `rediss://` without options for TLS with any certificate, so the check is always spelt out here.
 
     Raises:
-        BrokerError: if it is not the address of a Redis.
+        BrokerError: if it is not the address of a Redis, or asks for TLS without a check of the certificate.
     """
-    url = given or os.environ.get(BROKER_VARIABLE) or DEFAULT_BROKER_URL
-    if url.partition("://")[0] not in _KINDS:
+    url = given or os.environ.get(BROKER_VARIABLE) or _from_file() or DEFAULT_BROKER_URL
+    kind = url.partition("://")[0]
+    if kind not in _KINDS:
         raise BrokerError(
             f"'{masked(url)}' is no Redis address; write redis://HOST:PORT/NUMBER, or redis+socket:///PATH for a socket"
         )
-    return url
+    return _with_certificate_check(url, kind)
+
+
+def _from_file() -> str | None:
+    path = os.environ.get(BROKER_FILE_VARIABLE)
+    if not path:
+        return None
+    try:
+        return Path(path).read_text("utf-8").strip()
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "is no text"
+        raise BrokerError(f"{path}: can't read the broker's address: {reason}; see {BROKER_FILE_VARIABLE}") from None
+
+
+def _with_certificate_check(url: str, kind: str) -> str:
+    # Read as Celery and redis-py read it: all from the first question mark, to a fragment.
+    query = url.partition("?")[2]
+    options = [(key, value) for key, value in parse_qsl(query, keep_blank_values=True) if key.startswith("ssl")]
+    if kind != "rediss":
+        if options:
+            raise BrokerError(f"'{masked(url)}' has options of TLS but is no address with TLS; write rediss://")
+        return url
+    if "#" in url:
+        raise BrokerError(f"'{masked(url)}' holds a #; write %23 for one in a password")
+    checks = {value for key, value in options if key == "ssl_cert_reqs"}
+    if not checks <= {"required", "CERT_REQUIRED"}:
+        raise BrokerError(
+            f"'{masked(url)}' asks for TLS without a check of the certificate; name your own authority with "
+            "ssl_ca_certs=FILE instead"
+        )
+    if unknown := sorted({key for key, _ in options} - _TLS_OPTIONS - {"ssl_cert_reqs"}):
+        raise BrokerError(f"'{masked(url)}': unknown option {unknown[0]}; TLS has {', '.join(sorted(_TLS_OPTIONS))}")
+    # Celery knows the long word, redis-py the short one alone.
+    spelt = url.replace("ssl_cert_reqs=CERT_REQUIRED", "ssl_cert_reqs=required")
+    return spelt if checks else f"{url}{'&' if query else '?'}ssl_cert_reqs=required"
 
 
 def masked(url: str) -> str:

@@ -106,5 +106,6 @@ def test_scripts_in_a_template_do_not_run(tmp_path: Path) -> None:
     text.write(f"open({str(marker)!r}, 'w').close()")
     text.use_module = True
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "attack.blend"), copy=True)
-    open_template(tmp_path / "attack.blend")
+    with pytest.raises(TemplateError, match="attack"):
+        open_template(tmp_path / "attack.blend")
     assert not marker.exists()

@@ -142,6 +142,25 @@ def test_killed_process(destination: Destination, how: LocalRun, monkeypatch: py
     assert_whole(destination, made, how.logs)
 
 
+@pytest.mark.slow
+@pytest.mark.swift
+def test_killed_worker_of_a_bucket(bucket: str, how: LocalRun, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A run into a bucket fills its quota, once each, though a whole worker is killed amid it."""
+    monkeypatch.setenv("STAND_IN_DELAY_S", "0.4")
+    monkeypatch.delenv("AWS_MAX_ATTEMPTS")
+
+    def kill() -> None:
+        processes = processes_with(str(how.logs))
+        mains = [process for process, parent in processes.items() if parent not in processes]
+        os.kill(mains[0], signal.SIGKILL)
+
+    destination = Destination(bucket, "cables")
+    made = run_locally(destination, stand_in_header(far=8), how, once(kill, after=2))
+    dataset = assert_whole(destination, made, how.logs)
+    assert len(dataset.storage.files("far/manifests")) == 8
+    assert processes_with(str(how.logs)) == {}
+
+
 def test_job_that_always_kills_its_process(
     destination: Destination, header: DatasetHeader, how: LocalRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:

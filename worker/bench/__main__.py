@@ -1,10 +1,11 @@
-"""`python -m worker.bench whole|farm|masks|skips|stress|physics|render|startup --out DIR`."""
+"""`python -m worker.bench whole|farm|masks|skips|stress|physics|render|soak|startup --out DIR`."""
 
 import argparse
 import sys
 from pathlib import Path
 
 from farm.errors import FarmError
+from worker.bench.soak.options import add_soak
 from worker.bench.throughput.options import add_farm
 from worker.bench.throughput.splits import SPLITS
 from worker.bench.whole.options import add_whole, plan_of
@@ -35,6 +36,7 @@ def main(arguments: list[str]) -> int:
     physics.add_argument("--scenes", type=int, help="most scenes for each setting")
     startup = commands.add_parser("startup", parents=[shared], help="from a worker's start to its first picture")
     startup.add_argument("--starts", type=int, help="how often")
+    add_soak(commands, shared)
     options = parser.parse_args(arguments)
     options.out.mkdir(parents=True, exist_ok=True)
     try:
@@ -61,6 +63,16 @@ def _run(options: argparse.Namespace) -> int:
         from worker.bench.startup.command import run as run_startup  # noqa: PLC0415
 
         return run_startup(options.out, seed=options.seed, starts=options.starts)
+    if options.benchmark == "soak":
+        from worker.bench.soak.command import run as run_soak  # noqa: PLC0415
+
+        return run_soak(
+            options.out,
+            seed=options.seed,
+            images=options.images,
+            quality=options.quality,
+            resolution=options.resolution,
+        )
     return _run_pictures(options)
 
 

@@ -1,0 +1,94 @@
+"""`farm metrics`: the farm's figures for Prometheus, over HTTP."""
+
+import importlib.util
+import signal
+import threading
+from contextlib import suppress
+from types import FrameType
+from typing import Annotated
+
+import redis
+import typer
+
+from farm.board.redis import RedisBoard
+from farm.cli.options import Broker
+from farm.dataset import Dataset, Destination, open_dataset, parse_destination
+from farm.errors import ConflictError, DestinationError, EnvironmentMissingError, SpecError
+from farm.progress import Hints
+from farm.queue.broker import broker_url, connect
+from farm.redis_hints import redis_hints
+
+
+def metrics(
+    places: Annotated[
+        list[str] | None, typer.Argument(metavar="[DATASET]...", help="Folders or URLs; or name a --store.")
+    ] = None,
+    store: Annotated[
+        str | None,
+        typer.Option(envvar="FARM_STORE", help="Show the runs of datasets in this folder or URL."),
+    ] = None,
+    broker: Broker = None,
+    address: Annotated[
+        str, typer.Option(help="The page has no password: keep it where only Prometheus is.")
+    ] = "127.0.0.1",
+    port: Annotated[int, typer.Option(min=0, max=65535, help="0 takes a free one.")] = 9464,
+) -> None:
+    """Serve images by category and state, seconds a stage, retries, queue and workers to Prometheus."""
+    if importlib.util.find_spec("prometheus_client") is None:
+        raise EnvironmentMissingError("prometheus_client is not installed; run: pip install 'cable-farm[metrics]'")
+    # Not every machine of a farm has it.
+    from prometheus_client import CollectorRegistry, start_http_server  # noqa: PLC0415
+
+    from farm.metrics import FarmCollector  # noqa: PLC0415
+
+    if not places and store is None:
+        raise SpecError("name datasets, or the --store that holds those that are worked on")
+    url = broker_url(broker)
+    client = connect(url)
+    found = _Datasets(url, client, [open_dataset(parse_destination(place)) for place in places or ()], store)
+    registry = CollectorRegistry(auto_describe=False)
+    registry.register(FarmCollector(found.find, RedisBoard(client)))
+    try:
+        server, thread = start_http_server(port, address, registry)
+    except OSError as error:
+        raise DestinationError(f"{address}:{port}: can't listen: {error.strerror}; name another --port") from error
+    typer.echo(f"metrics: http://{address}:{server.server_port}/metrics")
+    stopped = threading.Event()
+
+    def stop(_number: int, _frame: FrameType | None) -> None:
+        stopped.set()
+
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, stop)
+    stopped.wait()
+    server.shutdown()
+    thread.join()
+
+
+class _Datasets:
+    """The datasets that were named, and those in the store whose runs are up now or were."""
+
+    def __init__(self, url: str, client: "redis.Redis", named: list[Dataset], store: str | None) -> None:
+        self._url = url
+        self._client = client
+        self._store = store
+        self._named = named
+        self._found: dict[str, tuple[Dataset, Hints]] = {}
+
+    def find(self) -> list[tuple[Dataset, Hints]]:
+        """All of them; raises BrokerError."""
+        while self._named:
+            self._add(self._named[-1])
+            self._named.pop()
+        for run in RedisBoard(self._client).runs().values() if self._store is not None else ():
+            if run.key not in self._found:
+                # A dataset of another store is another's to show.
+                with suppress(DestinationError, ConflictError):
+                    dataset = open_dataset(Destination(self._store or "", run.dataset))
+                    if dataset.header.spec_sha256 == run.spec_sha256:
+                        self._add(dataset)
+        return list(self._found.values())
+
+    def _add(self, dataset: Dataset) -> None:
+        hints = redis_hints(dataset, self._url, self._client)
+        self._found[hints.run.key] = (dataset, hints)

@@ -1,0 +1,47 @@
+"""fsspec's filesystems: one for each place and process.
+
+Such a filesystem has a thread with an event loop, and open sockets. None of them survives a fork: the child would wait
+for a thread that is not there, and talk on its parent's sockets. So nobody keeps a filesystem; who needs it asks here
+at each use. Before a fork all are closed, and parent and child each open their own when they next need one.
+"""
+
+import gc
+import os
+from functools import lru_cache
+from typing import Any
+
+import fsspec
+
+_S3_ROUNDS = 2
+"""How often s3fs repeats a request that hung; the AWS client's own attempts, AWS_MAX_ATTEMPTS, are within each."""
+
+
+@lru_cache(maxsize=16)
+def connect(url: str) -> tuple[Any, str]:
+    """The filesystem of a URL, and the URL's path in it, without a slash at its end. Use it at once, don't keep it.
+
+    Listings are not cached: other processes write there too.
+
+    Raises:
+        ImportError: if the filesystem needs a package that is not installed.
+        ValueError: if the protocol is unknown.
+    """
+    filesystem, root = fsspec.core.url_to_fs(url, use_listings_cache=False, skip_instance_cache=True)
+    if is_s3(url):
+        filesystem.retries = _S3_ROUNDS
+    return filesystem, root.rstrip("/")
+
+
+def is_s3(url: str) -> bool:
+    """Whether the URL is that of a bucket of an S3-compatible store."""
+    return url.startswith(("s3://", "s3a://"))
+
+
+def _close_all() -> None:
+    if connect.cache_info().currsize:
+        connect.cache_clear()
+        # fsspec closes a filesystem's connections when it is collected, which its reference cycles put off.
+        gc.collect()
+
+
+os.register_at_fork(before=_close_all)

@@ -1,0 +1,112 @@
+"""A local folder, or one mounted on this machine."""
+
+import hashlib
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from farm.errors import DestinationError
+from farm.machine import machine_name
+from farm.storage.port import TEMPORARY_PREFIX, StoredFile
+
+
+@contextmanager
+def _as_destination_error(action: str, place: str) -> Iterator[None]:
+    try:
+        yield
+    except FileNotFoundError:
+        raise
+    except OSError as error:
+        raise DestinationError(f"{place}: can't {action}: {error.strerror or error}") from error
+
+
+class LocalStorage:
+    """A folder of this machine, or one mounted on it."""
+
+    def __init__(self, root: Path) -> None:
+        self._root = root
+
+    @property
+    def location(self) -> str:
+        """The folder's path."""
+        return str(self._root)
+
+    def read(self, path: str) -> bytes:
+        """The content of a file; see `Storage.read`."""
+        with _as_destination_error("read", str(self._root / path)):
+            return (self._root / path).read_bytes()
+
+    def write(self, path: str, content: bytes) -> None:
+        """Write beside the target, read back, then move; see `Storage.write`."""
+        target = self._root / path
+        # Machine and process make the name unique among all writers of one shared folder.
+        temporary = target.with_name(f"{TEMPORARY_PREFIX}{target.name}.{machine_name()}.{os.getpid()}")
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            try:
+                self._write_and_check(temporary, content)
+                temporary.replace(target)
+            except BaseException:
+                with suppress(OSError):
+                    temporary.unlink()
+                raise
+            _sync_folder(target.parent)
+        except OSError as error:
+            raise DestinationError(
+                f"{target}: can't write: {error.strerror or error}; check the folder's permissions and free space"
+            ) from error
+
+    @staticmethod
+    def _write_and_check(temporary: Path, content: bytes) -> None:
+        with temporary.open("wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        if hashlib.sha256(temporary.read_bytes()).digest() != hashlib.sha256(content).digest():
+            raise DestinationError(f"{temporary}: reads back other than written; check the disk")
+
+    def files(self, under: str = "") -> dict[str, StoredFile]:
+        """Every file below the folder; see `Storage.files`."""
+        found: dict[str, StoredFile] = {}
+        folder = self._root / under
+        with _as_destination_error("list", str(folder)), suppress(FileNotFoundError):
+            if not under:
+                self._collect(folder, "", found)
+            elif folder.is_dir():
+                self._collect(folder, f"{under}/", found)
+        return found
+
+    def _collect(self, folder: Path, prefix: str, found: dict[str, StoredFile]) -> None:
+        with os.scandir(folder) as entries:
+            for entry in entries:
+                # A file may vanish between its listing and its stat: a temporary one that was moved.
+                with suppress(FileNotFoundError):
+                    if entry.is_dir(follow_symlinks=False):
+                        self._collect(folder / entry.name, f"{prefix}{entry.name}/", found)
+                    else:
+                        stat = entry.stat()
+                        found[prefix + entry.name] = StoredFile(stat.st_size, stat.st_mtime)
+
+    def is_empty(self) -> bool:
+        """Whether the folder holds nothing; see `Storage.is_empty`."""
+        with _as_destination_error("list", str(self._root)):
+            try:
+                with os.scandir(self._root) as entries:
+                    return next(entries, None) is None
+            except FileNotFoundError:
+                return True
+
+    def remove(self, path: str) -> None:
+        """Remove a file; see `Storage.remove`."""
+        with _as_destination_error("remove", str(self._root / path)):
+            (self._root / path).unlink(missing_ok=True)
+
+
+def _sync_folder(folder: Path) -> None:
+    # The move itself must reach the disk before a manifest, written later, can vouch for the file.
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

@@ -1,0 +1,123 @@
+"""A folder of a bucket, or of any other filesystem that fsspec knows."""
+
+import hashlib
+from collections.abc import Mapping
+from contextlib import suppress
+from datetime import datetime
+from typing import Any
+
+from farm.errors import DestinationError
+from farm.storage.connection import connect, is_s3
+from farm.storage.faults import as_destination_error
+from farm.storage.port import StoredFile
+
+_PART_BYTES = 8 * 1024 * 1024
+"""Of an object of at least two of them, each is sent on its own; the store joins them once it has all."""
+
+PUT_PATIENCE_S = 120.0
+"""A put is given up after so long, and the time that its bytes take on the slowest line.
+
+The client has limits of its own for all else. But it may ask whether to send a body before it does, and would wait for
+the answer forever.
+"""
+_SLOWEST_BYTES_S = 50_000.0
+
+
+class ObjectStorage:
+    """A folder of any fsspec filesystem: a bucket, or `memory://` for tests. May be kept across a fork."""
+
+    def __init__(self, url: str) -> None:
+        """Nothing is read or written yet.
+
+        Raises:
+            ImportError: if the URL's filesystem needs a package that is not installed.
+            ValueError: if the URL's protocol is unknown.
+        """
+        self._url = url
+        filesystem, self._root = connect(url)
+        self._location = str(filesystem.unstrip_protocol(self._root))
+        # A get is one request, not two with its size asked first; and it tells a missing object from a missing bucket.
+        self._get_options = {"max_concurrency": 1} if is_s3(url) else {}
+
+    @property
+    def location(self) -> str:
+        """The folder as a URL, without credentials."""
+        return self._location
+
+    @property
+    def _filesystem(self) -> Any:
+        return connect(self._url)[0]
+
+    def _full(self, path: str) -> str:
+        return f"{self._root}/{path}" if path else self._root
+
+    def read(self, path: str) -> bytes:
+        """The content of an object; see `Storage.read`."""
+        with as_destination_error("read", f"{self._location}/{path}"):
+            return bytes(self._filesystem.cat_file(self._full(path), **self._get_options))
+
+    def write(self, path: str, content: bytes) -> None:
+        """Put the object at once, then ask what is there; see `Storage.write`."""
+        place = f"{self._location}/{path}"
+        try:
+            with as_destination_error("write", place):
+                self._filesystem.pipe_file(self._full(path), content, **self._put_options(len(content)))
+                if not self._holds(path, content):
+                    # It is left there: it may be the good one of another writer of the same file.
+                    raise DestinationError(f"{place}: the store holds other than was sent; write it again")
+        except FileNotFoundError as error:
+            raise DestinationError(f"{place}: can't write: {error}; check the bucket") from error
+
+    def _put_options(self, size: int) -> dict[str, Any]:
+        if not is_s3(self._url):
+            return {}
+        return {"chunksize": _PART_BYTES, "timeout": PUT_PATIENCE_S + size / _SLOWEST_BYTES_S}
+
+    def _holds(self, path: str, content: bytes) -> bool:
+        info = self._filesystem.info(self._full(path))
+        if int(info["size"]) != len(content):
+            return False
+        # Most stores tell an object's MD5 by its tag, but not of one in parts or encrypted: then it is read back.
+        checksum = hashlib.md5(content, usedforsecurity=False).hexdigest()
+        return str(info.get("ETag")).strip('"') == checksum or self.read(path) == content
+
+    def files(self, under: str = "") -> dict[str, StoredFile]:
+        """Every object below the folder; see `Storage.files`."""
+        folder = self._full(under)
+        listing: Mapping[str, Mapping[str, Any]] = {}
+        with suppress(FileNotFoundError), as_destination_error("list", f"{self._location}/{under}".rstrip("/")):
+            listing = self._filesystem.find(folder, detail=True)
+        start = len(self._root) + 1
+        return {
+            name[start:]: StoredFile(int(info["size"]), _modified_s(info))
+            for name, info in listing.items()
+            if name.startswith(f"{folder}/") and not _marks_folder(name)
+        }
+
+    def is_empty(self) -> bool:
+        """Whether the folder holds nothing; see `Storage.is_empty`."""
+        names: list[str] = []
+        with suppress(FileNotFoundError), as_destination_error("list", self._location):
+            names = self._filesystem.ls(self._root, detail=False)
+        return all(_marks_folder(name) for name in names)
+
+    def remove(self, path: str) -> None:
+        """Remove an object; see `Storage.remove`."""
+        with suppress(FileNotFoundError), as_destination_error("remove", f"{self._location}/{path}"):
+            self._filesystem.rm_file(self._full(path))
+
+
+def _marks_folder(name: str) -> bool:
+    # Consoles of object stores make such an object of no bytes for an empty folder.
+    return name.endswith("/")
+
+
+def _modified_s(info: Mapping[str, Any]) -> float:
+    # Each filesystem has its own name for the same thing.
+    for key in ("mtime", "LastModified", "last_modified", "updated", "created"):
+        value = info.get(key)
+        if isinstance(value, datetime):
+            return value.timestamp()
+        if isinstance(value, int | float):
+            return float(value)
+    return 0.0

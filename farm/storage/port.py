@@ -1,0 +1,74 @@
+"""What the farm asks of a storage, whatever is behind it."""
+
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+from typing import Protocol
+
+TEMPORARY_PREFIX = ".tmp-"
+
+
+@dataclass(frozen=True, slots=True)
+class StoredFile:
+    """What a listing tells about a file; `modified_s` counts seconds of the Unix epoch, 0 where unknown."""
+
+    bytes: int
+    modified_s: float
+
+
+class Storage(Protocol):
+    """Files by paths relative to one folder, with `/` between the parts."""
+
+    @property
+    def location(self) -> str:
+        """The folder, as a person would write it."""
+        ...
+
+    def read(self, path: str) -> bytes:
+        """The content of a file.
+
+        Raises:
+            FileNotFoundError: if there is none.
+            DestinationError: if it can't be read.
+        """
+        ...
+
+    def write(self, path: str, content: bytes) -> None:
+        """Put a whole file in place, replacing one that is there, and make sure that it is what was sent.
+
+        Raises:
+            DestinationError: if it can't be written, then the former state remains; or if the store took it and holds
+                something else.
+        """
+        ...
+
+    def files(self, under: str = "") -> dict[str, StoredFile]:
+        """Every file below the folder, by path; none if the folder does not exist.
+
+        Args:
+            under: a folder in it, to list that alone; the paths stay relative to the whole.
+
+        Raises:
+            DestinationError: if the folder can't be read.
+        """
+        ...
+
+    def is_empty(self) -> bool:
+        """Whether the folder holds nothing or does not exist.
+
+        Raises:
+            DestinationError: if the folder can't be read.
+        """
+        ...
+
+    def remove(self, path: str) -> None:
+        """Remove a file; one that is gone already is no error.
+
+        Raises:
+            DestinationError: if it can't be removed.
+        """
+        ...
+
+
+def is_temporary(path: str) -> bool:
+    """Whether a path is that of a file still being written, or left by a killed writer."""
+    return PurePosixPath(path).name.startswith(TEMPORARY_PREFIX)

@@ -1,0 +1,107 @@
+"""Templates that try to run code or write files: what Blender and the farm's check make of them, in real processes."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("bpy")
+
+from farm.asset_source import InstalledAssets  # after importorskip
+from farm.catalogue import Inputs, make_header
+from farm.errors import TemplateError
+from farm.spec import parse_spec
+
+pytestmark = [pytest.mark.blender, pytest.mark.slow]
+
+PROGRAM = Path(__file__).with_name("hostile.py")
+CODE = ["text", "handler", "driver", "freestyle"]
+
+
+def run(*arguments: str) -> None:
+    """Run the program that makes and renders templates, to its end."""
+    command = [sys.executable, "-P", str(PROGRAM), *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def make(kind: str, folder: Path) -> Path:
+    """A template of a kind; its marker, which making it may have left, is gone."""
+    run(kind, str(folder / "template.blend"), str(folder / "marker"))
+    for marker in folder.glob("marker"):
+        marker.unlink()
+    return folder / "template.blend"
+
+
+def ask_worker(command: list[str], template: Path) -> "subprocess.CompletedProcess[str]":
+    """Run one of the worker's commands on a dataset with the template."""
+    spec = parse_spec({"quotas": {"far": 1}, "resolution": 64, "quality": "draft"}, source="test")
+    header = make_header(spec, Inputs(template=template), InstalledAssets())
+    options = ["--device", "cpu", "--threads", "1", "--logs", str(template.parent / "logs")]
+    return subprocess.run(
+        [sys.executable, "-P", "-m", "worker", *command, *options],
+        input=header.model_dump_json(),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def markers(template: Path) -> list[str]:
+    """Files that the template's code, or its nodes, have written."""
+    return [path.name for path in template.parent.glob("marker*")]
+
+
+@pytest.mark.parametrize("kind", CODE)
+def test_code_in_a_template_is_refused_and_does_not_run(tmp_path: Path, kind: str) -> None:
+    """The check names it in one line; neither the check nor a preview runs it. With scripts on, it does run."""
+    template = make(kind, tmp_path)
+    for command in (["check"], ["preview", "--job", "far-000000", "--out", str(tmp_path / "picture.png")]):
+        told = ask_worker(command, template)
+        assert told.returncode == TemplateError.exit_code
+        assert "the template must not hold" in told.stderr
+        assert len(told.stderr.splitlines()) == 1
+    assert markers(template) == []
+    run("trusting", str(template), str(tmp_path / "own.png"))
+    assert markers(template) == ["marker"]
+
+
+@pytest.mark.parametrize("kind", CODE)
+def test_code_does_not_run_even_in_a_render_without_the_check(tmp_path: Path, kind: str) -> None:
+    """Opening with the scripts off, as the farm does, is a defence of its own."""
+    template = make(kind, tmp_path)
+    run("careful", str(template), str(tmp_path / "own.png"))
+    assert (tmp_path / "own.png").exists()
+    assert markers(template) == []
+
+
+@pytest.mark.parametrize(("kind", "words"), [("script_node", "script node"), ("image", "outside file")])
+def test_files_beside_a_template_are_refused(tmp_path: Path, kind: str, words: str) -> None:
+    """A picture must not depend on what no checksum stands for."""
+    told = ask_worker(["check"], make(kind, tmp_path))
+    assert told.returncode == TemplateError.exit_code
+    assert words in told.stderr
+
+
+def test_a_linked_library_is_refused(tmp_path: Path) -> None:
+    """Even where it lies at an absolute path of this machine."""
+    told = ask_worker(["check"], make("library", tmp_path))
+    assert told.returncode == TemplateError.exit_code
+    assert "library.blend" in told.stderr
+
+
+def test_nodes_that_write_files_write_none(tmp_path: Path) -> None:
+    """The compositor's file output needs no script; the farm renders without the compositor. Blender itself writes."""
+    template = make("file_output", tmp_path)
+    told = ask_worker(["preview", "--job", "far-000000", "--out", str(tmp_path / "picture.png")], template)
+    assert told.returncode == 0, told.stderr
+    assert markers(template) == []
+    run("careful", str(template), str(tmp_path / "own.png"))
+    assert markers(template) == ["marker1.png"]
+
+
+def test_arithmetic_in_drivers_is_allowed(tmp_path: Path) -> None:
+    """Blender works it out by itself, without Python."""
+    told = ask_worker(["check"], make("arithmetic", tmp_path))
+    assert told.returncode == 0, told.stderr

@@ -1,0 +1,47 @@
+"""The scenarios' farm with real Blender workers: tiny pictures, and a texture of its own, so nothing need be baked."""
+
+import importlib.util
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from farm.asset_source import InstalledAssets
+from farm.catalogue import make_header
+from farm.description import describe
+from farm.header import DatasetHeader
+from farm.local.workers import WORKER_COMMAND
+from farm.quality import Preset
+from tests.chaos.expected import Expected
+from tests.chaos.farm_under_test import Plan
+from tests.chaos.judge import Claims
+from tests.chaos.scenarios import Scenario
+
+_RESOLUTION = 96
+
+
+def blender_is_there() -> bool:
+    """Whether Blender can be imported; it is not done here."""
+    return importlib.util.find_spec("bpy") is not None
+
+
+def tiny_header(images: int, seed: int, folder: Path) -> DatasetHeader:
+    """A dataset of all categories.
+
+    Args:
+        images: in all.
+        seed: of the dataset.
+        folder: takes the texture.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    rng = np.random.default_rng(0)
+    cv2.imwrite(str(folder / "speckle_1k_color.png"), rng.integers(60, 200, (64, 64, 3), dtype=np.uint8))
+    cv2.imwrite(str(folder / "speckle_1k_roughness.png"), np.full((64, 64), 150, np.uint8))
+    flags = {"images": images, "seed": seed, "resolution": _RESOLUTION, "quality": Preset.DRAFT}
+    description = describe(None, flags, {"textures": (folder,), "builtin_textures": False})
+    return make_header(description.spec, description.inputs, InstalledAssets())
+
+
+def for_blender(scenario: Scenario, header: DatasetHeader, expected: Expected) -> tuple[Plan, Claims]:
+    """The farm with Blender, and what must come of it."""
+    return Plan(scenario.name, header, WORKER_COMMAND, scenario.workers), Claims(expected)

@@ -1,0 +1,34 @@
+"""The bytes that each job's files must have, whatever befell the farm."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from farm.header import DatasetHeader
+from farm.job import Job
+from farm.layout import FileRole, file_path
+from tests.stand_in import stand_in_pixels
+from worker.upload import encode_png
+
+Expected = Callable[[Job], Mapping[FileRole, bytes]]
+
+
+def drawn_by_stand_in(header: DatasetHeader) -> Expected:
+    """What a stand-in draws: noise from the job's own seed, so that no two jobs have the same."""
+
+    def expected(job: Job) -> Mapping[FileRole, bytes]:
+        image, instances = stand_in_pixels(job, header)
+        mask = np.where(instances > 0, 255, 0).astype(np.uint8)
+        return {
+            FileRole.IMAGE: encode_png(image),
+            FileRole.MASK: encode_png(mask),
+            FileRole.INSTANCES: encode_png(instances),
+        }
+
+    return expected
+
+
+def made_before(folder: Path) -> Expected:
+    """What lies in the folder of a dataset of the same description."""
+    return lambda job: {role: (folder / file_path(job, role)).read_bytes() for role in FileRole}

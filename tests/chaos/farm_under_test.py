@@ -1,0 +1,165 @@
+"""A whole farm: Redis behind a proxy, workers, a coordinator; and what surrounds it, to be spoilt."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from farm.dataset import Dataset, Destination, create_dataset
+from farm.errors import IncompleteError
+from farm.header import DatasetHeader
+from farm.layout import manifest_folder
+from farm.local.workers import WorkerOptions
+from farm.queue.broker import BROKER_VARIABLE
+from tests.chaos.clock import WrongClock, find_faketime
+from tests.chaos.disk import SmallDisk, small_disk
+from tests.chaos.manifest_watch import ManifestWatch
+from tests.chaos.proxy import Proxy
+from tests.chaos.redis_service import RedisService
+from tests.chaos.service import Service
+
+CLAIM_S = 3.0
+"""Claims are so short here, that a stopped worker loses its own within seconds."""
+
+_END_S = 20.0
+_DISK_MIB = 24
+_MIN_FREE_MIB = 1
+
+
+class NoMeansError(Exception):
+    """This machine lacks what a scenario needs; the text says what."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """How a farm is set up.
+
+    Attributes:
+        dataset: its name, also that of the scenario.
+        header: of the dataset.
+        worker: the program that is a worker.
+        workers: how many.
+        environment: of the workers, beside that of this process.
+        with_clock: its processes look at a clock that can be set wrong.
+        with_disk: its store is on a small disk of its own.
+    """
+
+    dataset: str
+    header: DatasetHeader
+    worker: Sequence[str]
+    workers: int
+    environment: Mapping[str, str] = field(default_factory=dict)
+    with_clock: bool = False
+    with_disk: bool = False
+
+
+class FarmUnderTest:
+    """All parts of a running farm. The faults lay hands on them; `supervise` restarts what fails, called often."""
+
+    def __init__(self, root: Path, plan: Plan, proxy: Proxy, redis: RedisService, clock: WrongClock | None) -> None:
+        self.root = root
+        self.plan = plan
+        self.proxy = proxy
+        self.redis = redis
+        self.clock = clock
+        self.disk: SmallDisk | None = None
+        self.known_messages: dict[str, tuple[str, str]] = {}  # job id to its list's key and a message
+        self.journal = root / "starts.txt"
+        self.store = root / "store"
+        self.logs = root / "logs"
+        self.folder = self.store / plan.dataset
+        shared = {BROKER_VARIABLE: proxy.url, "FARM_CLAIM_S": str(CLAIM_S), **(clock.environment() if clock else {})}
+        of_workers = {**shared, **plan.environment, "STAND_IN_STARTS": str(self.journal)}
+        self.workers = [
+            Service(name, self._worker_command(name), of_workers, self.logs / f"{name}.out")
+            for name in (f"{plan.dataset}-{number}" for number in range(1, plan.workers + 1))
+        ]
+        self.coordinator = Service(
+            "coordinator",
+            [self._python, "-P", "-m", "farm", "watch", str(self.folder)],
+            shared,
+            self.logs / "coordinator.out",
+            final_codes=frozenset({0, IncompleteError.exit_code}),
+        )
+        self.dataset: Dataset
+        self.manifests: ManifestWatch
+
+    @property
+    def _python(self) -> str:
+        return self.plan.worker[0]
+
+    def _worker_command(self, name: str) -> list[str]:
+        options = WorkerOptions(
+            store=str(self.store),
+            broker_url=self.proxy.url,
+            device="cpu",
+            threads=1,
+            assets=None,
+            logs=self.logs,
+            min_free_mib=_MIN_FREE_MIB,
+        )
+        return [*self.plan.worker, *options.serve_arguments(name)]
+
+    @property
+    def services(self) -> list[Service]:
+        """What is supervised."""
+        return [*self.workers, self.coordinator]
+
+    def supervise(self) -> None:
+        """Restart what failed."""
+        for service in self.services:
+            service.supervise()
+
+    def end(self) -> list[str]:
+        """Let workers and coordinator end.
+
+        Returns:
+            The names of those that did not do so when asked.
+        """
+        return [service.name for service in self.services if not service.stop(_END_S)]
+
+
+@contextmanager
+def farm_under_test(root: Path, plan: Plan) -> Iterator[FarmUnderTest]:
+    """Run a farm inside `with`; everything started is gone after it.
+
+    Args:
+        root: a new folder for all of its files. Its path is in the arguments of each of its processes.
+        plan: how it is set up.
+
+    Raises:
+        NoMeansError: if this machine lacks what it needs.
+    """
+    (root / "store").mkdir(parents=True)
+    with ExitStack() as stack:
+        clock = _clock(root) if plan.with_clock else None
+        # Not below the root: a socket's path must be short.
+        socket = Path(stack.enter_context(TemporaryDirectory(prefix="farm-", dir="/tmp"))) / "redis.sock"
+        proxy = stack.enter_context(Proxy(socket))
+        environment = clock.environment() if clock else {}
+        redis = RedisService(root / "redis", socket, environment, root / "logs" / "redis.out")
+        stack.callback(redis.client.close)
+        farm = FarmUnderTest(root, plan, proxy, redis, clock)
+        if plan.with_disk:
+            disk = stack.enter_context(small_disk(farm.store, _DISK_MIB))
+            if isinstance(disk, str):
+                raise NoMeansError(disk)
+            farm.disk = disk
+        farm.dataset = create_dataset(Destination(str(farm.store), plan.dataset), plan.header)
+        quotas = plan.header.spec.quotas
+        folders = [farm.folder / manifest_folder(category) for category, quota in quotas.items() if quota]
+        farm.manifests = stack.enter_context(ManifestWatch(folders))
+        stack.callback(redis.kill)
+        redis.start()
+        for service in farm.services:
+            stack.callback(service.kill)
+            service.start()
+        yield farm
+
+
+def _clock(root: Path) -> WrongClock:
+    library = find_faketime()
+    if library is None:
+        raise NoMeansError("setting clocks wrong needs Debian's package libfaketime")
+    return WrongClock(library, root / "clock")

@@ -1,0 +1,118 @@
+"""Sees every manifest that is put in place, also those that are replaced at once: inotify, by way of libc."""
+
+import ctypes
+import hashlib
+import json
+import os
+import select
+import struct
+import threading
+import time
+from collections import defaultdict
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+# From linux/inotify.h.
+_IN_CLOSE_WRITE = 0x08
+_IN_MOVED_TO = 0x80
+_EVENT = struct.Struct("iIII")
+
+_LOOK_S = 0.1
+_BUFFER_BYTES = 65536
+
+
+class ManifestWatch:
+    """Watches folders of manifests from a thread of its own, inside `with`.
+
+    Args:
+        folders: made if they are not there; they may be moved away and back meanwhile.
+    """
+
+    def __init__(self, folders: Iterable[Path]) -> None:
+        self._libc = ctypes.CDLL(None, use_errno=True)
+        self._inotify = self._checked(self._libc.inotify_init1(os.O_NONBLOCK | os.O_CLOEXEC))
+        self._folders: dict[int, int] = {}
+        for folder in folders:
+            folder.mkdir(parents=True, exist_ok=True)
+            number = self._libc.inotify_add_watch(self._inotify, os.fsencode(folder), _IN_CLOSE_WRITE | _IN_MOVED_TO)
+            # Held open, as its path may lead elsewhere for a while.
+            self._folders[self._checked(number)] = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+        self._contents: dict[str, list[str]] = defaultdict(list)
+        self._ending = threading.Event()
+        self._thread = threading.Thread(target=self._watch, name="manifest watch", daemon=True)
+        self._start_s = time.monotonic()
+        self.growth: list[tuple[float, int]] = [(0.0, 0)]
+
+    @staticmethod
+    def _checked(result: int) -> int:
+        if result < 0:
+            raise OSError(ctypes.get_errno(), "inotify failed")
+        return result
+
+    def __enter__(self) -> Self:
+        """Start."""
+        self._start_s = time.monotonic()
+        self._thread.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        """End, having seen all that happened before."""
+        self._ending.set()
+        self._thread.join()
+        for descriptor in (self._inotify, *self._folders.values()):
+            os.close(descriptor)
+
+    def _watch(self) -> None:
+        while True:
+            ending = self._ending.is_set()
+            ready, _, _ = select.select([self._inotify], [], [], 0 if ending else _LOOK_S)
+            if ready:
+                self._take(os.read(self._inotify, _BUFFER_BYTES))
+            elif ending:
+                return
+
+    def _take(self, events: bytes) -> None:
+        start = 0
+        while start < len(events):
+            number, _, _, length = _EVENT.unpack_from(events, start)
+            start += _EVENT.size
+            name = os.fsdecode(events[start : start + length].rstrip(b"\0"))
+            start += length
+            if name.endswith(".json") and not name.startswith("."):
+                self._note(name.removesuffix(".json"), number)
+
+    def _note(self, job_id: str, number: int) -> None:
+        # A manifest may be removed again at once, by a fault.
+        with suppress(FileNotFoundError):
+            descriptor = os.open(f"{job_id}.json", os.O_RDONLY, dir_fd=self._folders[number])
+            with os.fdopen(descriptor, "rb") as file:
+                self._contents[job_id].append(fingerprint(file.read()))
+            self.growth.append((time.monotonic() - self._start_s, len(self._contents)))
+
+    def seen(self) -> list[str]:
+        """Ids of the jobs whose manifest was put in place, in the order of their first."""
+        return list(self._contents)
+
+    @property
+    def again(self) -> int:
+        """How many manifests were put in place beyond each job's first."""
+        return sum(len(contents) - 1 for contents in list(self._contents.values()))
+
+    def contradictions(self) -> list[str]:
+        """Jobs of which two manifests differ in more than the time that they took."""
+        return sorted(job_id for job_id, contents in list(self._contents.items()) if len(set(contents)) > 1)
+
+
+def fingerprint(manifest: bytes) -> str:
+    """A checksum of all that must be the same whenever a job is made: everything but the timings."""
+    try:
+        content = json.loads(manifest)
+        content.pop("timings_s", None)
+        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+    except (ValueError, AttributeError):
+        return f"damaged: {hashlib.sha256(manifest).hexdigest()}"

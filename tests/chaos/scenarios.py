@@ -1,0 +1,177 @@
+"""The scenarios: each a dataset of its own, and what strikes while it is made."""
+
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from farm.quotas import split_total
+from tests.chaos.expected import drawn_by_stand_in
+from tests.chaos.farm_under_test import CLAIM_S, Plan
+from tests.chaos.judge import Claims
+from tests.chaos.schedule import Fault, Recipe, scenario_generator
+from tests.stand_in import stand_in_header
+
+STAND_IN = (sys.executable, "-P", str(Path(__file__).parents[1] / "stand_in.py"))
+
+_SHORT_S = (0.3, 3.0)
+_OVER_A_CLAIM_S = (CLAIM_S + 1.0, 2 * CLAIM_S)
+_OVER_ITS_MENDING_S = (CLAIM_S + 13.0, CLAIM_S + 15.0)
+"""Longer than a claim lives and a coordinator waits, so that another worker makes the job meanwhile."""
+
+_ATTEMPTS = 3
+"""A job that takes its process with it is begun so often."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scenario:
+    """What is made, and what strikes meanwhile.
+
+    Attributes:
+        name: also the dataset's.
+        jobs: images of the dataset, over all categories.
+        recipes: what strikes.
+        workers: of concurrency one.
+        delay_s: how long a stand-in takes for an image, at least.
+        lethal: how many jobs take their process with them, by a segmentation fault.
+        with_clock: it needs a clock that can be set wrong.
+        with_disk: it needs a small disk.
+        patience_s: it must be over after so long.
+    """
+
+    name: str
+    jobs: int
+    recipes: Sequence[Recipe]
+    workers: int = 2
+    delay_s: float = 0.12
+    lethal: int = 0
+    with_clock: bool = False
+    with_disk: bool = False
+    patience_s: float = 120.0
+    environment: Mapping[str, str] = field(default_factory=dict)
+
+    def for_stand_ins(self, seed: int) -> tuple[Plan, Claims]:
+        """The farm with stand-in workers, and what must come of it."""
+        quotas = {str(category): quota for category, quota in split_total(self.jobs).items()}
+        header = stand_in_header(seed=seed, **quotas)
+        jobs = list(header.spec.jobs())
+        # Among the first, so that others are left to do while they are tried again.
+        chosen = scenario_generator(seed, f"lethal {self.name}").choice(len(jobs) // 2, self.lethal, replace=False)
+        lethal = frozenset(jobs[place].id for place in chosen)
+        fails = " ".join(f"{job_id}=segfault" for job_id in sorted(lethal))
+        plan = Plan(
+            dataset=self.name,
+            header=header,
+            worker=STAND_IN,
+            workers=self.workers,
+            environment={"STAND_IN_DELAY_S": str(self.delay_s), "STAND_IN_FAILS": fails},
+            with_clock=self.with_clock,
+            with_disk=self.with_disk,
+        )
+        starts = _ATTEMPTS if lethal and not self.recipes else None
+        return plan, Claims(drawn_by_stand_in(header), lethal, starts)
+
+
+STORM: Sequence[Recipe] = (
+    Recipe(Fault.KILL_CHILD, 4),
+    Recipe(Fault.KILL_WORKER, 3),
+    Recipe(Fault.KILL_COORDINATOR, 3),
+    Recipe(Fault.STOP_CHILD, 2, _OVER_A_CLAIM_S),
+    Recipe(Fault.STOP_WORKER, 2, _OVER_A_CLAIM_S),
+    Recipe(Fault.EMPTY_REDIS, 2, _SHORT_S),
+    Recipe(Fault.RESTART_REDIS, 2, _SHORT_S),
+    Recipe(Fault.CUT, 2),
+    Recipe(Fault.REFUSE, 2, _SHORT_S),
+    Recipe(Fault.BLACKHOLE, 2, _SHORT_S),
+    Recipe(Fault.BLOCK_FOLDER, 2, _SHORT_S),
+    Recipe(Fault.FILL_DISK, 2, _SHORT_S),
+    Recipe(Fault.TRUNCATE_FILE, 2),
+    Recipe(Fault.ALTER_FILE, 2),
+    Recipe(Fault.REMOVE_MANIFEST, 2),
+    Recipe(Fault.DUPLICATE, 1),
+    Recipe(Fault.REDELIVER_DONE, 2),
+    Recipe(Fault.LOSE_MESSAGES, 2),
+    Recipe(Fault.POISON, 2),
+    Recipe(Fault.JUMP_CLOCK, 2, _SHORT_S),
+)
+
+SCENARIOS: Sequence[Scenario] = (
+    Scenario("storm", 600, STORM, workers=3, delay_s=0.1, lethal=1, with_clock=True, with_disk=True, patience_s=300.0),
+    Scenario("child-killed", 120, [Recipe(Fault.KILL_CHILD, 6)]),
+    Scenario("worker-killed", 120, [Recipe(Fault.KILL_WORKER, 4)]),
+    Scenario("coordinator-killed", 120, [Recipe(Fault.KILL_COORDINATOR, 4)]),
+    Scenario(
+        "process-stopped",
+        120,
+        [
+            Recipe(Fault.STOP_CHILD, 2, _OVER_A_CLAIM_S),
+            Recipe(Fault.STOP_WORKER, 2, _OVER_A_CLAIM_S),
+            Recipe(Fault.STOP_CHILD, 1, _OVER_ITS_MENDING_S),
+            Recipe(Fault.STOP_WORKER, 1, _OVER_ITS_MENDING_S),
+        ],
+    ),
+    Scenario("redis-emptied", 120, [Recipe(Fault.EMPTY_REDIS, 3, _SHORT_S)]),
+    Scenario("redis-restarted", 120, [Recipe(Fault.RESTART_REDIS, 3, _SHORT_S)]),
+    Scenario(
+        "connection-cut",
+        120,
+        [Recipe(Fault.CUT, 3), Recipe(Fault.REFUSE, 2, _SHORT_S), Recipe(Fault.BLACKHOLE, 2, (1.0, 5.0))],
+    ),
+    Scenario("write-errors", 120, [Recipe(Fault.BLOCK_FOLDER, 3, (1.0, 3.0))]),
+    Scenario("disk-full", 120, [Recipe(Fault.FILL_DISK, 3, (1.0, 3.0))], with_disk=True),
+    Scenario("file-truncated", 120, [Recipe(Fault.TRUNCATE_FILE, 5)]),
+    Scenario("file-altered", 120, [Recipe(Fault.ALTER_FILE, 5)]),
+    Scenario("manifest-removed", 120, [Recipe(Fault.REMOVE_MANIFEST, 5)]),
+    Scenario("messages-doubled", 120, [Recipe(Fault.DUPLICATE, 2), Recipe(Fault.REDELIVER_DONE, 2)]),
+    Scenario("messages-lost", 120, [Recipe(Fault.LOSE_MESSAGES, 3)]),
+    Scenario("segfault", 80, [], lethal=2),
+    Scenario("clock-jumped", 120, [Recipe(Fault.JUMP_CLOCK, 3, (1.0, 4.0))], with_clock=True),
+    Scenario("queue-poisoned", 120, [Recipe(Fault.POISON, 6)]),
+)
+"""With stand-in workers; the longest first, so that scenarios side by side end together."""
+
+SMALL_STORM = Scenario(
+    "small-storm",
+    60,
+    [
+        Recipe(Fault.KILL_CHILD, 2),
+        Recipe(Fault.KILL_WORKER, 1),
+        Recipe(Fault.KILL_COORDINATOR, 1),
+        Recipe(Fault.EMPTY_REDIS, 1, (0.3, 0.6)),
+        Recipe(Fault.CUT, 1),
+        Recipe(Fault.BLACKHOLE, 1, (0.3, 0.6)),
+        Recipe(Fault.REMOVE_MANIFEST, 1),
+        Recipe(Fault.DUPLICATE, 1),
+        Recipe(Fault.LOSE_MESSAGES, 1),
+    ],
+    delay_s=0.05,
+)
+"""For the ordinary test suite."""
+
+BLENDER_SCENARIOS: Sequence[Scenario] = tuple(
+    Scenario(f"blender-{name}", 6, recipes, patience_s=180.0)
+    for name, recipes in {
+        "calm": [],
+        "child-killed": [Recipe(Fault.KILL_CHILD, 2)],
+        "worker-killed": [Recipe(Fault.KILL_WORKER, 2)],
+        "coordinator-killed": [Recipe(Fault.KILL_COORDINATOR, 2)],
+        "process-stopped": [
+            Recipe(Fault.STOP_CHILD, 1, _OVER_A_CLAIM_S),
+            Recipe(Fault.STOP_WORKER, 1, _OVER_A_CLAIM_S),
+        ],
+        "redis-emptied": [Recipe(Fault.EMPTY_REDIS, 2, _SHORT_S)],
+        "connection-cut": [
+            Recipe(Fault.CUT, 1),
+            Recipe(Fault.REFUSE, 1, _SHORT_S),
+            Recipe(Fault.BLACKHOLE, 1, _SHORT_S),
+        ],
+        "storm": [
+            Recipe(Fault.KILL_CHILD, 1),
+            Recipe(Fault.KILL_WORKER, 1),
+            Recipe(Fault.STOP_CHILD, 1, _OVER_A_CLAIM_S),
+            Recipe(Fault.EMPTY_REDIS, 1, _SHORT_S),
+            Recipe(Fault.CUT, 1),
+        ],
+    }.items()
+)
+"""With real Blender; the first is calm, and the others must make the same bytes."""

@@ -1,0 +1,148 @@
+"""A process with a supervisor: restarted when it fails, as `restart: on-failure` of a compose file does."""
+
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from farm.local.processes import stop
+from farm.local.tied import tied
+
+RESTART_AFTER_S = 0.3
+
+
+class Service:
+    """One process at a time, the leader of a group of its own.
+
+    Args:
+        name: for people.
+        command: its program and arguments.
+        environment: beside that of this process.
+        log: takes all that it prints.
+        final_codes: exit codes after which it is not started again.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        command: Sequence[str],
+        environment: Mapping[str, str],
+        log: Path,
+        *,
+        final_codes: frozenset[int] = frozenset({0}),
+    ) -> None:
+        self.name = name
+        self.starts = 0
+        self.ended_with: int | None = None
+        self._command = list(command)
+        self._environment = {**os.environ, **environment}
+        self._log = log
+        self._final_codes = final_codes
+        self._process: subprocess.Popen[bytes] | None = None
+        self._died_s: float | None = None
+
+    @property
+    def pid(self) -> int | None:
+        """Of the running process; None while there is none."""
+        return None if self._process is None or self._process.poll() is not None else self._process.pid
+
+    def start(self) -> None:
+        """Start it."""
+        self._log.parent.mkdir(parents=True, exist_ok=True)
+        with self._log.open("ab") as log:
+            self._process = subprocess.Popen(
+                tied(self._command),
+                env=self._environment,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+        self.starts += 1
+        self._died_s = None
+
+    def supervise(self) -> None:
+        """Restart it some time after it failed; to be called often."""
+        if self._process is None or self.ended_with is not None:
+            return
+        code = self._process.poll()
+        if code is None:
+            return
+        if code in self._final_codes:
+            self.ended_with = code
+        elif self._died_s is None:
+            # A container takes all of its processes with it.
+            stop([self._process], grace_s=0.0)
+            self._died_s = time.monotonic()
+        elif time.monotonic() - self._died_s >= RESTART_AFTER_S:
+            self.start()
+
+    def send(self, number: signal.Signals) -> None:
+        """Signal the process alone."""
+        if self.pid is not None:
+            os.kill(self.pid, number)
+
+    def send_group(self, number: signal.Signals) -> None:
+        """Signal the process and all that it started."""
+        if self._process is not None:
+            with suppress(ProcessLookupError):
+                os.killpg(self._process.pid, number)
+
+    def kill(self) -> None:
+        """End it at once, and leave it ended."""
+        if self._process is not None:
+            stop([self._process], grace_s=0.0)
+            self._process = None
+
+    def stop(self, grace_s: float) -> bool:
+        """Ask it to end, and leave it ended.
+
+        Returns:
+            Whether it ended by itself within `grace_s` seconds.
+        """
+        if self._process is None:
+            return True
+        self.send(signal.SIGTERM)
+        try:
+            self._process.wait(grace_s)
+        except subprocess.TimeoutExpired:
+            return False
+        finally:
+            self.kill()
+        return True
+
+    def children(self) -> list[int]:
+        """Ids of its living children."""
+        parent = self.pid
+        return [] if parent is None else sorted(pid for pid, above in living().items() if above == parent)
+
+    def last_words(self) -> str:
+        """The last line that it printed."""
+        lines = self._log.read_text(errors="replace").strip().splitlines() if self._log.exists() else []
+        return lines[-1][:300] if lines else "nothing"
+
+
+def living() -> dict[int, int]:
+    """Living processes of this machine, zombies aside: id to the parent's."""
+    found = {}
+    for folder in Path("/proc").iterdir():
+        # A process may end while it is looked at; other folders have no such file.
+        with suppress(OSError, ValueError):
+            state, parent = (folder / "stat").read_text().rpartition(")")[2].split()[:2]
+            if state not in {"Z", "X"}:
+                found[int(folder.name)] = int(parent)
+    return found
+
+
+def living_with(text: str) -> dict[int, str]:
+    """Living processes, this one aside, whose arguments hold a text: id to arguments."""
+    found = {}
+    for pid in living():
+        with suppress(OSError):
+            arguments = Path(f"/proc/{pid}/cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+            if text in arguments and pid != os.getpid():
+                found[pid] = arguments
+    return found

@@ -1,0 +1,97 @@
+"""`farm flower`: on this machine alone, or with a password."""
+
+import base64
+import os
+import signal
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import pytest
+
+from farm.errors import SpecError
+from tests.farm.cli.result import Farm, assert_refused
+from tests.farm.queue.servers import free_port
+
+START_S = 30.0
+
+
+@contextmanager
+def flower(redis_url: str, *options: str, password: str | None) -> Iterator[str]:
+    """Run the real Flower by the farm's command inside `with`; yields its address."""
+    port = free_port()
+    command = [sys.executable, "-P", "-m", "farm", "flower", "--broker", redis_url, f"--port={port}", *options]
+    environment = {key: value for key, value in os.environ.items() if key != "FLOWER_BASIC_AUTH"}
+    if password is not None:
+        environment["FLOWER_BASIC_AUTH"] = password
+    process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    url = f"http://127.0.0.1:{port}"
+    try:
+        give_up_s = time.monotonic() + START_S
+        while status(f"{url}/healthcheck") is None:
+            assert process.poll() is None
+            assert time.monotonic() < give_up_s
+            time.sleep(0.1)
+        yield url
+    finally:
+        process.send_signal(signal.SIGTERM)
+        try:
+            process.wait(timeout=10)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def status(url: str, user: str | None = None, method: str = "GET") -> int | None:
+    """The HTTP status of an answer; None if there is none."""
+    request = urllib.request.Request(url, method=method)  # noqa: S310  # always http to the loopback
+    if user is not None:
+        request.add_header("Authorization", f"Basic {base64.b64encode(user.encode()).decode()}")
+    try:
+        with urllib.request.urlopen(request, timeout=10) as answer:  # noqa: S310  # as above
+            return int(answer.status)
+    except urllib.error.HTTPError as error:
+        return error.code
+    except OSError:
+        return None
+
+
+@pytest.mark.redis
+def test_flower_asks_for_the_password(redis_url: str) -> None:
+    """On all addresses: 401 without it or with another, for pages and for commands to workers; with it, pages."""
+    with flower(redis_url, "--address=0.0.0.0", password="me:hush") as url:
+        for place, method in (("/workers", "GET"), ("/api/workers", "GET"), ("/api/worker/shutdown/x", "POST")):
+            assert status(url + place, None, method) == 401
+            assert status(url + place, "me:wrong", method) == 401
+        assert status(f"{url}/workers", "me:hush") == 200
+
+
+@pytest.mark.redis
+def test_flower_without_a_password_stays_on_this_machine(redis_url: str) -> None:
+    """Unless told, it listens on 127.0.0.1 and nowhere else; and takes no commands to workers."""
+    with flower(redis_url, password=None) as url:
+        port = int(url.rpartition(":")[2])
+        assert status(f"{url}/workers") == 200
+        assert status(f"http://127.0.0.2:{port}/workers") is None
+        assert status(f"{url}/api/worker/shutdown/x", method="POST") == 401
+
+
+@pytest.mark.parametrize("address", ["0.0.0.0", "::", "", "192.168.0.1", "example.org", "127.0.0.1.example.org"])
+def test_the_network_needs_a_password(farm: Farm, monkeypatch: pytest.MonkeyPatch, address: str) -> None:
+    """Refused before anything is started, with what to set."""
+    monkeypatch.delenv("FLOWER_BASIC_AUTH", raising=False)
+    assert_refused(farm("flower", f"--address={address}"), SpecError.exit_code, "FLOWER_BASIC_AUTH", "127.0.0.1")
+
+
+@pytest.mark.parametrize("password", ["hush", ":", "me:", ":hush", "me:hush,"])
+@pytest.mark.parametrize("address", ["127.0.0.1", "0.0.0.0"])
+def test_half_a_password_is_none(farm: Farm, monkeypatch: pytest.MonkeyPatch, address: str, password: str) -> None:
+    """User and password, both with something in them; the text isn't repeated."""
+    monkeypatch.setenv("FLOWER_BASIC_AUTH", password)
+    result = farm("flower", f"--address={address}")
+    assert_refused(result, SpecError.exit_code, "USER:PASSWORD")
+    assert "hush" not in result.stderr

@@ -1,0 +1,125 @@
+"""Jobs a second through real Redis and real Celery workers whose renderer does next to nothing."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from farm.coordinator import Coordinator
+from farm.dataset import Dataset, Destination, create_dataset
+from farm.errors import VerificationError
+from farm.local.processes import stop
+from farm.local.redis_server import PrivateRedis
+from farm.local.tied import tied
+from farm.progress import Hints
+from farm.queue.broker import BROKER_VARIABLE, connect
+from farm.redis_hints import redis_hints
+from farm.verify import verify
+from tests.load.processor_time import processor_s
+from tests.stand_in import StandInMaker, stand_in_header
+
+_STAND_IN = Path(__file__).parents[1] / "stand_in.py"
+_PATIENCE_S = 60.0
+
+
+@dataclass(frozen=True, slots=True)
+class JobCost:
+    """What a number of workers do and take.
+
+    Attributes:
+        wall_s: from the first job's submission to the last one's end.
+        workers_s: processor seconds of the workers, their children included, without what the stand-in itself takes.
+        redis_s: of Redis.
+        coordinator_s: of the submitting and watching process.
+    """
+
+    workers: int
+    jobs: int
+    wall_s: float
+    workers_s: float
+    redis_s: float
+    coordinator_s: float
+
+    @property
+    def jobs_per_s(self) -> float:
+        """Throughput."""
+        return self.jobs / self.wall_s
+
+    @property
+    def cpu_ms(self) -> float:
+        """Overhead in processor milliseconds a job, of all processes."""
+        return 1000.0 * (self.workers_s + self.redis_s + self.coordinator_s) / self.jobs
+
+
+def measure_jobs(workers: int, jobs: int, seed: int) -> JobCost:
+    """Run a dataset of so many jobs.
+
+    Raises:
+        VerificationError: if it is not complete and as its manifests tell.
+        FarmError: that with which the run ended.
+    """
+    with PrivateRedis() as server, tempfile.TemporaryDirectory(prefix="cable-farm-") as folder:
+        client = connect(server.url)
+        dataset = create_dataset(Destination(folder, "cables"), stand_in_header(seed=seed, far=jobs))
+        hints = redis_hints(dataset, server.url, client)
+        coordinator = Coordinator(dataset, hints, poll_s=0.2)
+        redis_process = int(client.info("server")["process_id"])
+        with _stand_ins(workers, folder, server.url, hints) as processes:
+            making_s = jobs * _stand_in_s(dataset)
+            before = processor_s(processes), processor_s([redis_process]), time.process_time()
+            start_s = time.perf_counter()
+            coordinator.submit_missing()
+            coordinator.watch()
+            wall_s = time.perf_counter() - start_s
+            after = processor_s(processes), processor_s([redis_process]), time.process_time()
+        verdict = verify(dataset)
+        if not verdict.clean or verdict.images != jobs:
+            raise VerificationError(f"{workers} workers: {verdict.images} of {jobs} images are as they should be")
+    spent = [end - start for start, end in zip(before, after, strict=True)]
+    return JobCost(workers, jobs, wall_s, max(0.0, spent[0] - making_s), spent[1], spent[2])
+
+
+def _stand_in_s(dataset: Dataset, times: int = 200) -> float:
+    """Processor seconds that the stand-in takes for one picture, which are not the farm's."""
+    maker, jobs = StandInMaker(), list(dataset.header.spec.jobs())
+    standard_output = os.dup(1)
+    with Path(os.devnull).open("w") as nowhere:
+        os.dup2(nowhere.fileno(), 1)
+        start_s = time.process_time()
+        for number in range(times):
+            maker.make(jobs[number % len(jobs)], dataset.header)
+        taken_s = time.process_time() - start_s
+        sys.stdout.flush()
+        os.dup2(standard_output, 1)
+    os.close(standard_output)
+    return taken_s / times
+
+
+@contextmanager
+def _stand_ins(count: int, store: str, url: str, hints: Hints) -> Iterator[list[int]]:
+    environment = {**os.environ, BROKER_VARIABLE: url, "PYTHONPATH": str(_STAND_IN.parents[1])}
+    started = []
+    try:
+        for number in range(count):
+            command = [sys.executable, "-P", str(_STAND_IN), "serve", "--store", store, "--name", f"load-{number}"]
+            command += ["--logs", f"{store}/logs", "--tasks-per-child", "1000000"]
+            started.append(
+                subprocess.Popen(
+                    tied(command),
+                    env=environment,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,
+                    start_new_session=True,
+                )
+            )
+        give_up_s = time.monotonic() + _PATIENCE_S
+        while len(hints.board.workers()) < count and time.monotonic() < give_up_s:
+            time.sleep(0.1)
+        yield [process.pid for process in started]
+    finally:
+        stop(started, grace_s=10.0)

@@ -1,0 +1,84 @@
+"""Tables, JSON and plots of the load benchmarks."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+import matplotlib as mpl
+from rich.table import Table
+
+from tests.load.jobs import JobCost
+from tests.load.submission import SubmissionCost
+from worker.bench.physics.report import machine
+
+mpl.use("Agg")
+from matplotlib import pyplot as plt  # the backend must be chosen first
+
+
+def jobs_table(costs: Sequence[JobCost]) -> Table:
+    """A row a number of workers."""
+    table = Table(title="jobs through the queue, stand-in renderer", title_justify="left")
+    for name in ("workers", "jobs", "jobs/s", "CPU ms a job", "of it workers", "Redis", "coordinator"):
+        table.add_column(name, justify="right")
+    for cost in costs:
+        parts = (cost.workers_s, cost.redis_s, cost.coordinator_s)
+        shares = [f"{1000 * seconds / cost.jobs:.2f}" for seconds in parts]
+        table.add_row(str(cost.workers), str(cost.jobs), f"{cost.jobs_per_s:.0f}", f"{cost.cpu_ms:.2f}", *shares)
+    return table
+
+
+def submission_table(costs: Sequence[SubmissionCost]) -> Table:
+    """A row a size."""
+    table = Table(title="farm submit", title_justify="left")
+    for name in ("images", "seconds", "CPU s", "peak MiB", "waiting", "Redis MiB"):
+        table.add_column(name, justify="right")
+    for cost in costs:
+        table.add_row(
+            f"{cost.images:,}",
+            f"{cost.wall_s:.2f}",
+            f"{cost.cpu_s:.2f}",
+            f"{cost.peak_mib:.0f}",
+            f"{cost.waiting:,}",
+            f"{cost.redis_mib:.1f}",
+        )
+    return table
+
+
+def write_json(path: Path, costs: Sequence[JobCost] | Sequence[SubmissionCost], seed: int) -> None:
+    """Every figure, and the machine."""
+    path.write_text(
+        json.dumps({"machine": machine(), "seed": seed, "costs": [asdict(cost) for cost in costs]}, indent=1)
+    )
+
+
+def plot_jobs(path: Path, costs: Sequence[JobCost]) -> None:
+    """Throughput and overhead by workers."""
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.5), layout="constrained")
+    workers = [cost.workers for cost in costs]
+    left.plot(workers, [cost.jobs_per_s for cost in costs], "o-")
+    left.set(xlabel="workers", ylabel="jobs a second", ylim=(0, None), xticks=workers)
+    bottom = [0.0] * len(costs)
+    places = [str(number) for number in workers]
+    for name in ("workers_s", "redis_s", "coordinator_s"):
+        heights = [1000 * float(getattr(cost, name)) / cost.jobs for cost in costs]
+        right.bar(places, heights, bottom=bottom, label=name.removesuffix("_s"))
+        bottom = [low + height for low, height in zip(bottom, heights, strict=True)]
+    right.set(xlabel="workers", ylabel="CPU ms a job")
+    right.legend()
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
+def plot_submissions(path: Path, costs: Sequence[SubmissionCost]) -> None:
+    """Seconds and memory by size."""
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.5), layout="constrained")
+    images = [cost.images for cost in costs]
+    left.plot(images, [cost.wall_s for cost in costs], "o-")
+    left.set(xlabel="images", ylabel="seconds", xscale="log", ylim=(0, None))
+    right.plot(images, [cost.peak_mib for cost in costs], "o-", label="farm submit")
+    right.plot(images, [cost.redis_mib for cost in costs], "s-", label="Redis")
+    right.set(xlabel="images", ylabel="MiB", xscale="log", ylim=(0, None))
+    right.legend()
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
