@@ -77,11 +77,13 @@ def test_release_by_another(ledger: Ledger) -> None:
 
 
 def test_postponed_job_is_on_its_way(ledger: Ledger) -> None:
-    """A postponed job counts as claimed, and anyone may take it over."""
+    """A postponed job counts as claimed, and anyone may take it over; the start before is not counted."""
     ledger.claim("far-000001", "a:1")
     ledger.postpone("far-000001", "a:1", 60)
     assert ledger.claims() == {"far-000001": RETRY_OWNER}
-    assert ledger.claim("far-000001", "b:1") == 2
+    assert ledger.claim("far-000001", "b:1") == 1
+    ledger.postpone("far-000001", "a:1", 60)
+    assert ledger.claims() == {"far-000001": "b:1"}
 
 
 def test_postponed_job_survives_the_release(ledger: Ledger) -> None:
