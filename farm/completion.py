@@ -87,10 +87,13 @@ class Completion:
         Raises:
             DestinationError: if the folder can't be read.
         """
-        self.done = JobSet.of({category: self._look_at(category) for category in self._seen})
+        self.done = JobSet.of(
+            {category: self._look_at(category) & ~damaged for category, damaged in self._damaged.items()}
+        )
         return self.done
 
     def _look_at(self, category: Category) -> NDArray[np.bool_]:
+        """Which jobs have a manifest that fits; those whose manifest is new are taken for undamaged."""
         seen, damaged = self._seen[category], self._damaged[category]
         there = np.zeros(len(seen), np.bool_)
         for path, stored in self._dataset.storage.files(manifest_folder(category)).items():
@@ -103,8 +106,8 @@ class Completion:
                     continue
                 damaged[job.index] = False
             there[job.index] = True
-        done: NDArray[np.bool_] = there & seen["fits"] & ~damaged
-        return done
+        fitting: NDArray[np.bool_] = there & seen["fits"]
+        return fitting
 
     def _read(self, job: Job, path: str, stored: StoredFile) -> bool:
         try:

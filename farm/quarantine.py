@@ -16,6 +16,7 @@ LOG_LENGTH = 16 * 1024
 """Characters of a job's log that its record keeps, from the end."""
 
 _REASON_LENGTH = 500
+_UNREADABLE = "its record in the quarantine folder can't be read"
 
 
 class QuarantineRecord(Model):
@@ -91,7 +92,7 @@ class Quarantine:
                 continue
             known = self._known.get(job.id)
             if known is None or known[0] != stored:
-                reason = self._reason(path)
+                reason = self._reason(path, job)
                 if reason is None:
                     continue
                 known = (stored, reason)
@@ -99,13 +100,14 @@ class Quarantine:
         self._known = found
         return {job_id: reason for job_id, (_, reason) in found.items()}
 
-    def _reason(self, path: str) -> str | None:
+    def _reason(self, path: str, job: Job) -> str | None:
         try:
-            return QuarantineRecord.model_validate_json(self._dataset.storage.read(path)).reason
+            record = QuarantineRecord.model_validate_json(self._dataset.storage.read(path))
         except FileNotFoundError:
             return None
         except ValidationError:
-            return "its record in the quarantine folder can't be read"
+            return _UNREADABLE
+        return record.reason if record.job_id == job.id else _UNREADABLE
 
     def release(self, job_ids: Iterable[str]) -> None:
         """Remove the records of jobs, which may then be made again.

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from farm.completion import is_done
 from farm.dataset import Dataset
-from farm.errors import RenderError
+from farm.errors import BrokerError, RenderError
 from farm.job import Job
 from farm.layout import FileRole, file_path, manifest_path
 from farm.manifest import FileRecord, Manifest
@@ -83,15 +83,15 @@ def upload(made: MadeImage, job: Job, dataset: Dataset, guard: Guard | None = No
         DestinationError: if a file can't be written.
         ClaimLostError: if the guard finds that another may be writing; then what is in place is whole, or has no
             manifest.
-        BrokerError: if the guard can't find out.
+        BrokerError: if the guard can't find out; likewise.
     """
     _check(made)
     guard = guard or Unguarded()
     guard.renew()
     try:
         return _write(made, job, dataset, guard)
-    except ClaimLostError:
-        # The process was stopped between a check and its write, and that write may have met another's files.
+    except (ClaimLostError, BrokerError):
+        # The process may have been stopped between a check and its write, which then may have met another's files.
         if not is_done(dataset, job):
             dataset.storage.remove(manifest_path(job))
         raise

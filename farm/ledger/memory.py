@@ -55,6 +55,7 @@ class MemoryLedger:
         """See `Ledger.postpone`."""
         if self._holds(job_id, owner):
             self._claims[job_id] = (RETRY_OWNER, self._clock() + delay_s)
+            self._starts[job_id] -= 1
 
     def claims(self) -> Mapping[str, str]:
         """See `Ledger.claims`."""

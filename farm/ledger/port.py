@@ -60,7 +60,10 @@ class Ledger(Protocol):
         ...
 
     def postpone(self, job_id: str, owner: str, delay_s: float) -> None:
-        """Turn the owner's claim into one that anyone may take over, and that lapses after `delay_s` seconds."""
+        """Turn the owner's claim into one that anyone may take over, and that lapses after `delay_s` seconds.
+
+        Its start is not counted: how it ended is known, and counted as a trouble.
+        """
         ...
 
     def claims(self) -> Mapping[str, str]:

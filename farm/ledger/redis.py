@@ -36,7 +36,10 @@ _CLAIM = (
     "local start = redis.call('HINCRBY', KEYS[3], ARGV[1], 1) hold(ARGV[2], ARGV[3]) return start"
 )
 _REFRESH = _NOW + _OWNER + _HOLD + "if owner ~= ARGV[2] then return 0 end hold(ARGV[2], ARGV[3]) return 1"
-_POSTPONE = _NOW + _OWNER + _HOLD + f"if owner ~= ARGV[2] then return 0 end hold('{RETRY_OWNER}', ARGV[3]) return 1"
+_POSTPONE = (
+    _NOW + _OWNER + _HOLD + f"if owner ~= ARGV[2] then return 0 end hold('{RETRY_OWNER}', ARGV[3]) "
+    "redis.call('HINCRBY', KEYS[3], ARGV[1], -1) return 1"
+)
 _RELEASE = (
     _NOW + _OWNER + "if owner ~= ARGV[2] then return 0 end "
     "redis.call('ZREM', KEYS[1], ARGV[1]) redis.call('HDEL', KEYS[2], ARGV[1]) "

@@ -5,9 +5,13 @@ from io import StringIO
 import pytest
 from rich.console import Console
 
+from farm.board.port import RunState, WorkerReport, WorkerState
 from farm.category import Category
 from farm.cli.display import ProgressDisplay, duration, summary
 from farm.progress import CategoryProgress, Progress
+
+IDLE = WorkerReport(name="a@b", state=WorkerState.IDLE)
+HELD = WorkerReport(name="a@b", state=WorkerState.HELD, reason="disk full")
 
 
 def progress(done: int) -> Progress:
@@ -20,7 +24,7 @@ def progress(done: int) -> Progress:
             Category.FAR_ALIGNED: CategoryProgress(done=0, quota=0),
         },
         running=("far-000003",),
-        failures={"far-000000": "reason"},
+        quarantined={"far-000000": "reason"},
         images_per_hour=120.0,
         seconds_left=95.0,
         last_picture="far/images/far-000002.png",
@@ -38,6 +42,28 @@ def test_duration(seconds: float, words: str) -> None:
 def test_summary() -> None:
     """One line has all that is known."""
     assert summary(progress(3)) == "3 of 4 done, 1 running, 120 an hour, 1 min 35 s left, 1 failed"
+
+
+@pytest.mark.parametrize(
+    ("known", "words"),
+    [
+        ({"state": RunState.PAUSED}, "paused"),
+        ({"trouble": "Redis went away; waiting for it"}, "Redis went away; waiting for it"),
+        (
+            {"workers": (HELD,)},
+            "1 workers held back: disk full",
+        ),
+    ],
+)
+def test_summary_tells_what_holds_a_run_up(known: dict[str, object], words: str) -> None:
+    """A paused run, a Redis that is away and workers that are held back are told."""
+    assert summary(progress(3).model_copy(update=known)).endswith(f"1 failed, {words}")
+
+
+@pytest.mark.parametrize("known", [{"state": RunState.ACTIVE}, {"workers": (IDLE,)}])
+def test_summary_is_short_when_all_is_well(known: dict[str, object]) -> None:
+    """What is as it should be is not told."""
+    assert summary(progress(3).model_copy(update=known)) == summary(progress(3))
 
 
 def test_plain_lines_are_few() -> None:

@@ -77,11 +77,13 @@ def test_release_by_another(ledger: Ledger) -> None:
 
 
 def test_postponed_job_is_on_its_way(ledger: Ledger) -> None:
-    """A postponed job counts as claimed, and anyone may take it over."""
+    """A postponed job counts as claimed, and anyone may take it over; the start before is not counted."""
     ledger.claim("far-000001", "a:1")
     ledger.postpone("far-000001", "a:1", 60)
     assert ledger.claims() == {"far-000001": RETRY_OWNER}
-    assert ledger.claim("far-000001", "b:1") == 2
+    assert ledger.claim("far-000001", "b:1") == 1
+    ledger.postpone("far-000001", "a:1", 60)
+    assert ledger.claims() == {"far-000001": "b:1"}
 
 
 def test_postponed_job_survives_the_release(ledger: Ledger) -> None:
@@ -103,65 +105,140 @@ def test_start_that_is_given_back(ledger: Ledger) -> None:
 
 
 def test_troubles_are_counted_apart(ledger: Ledger) -> None:
-    """Failures that may pass are counted by job, and forgotten with the job's failure or its end."""
+    """Failures that may pass are counted by job, and forgotten with its end or when it is forgiven."""
     ledger.claim("far-000001", "a:1")
     assert [ledger.count_trouble("far-000001") for _ in range(2)] == [1, 2]
     assert ledger.count_trouble("far-000002") == 1
-    ledger.record_done("far-000001", "picture")
-    ledger.record_failure("far-000002", "bad luck")
-    ledger.forget_failures()
+    ledger.finish("far-000001", "a:1", "picture")
+    ledger.forgive(["far-000002"])
     assert ledger.count_trouble("far-000001") == ledger.count_trouble("far-000002") == 1
+
+
+def test_forgiven_job_begins_anew(ledger: Ledger) -> None:
+    """Starts, troubles and log of a forgiven job are forgotten, those of others are not."""
+    for job_id in ("far-000001", "far-000002"):
+        ledger.claim(job_id, "a:1")
+        ledger.count_trouble(job_id)
+        ledger.keep_log(job_id, "the end")
+    ledger.forgive(["far-000001"])
+    assert ledger.claim("far-000001", "a:1") == ledger.count_trouble("far-000001") == 1
+    assert ledger.log_of("far-000001") == ""
+    assert ledger.claim("far-000002", "a:1") == ledger.count_trouble("far-000002") == 2
+    assert ledger.log_of("far-000002") == "the end"
 
 
 def test_absences(ledger: Ledger) -> None:
     """Workers that lack the dataset are counted until one has it, or all is submitted again."""
     assert [ledger.count_absence() for _ in range(2)] == [1, 2]
-    ledger.record_done("far-000001", "picture")
-    assert ledger.count_absence() == 1
-    ledger.forget_failures()
-    assert ledger.count_absence() == 1
+    assert ledger.absences() == 2
+    ledger.claim("far-000001", "a:1")
+    ledger.finish("far-000001", "a:1", "picture")
+    assert ledger.absences() == 0
+    ledger.count_absence()
+    ledger.forgive([])
+    assert ledger.absences() == 0
 
 
 @pytest.mark.redis
 def test_nothing_stays_for_ever(redis_client: "redis.Redis") -> None:
     """Every key of a ledger lapses."""
     ledger = RedisLedger(redis_client, "cables", "0" * 64)
-    ledger.claim("far-000001", "a:1")
+    for job_id in ("far-000001", "far-000002"):
+        ledger.claim(job_id, "a:1")
     ledger.count_trouble("far-000001")
+    ledger.keep_log("far-000001", "the end")
+    ledger.finish("far-000002", "a:1", "picture")
     ledger.count_absence()
-    ledger.record_failure("far-000001", "bad luck")
-    ledger.record_done("far-000002", "picture")
-    ledger.count_absence()
+    ledger.lead("a:1", 60)
+    ledger.add_figures({"images:far": 1})
     keys = redis_client.keys()
     assert isinstance(keys, list)
-    assert len(keys) == 8
+    assert len(keys) == 10
     assert all(0 < int(str(redis_client.ttl(key))) <= KEEP_S for key in keys)
 
 
 def test_newest_picture(ledger: Ledger) -> None:
     """A finished job leaves its picture's path."""
-    ledger.record_done("far-000001", "far/images/far-000001.png")
-    activity = ledger.activity()
-    assert activity.last_picture == "far/images/far-000001.png"
-
-
-def test_done_forgets_attempts_and_failure(ledger: Ledger) -> None:
-    """A job that succeeded after all is no failure, and would begin anew."""
     ledger.claim("far-000001", "a:1")
-    ledger.record_failure("far-000001", "bad luck")
-    ledger.record_done("far-000001", "picture")
-    assert ledger.failures() == {}
-    assert ledger.claim("far-000001", "a:1") == 1
+    assert ledger.finish("far-000001", "a:1", "far/images/far-000001.png")
+    assert ledger.activity().last_picture == "far/images/far-000001.png"
 
 
-def test_failures(ledger: Ledger) -> None:
-    """A failure is kept with its reason until it is forgotten, with its attempts."""
+def test_finished_job_is_free(ledger: Ledger) -> None:
+    """A finished job is nobody's, and would begin anew."""
     ledger.claim("far-000001", "a:1")
-    ledger.record_failure("far-000001", "no scene passed")
-    assert ledger.failures() == {"far-000001": "no scene passed"}
-    ledger.forget_failures()
-    assert ledger.failures() == {}
-    assert ledger.claim("far-000001", "a:1") == 1
+    ledger.finish("far-000001", "a:1", "picture")
+    assert ledger.claims() == {}
+    assert ledger.claim("far-000001", "b:1") == 1
+
+
+@pytest.mark.parametrize("holder", [None, "b:1"])
+def test_only_the_owner_finishes(ledger: Ledger, holder: str | None) -> None:
+    """Who has lost a claim notes nothing, and takes nothing from whoever has it by now."""
+    ledger.claim("far-000001", "a:1")
+    ledger.release("far-000001", "a:1")
+    if holder:
+        ledger.claim("far-000001", holder)
+    before = ledger.claims()
+    assert not ledger.finish("far-000001", "a:1", "picture")
+    assert ledger.claims() == before
+    assert ledger.activity().last_picture is None
+
+
+def test_log_is_kept(ledger: Ledger) -> None:
+    """The last log of a job is told, and an empty one of a job that left none."""
+    ledger.keep_log("far-000001", "first")
+    ledger.keep_log("far-000001", "second")
+    assert ledger.log_of("far-000001") == "second"
+    assert ledger.log_of("far-000002") == ""
+
+
+def test_one_leads(ledger: Ledger) -> None:
+    """The first to ask leads and may go on, others are refused."""
+    assert ledger.leader() is None
+    assert ledger.lead("a:1", 60)
+    assert ledger.lead("a:1", 60)
+    assert not ledger.lead("b:1", 60)
+    assert ledger.leader() == "a:1"
+
+
+def test_leadership_is_resigned(ledger: Ledger) -> None:
+    """Only the leader resigns, and then another may lead."""
+    ledger.lead("a:1", 60)
+    ledger.resign("b:1")
+    assert ledger.leader() == "a:1"
+    ledger.resign("a:1")
+    assert ledger.leader() is None
+    assert ledger.lead("b:1", 60)
+
+
+def test_leadership_lapses(ledger: Ledger) -> None:
+    """A leader that is not heard of is followed."""
+    ledger.lead("a:1", 0.05)
+    give_up_s = time.monotonic() + 10
+    while not ledger.lead("b:1", 60):
+        assert time.monotonic() < give_up_s
+        time.sleep(0.01)
+    assert ledger.leader() == "b:1"
+
+
+def test_figures_add_up(ledger: Ledger) -> None:
+    """Totals grow by what is added, each by itself."""
+    assert ledger.figures() == {}
+    ledger.add_figures({"images:far": 1, "seconds:render": 1.5})
+    ledger.add_figures({"images:far": 1})
+    assert ledger.figures() == {"images:far": 2, "seconds:render": 1.5}
+
+
+@pytest.mark.redis
+def test_claim_of_a_clock_that_was_set_back(redis_client: "redis.Redis") -> None:
+    """A claim that would last for days was made before the server's clock was set back: it holds nobody up."""
+    ledger = RedisLedger(redis_client, "cables", "0" * 64)
+    ledger.claim("far-000001", "a:1", ttl_s=3 * 24 * 3600)
+    assert ledger.claims() == {}
+    assert not ledger.refresh("far-000001", "a:1")
+    assert ledger.claim("far-000001", "b:1") == 2
+    assert ledger.claims() == {"far-000001": "b:1"}
 
 
 def test_no_rate_at_first(ledger: Ledger) -> None:

@@ -4,10 +4,14 @@ import base64
 import json
 import re
 import socket
+from collections.abc import Iterable
 
 import pytest
 import redis
+from redis.backoff import NoBackoff
+from redis.retry import Retry
 
+from farm.board.port import Priority, Run
 from farm.dataset import Dataset
 from farm.errors import BrokerError
 from farm.job import Job, JobMessage
@@ -15,8 +19,8 @@ from farm.queue.broker import broker_url, connect, masked
 from farm.queue.celery import CeleryQueue
 from farm.queue.memory import MemoryQueue
 from farm.queue.port import JobQueue
-from farm.queue.settings import HARD_LIMIT_S, QUEUE, SOFT_LIMIT_S, TASK_NAME, VISIBILITY_S, make_app
-from tests.stand_in import SHA
+from farm.queue.settings import HARD_LIMIT_S, SOFT_LIMIT_S, TASK_NAME, VISIBILITY_S, make_app, queue_name
+from farm.redis_hints import run_of
 
 
 @pytest.fixture(params=["memory", pytest.param("celery", marks=pytest.mark.redis)])
@@ -33,31 +37,66 @@ def messages(dataset: Dataset, count: int) -> list[JobMessage]:
     return [dataset.message(Job.from_id(f"far-{number:06d}")) for number in range(count)]
 
 
-def test_submitted_jobs_wait(queue: JobQueue, dataset: Dataset) -> None:
+def ids(jobs: Iterable[Job]) -> list[str]:
+    """The jobs' ids, in order."""
+    return sorted(job.id for job in jobs)
+
+
+@pytest.fixture
+def run(dataset: Dataset) -> Run:
+    """The dataset's run."""
+    return run_of(dataset)
+
+
+def test_submitted_jobs_wait(queue: JobQueue, run: Run, dataset: Dataset) -> None:
     """What was submitted is seen, more than a page of it too."""
-    assert queue.submit(messages(dataset, 1100)) == 1100
-    assert queue.length() == 1100
-    assert queue.queued("cables", dataset.header.spec_sha256) == {f"far-{number:06d}" for number in range(1100)}
+    assert queue.submit(run, messages(dataset, 1100)) == 1100
+    assert queue.length(run) == 1100
+    assert ids(queue.queued(run)) == [f"far-{number:06d}" for number in range(1100)]
 
 
-def test_other_datasets_are_not_seen(queue: JobQueue, dataset: Dataset) -> None:
-    """A dataset sees its own jobs only."""
-    queue.submit(messages(dataset, 1))
-    assert queue.queued("wires", dataset.header.spec_sha256) == set()
-    assert queue.queued("cables", "f" * 64) == set()
+def test_other_runs_are_apart(queue: JobQueue, run: Run, dataset: Dataset) -> None:
+    """A run sees and empties its own queue only."""
+    others = (run.model_copy(update={"dataset": "wires"}), run.model_copy(update={"spec_sha256": "f" * 64}))
+    queue.submit(run, messages(dataset, 1))
+    for other in others:
+        assert queue.length(other) == queue.clear(other) == 0
+        assert ids(queue.queued(other)) == []
+    assert queue.length(run) == 1
 
 
-def test_empty_queue(queue: JobQueue) -> None:
+def test_empty_queue(queue: JobQueue, run: Run) -> None:
     """Nothing waits in an empty queue."""
-    assert queue.length() == 0
-    assert queue.queued("cables", SHA) == set()
+    assert queue.length(run) == 0
+    assert ids(queue.queued(run)) == []
+
+
+def test_cleared_queue(queue: JobQueue, run: Run, dataset: Dataset) -> None:
+    """A queue is emptied whole, whatever the priority with which each message came, and tells how many there were."""
+    for number, priority in enumerate(Priority):
+        job = dataset.message(Job.from_id(f"far-{number:06d}"))
+        queue.submit(run.model_copy(update={"priority": priority}), [job])
+    assert queue.clear(run) == queue.clear(run) + 3 == 3
+    assert queue.length(run) == 0
+
+
+def test_priorities_are_seen_alike(queue: JobQueue, run: Run, dataset: Dataset) -> None:
+    """A run whose priority has changed still sees what waits from before."""
+    queue.submit(run.model_copy(update={"priority": Priority.HIGH}), messages(dataset, 1))
+    assert queue.length(run) == 1
+    assert ids(queue.queued(run)) == ["far-000000"]
 
 
 @pytest.mark.redis
-def test_message_on_the_wire(redis_url: str, redis_client: "redis.Redis", dataset: Dataset) -> None:
+@pytest.mark.parametrize("priority", Priority)
+def test_message_on_the_wire(
+    redis_url: str, redis_client: "redis.Redis", run: Run, dataset: Dataset, priority: Priority
+) -> None:
     """A message is JSON, calls the task by name, and holds names and a fingerprint, no path."""
-    CeleryQueue(make_app(redis_url), redis_client).submit(messages(dataset, 1))
-    page = redis_client.lrange(QUEUE, 0, -1)
+    run = run.model_copy(update={"priority": priority})
+    CeleryQueue(make_app(redis_url), redis_client).submit(run, messages(dataset, 1))
+    name = queue_name(run.key) + (f"\x06\x16{priority.step}" if priority.step else "")
+    page = redis_client.lrange(name, 0, -1)
     assert isinstance(page, list)
     envelope = json.loads(page[0])
     assert envelope["content-type"] == "application/json"
@@ -69,10 +108,11 @@ def test_message_on_the_wire(redis_url: str, redis_client: "redis.Redis", datase
 
 
 @pytest.mark.redis
-def test_foreign_messages_are_passed_over(redis_url: str, redis_client: "redis.Redis") -> None:
+def test_foreign_messages_are_passed_over(redis_url: str, redis_client: "redis.Redis", run: Run) -> None:
     """Looking at the queue survives whatever lies in it."""
-    redis_client.lpush(QUEUE, "no json", "[]", '{"headers": {}}', '{"headers": {"id": 3}}')
-    assert CeleryQueue(make_app(redis_url), redis_client).queued("cables", SHA) == set()
+    foreign = ("no json", "[]", '{"headers": {}}', '{"headers": {"id": 3}}', '{"headers": {"id": "other:far-000001"}}')
+    redis_client.lpush(queue_name(run.key), *foreign, "[" * 100_000)
+    assert ids(CeleryQueue(make_app(redis_url), redis_client).queued(run)) == []
 
 
 def test_only_json_is_accepted() -> None:
@@ -149,9 +189,19 @@ def test_silent_redis() -> None:
 
 
 @pytest.mark.redis
-def test_redis_that_goes_away(redis_url: str, dataset: Dataset) -> None:
+def test_redis_that_goes_away(redis_url: str, run: Run, dataset: Dataset) -> None:
     """A submission that loses its Redis ends as the farm's own error."""
     client = connect(redis_url)
     queue = CeleryQueue(make_app("redis://127.0.0.1:1/0"), client)
     with pytest.raises(BrokerError, match="submit again"):
-        queue.submit(messages(dataset, 1))
+        queue.submit(run, messages(dataset, 1))
+
+
+@pytest.mark.parametrize("ask", ["length", "queued", "clear"])
+def test_look_at_a_redis_that_is_away(run: Run, ask: str) -> None:
+    """A look that finds no Redis ends as the farm's own error."""
+    queue = CeleryQueue(
+        make_app("redis://127.0.0.1:1/0"), redis.Redis(port=1, retry=Retry(NoBackoff(), 0), decode_responses=True)
+    )
+    with pytest.raises(BrokerError):
+        ids(getattr(queue, ask)(run))

@@ -1,6 +1,8 @@
 """One job from its message to its manifest, with queue and ledger in memory."""
 
 import hashlib
+import os
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -9,6 +11,7 @@ from farm.completion import is_done
 from farm.dataset import Dataset
 from farm.errors import (
     AssetError,
+    DestinationError,
     EnvironmentMissingError,
     FarmError,
     MessageError,
@@ -18,15 +21,17 @@ from farm.errors import (
     TemplateError,
     UnfitWorkerError,
 )
+from farm.header import DatasetHeader
 from farm.job import Job
-from farm.layout import FileRole, file_path, manifest_path
+from farm.layout import FileRole, file_path, manifest_path, quarantine_path
 from farm.ledger.memory import MemoryLedger
 from farm.ledger.owner import this_process
-from farm.ledger.port import RETRY_OWNER
+from farm.ledger.port import MAX_ABSENCES, RETRY_OWNER
 from farm.manifest import Manifest
+from farm.quarantine import Quarantine, QuarantineRecord, put_in_quarantine
 from tests.stand_in import StandInMaker
-from worker.made import ImageMaker
-from worker.runner import MAX_ABSENCES, MAX_STARTS, MAX_TRIES, JobRunner, TryLaterError
+from worker.made import ImageMaker, MadeImage
+from worker.runner import BACKOFF_S, FAILED_IN_A_ROW, MAX_STARTS, MAX_TRIES, JobRunner, TryLaterError
 
 JOB = Job.from_id("far-000001")
 
@@ -41,6 +46,11 @@ def ledger() -> MemoryLedger:
 def runner(tmp_path: Path, ledger: MemoryLedger) -> JobRunner:
     """Works on the store of the `dataset` fixture."""
     return JobRunner(str(tmp_path / "store"), lambda _: StandInMaker(), lambda *_: ledger)
+
+
+def given_up(dataset: Dataset) -> Mapping[str, str]:
+    """The jobs in quarantine, with their reasons."""
+    return Quarantine(dataset).look()
 
 
 def test_makes_the_job(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
@@ -99,11 +109,11 @@ def test_claim_of_a_dead_process_is_taken_over(dataset: Dataset, runner: JobRunn
 def test_permanent_failure(
     dataset: Dataset, runner: JobRunner, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What can't succeed is recorded with its reason at the first try."""
+    """What can't succeed is given up with its reason at the first try."""
     monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=permanent")
     with pytest.raises(SceneError):
         runner.run(dataset.message(JOB).encode())
-    assert ledger.failures() == {JOB.id: "no scene passed the checks"}
+    assert given_up(dataset) == {JOB.id: "no scene passed the checks"}
     assert ledger.claims() == {}
     assert not is_done(dataset, JOB)
 
@@ -125,13 +135,12 @@ def test_passing_failure(
         assert ledger.claims() == {JOB.id: RETRY_OWNER}
     with pytest.raises(PermanentError, match=reason):
         runner.run(dataset.message(JOB).encode())
-    assert reason in ledger.failures()[JOB.id]
+    assert reason in given_up(dataset)[JOB.id]
+    assert ledger.figures() == {"retries": MAX_TRIES, "quarantined": 1}
     assert ledger.claims() == {}
 
 
-def test_failure_that_passed(
-    dataset: Dataset, runner: JobRunner, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_failure_that_passed(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.MonkeyPatch) -> None:
     """A second try that succeeds leaves no trace of the first."""
     monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=passing")
     with pytest.raises(TryLaterError):
@@ -139,7 +148,7 @@ def test_failure_that_passed(
     monkeypatch.delenv("STAND_IN_FAILS")
     runner.run(dataset.message(JOB).encode())
     assert is_done(dataset, JOB)
-    assert ledger.failures() == {}
+    assert given_up(dataset) == {}
 
 
 def test_job_that_kills_its_process(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
@@ -148,7 +157,7 @@ def test_job_that_kills_its_process(dataset: Dataset, runner: JobRunner, ledger:
         ledger.claim(JOB.id, f"elsewhere:{number}", ttl_s=0.0)
     with pytest.raises(PermanentError, match="died"):
         runner.run(dataset.message(JOB).encode())
-    assert JOB.id in ledger.failures()
+    assert f"in each of {MAX_STARTS} attempts" in given_up(dataset)[JOB.id]
 
 
 def test_lost_processes_are_no_failed_tries(
@@ -181,7 +190,7 @@ def test_maker_that_cannot_be_opened(
         with pytest.raises(UnfitWorkerError, match=str(fault)) as refused:
             unfit.run(dataset.message(JOB).encode())
         assert type(refused.value.as_fault()) is type(fault)
-    assert ledger.failures() == ledger.claims() == {}
+    assert given_up(dataset) == ledger.claims() == {}
     runner.run(dataset.message(JOB).encode())
     assert is_done(dataset, JOB)
 
@@ -204,7 +213,7 @@ def test_asset_that_this_machine_lacks(
     monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=asset")
     with pytest.raises(UnfitWorkerError, match="not baked"):
         runner.run(dataset.message(JOB).encode())
-    assert ledger.failures() == ledger.claims() == {}
+    assert given_up(dataset) == ledger.claims() == {}
 
 
 def test_dataset_that_is_not_here(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
@@ -213,9 +222,9 @@ def test_dataset_that_is_not_here(dataset: Dataset, tmp_path: Path, ledger: Memo
     for _ in range(MAX_ABSENCES):
         with pytest.raises(UnfitWorkerError, match=r"no dataset here.*--store"):
             runner.run(dataset.message(JOB).encode())
-    assert ledger.failures() == {}
-    with pytest.raises(PermanentError, match="other workers lacked it"):
-        runner.run(dataset.message(JOB).encode())
+    assert given_up(dataset) == {}
+    assert "other workers lacked it" in runner.run(dataset.message(JOB).encode())
+    assert ledger.absences() == MAX_ABSENCES + 1
     assert not (tmp_path / "elsewhere").exists()
 
 
@@ -230,7 +239,7 @@ def test_restarted_worker_with_a_wrong_store(
             wrong.run(dataset.message(jobs[-1]).encode())
         if number % 4 == 0:
             runner.run(dataset.message(jobs[number // 4]).encode())
-    assert ledger.failures() == {}
+    assert given_up(dataset) == {}
 
 
 def test_message_for_another_description(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
@@ -238,7 +247,7 @@ def test_message_for_another_description(dataset: Dataset, runner: JobRunner, le
     before = dataset.storage.files()
     assert runner.run(dataset.message(JOB).encode() | {"spec_sha256": "f" * 64}).startswith("dropped")
     assert dataset.storage.files() == before
-    assert ledger.failures() == ledger.claims() == {}
+    assert given_up(dataset) == ledger.claims() == {}
 
 
 @pytest.mark.parametrize(
@@ -278,3 +287,165 @@ def test_maker_is_kept(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -
     for job in dataset.header.spec.jobs():
         runner.run(dataset.message(job).encode())
     assert len(opened) == 1
+
+
+def test_given_up_job_is_dropped(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """A message of a job that is in quarantine is taken and nothing else."""
+    put_in_quarantine(dataset, JOB, "died", attempts=3, worker="host:1", log="")
+    before = dataset.storage.files()
+    assert "in quarantine" in runner.run(dataset.message(JOB).encode())
+    assert dataset.storage.files() == before
+    assert ledger.claims() == {}
+
+
+class PrintingMaker(StandInMaker):
+    """Writes as C code does, before it fails or not."""
+
+    def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+        """See `ImageMaker.make`."""
+        os.write(2, f"GPU fell off the bus in {job.id}".encode())
+        return super().make(job, header)
+
+
+def test_record_has_the_log_and_how_to_replay(
+    dataset: Dataset, tmp_path: Path, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A record tells what was printed in the last attempt, who made it, and the command that makes it again."""
+    monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=permanent")
+    logs = tmp_path / "logs"
+    runner = JobRunner(str(tmp_path / "store"), lambda _: PrintingMaker(), lambda *_: ledger, logs)
+    with pytest.raises(SceneError):
+        runner.run(dataset.message(JOB).encode())
+    record = QuarantineRecord.model_validate_json(dataset.storage.read(quarantine_path(JOB)))
+    assert record.log == f"GPU fell off the bus in {JOB.id}"
+    assert record.worker == this_process()
+    assert record.replay == f"farm replay {dataset.storage.location} {JOB.id}"
+
+
+def test_record_has_the_log_of_a_process_that_died(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """What the main process kept of a child that died goes into the record."""
+    for number in range(MAX_STARTS):
+        ledger.claim(JOB.id, f"elsewhere:{number}", ttl_s=0.0)
+    ledger.keep_log(JOB.id, "Segmentation fault")
+    with pytest.raises(PermanentError):
+        runner.run(dataset.message(JOB).encode())
+    record = QuarantineRecord.model_validate_json(dataset.storage.read(quarantine_path(JOB)))
+    assert record.log == "Segmentation fault"
+
+
+@pytest.mark.parametrize("kind", ["permanent", "passing", "defect"])
+def test_different_jobs_that_fail_in_a_row(
+    dataset: Dataset, runner: JobRunner, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch, kind: str
+) -> None:
+    """When one job after the other fails, the worker is what is wrong: the last goes back as if it had not begun."""
+    jobs = list(dataset.header.spec.jobs())[:FAILED_IN_A_ROW]
+    monkeypatch.setenv("STAND_IN_FAILS", " ".join(f"{job.id}={kind}" for job in jobs))
+    for job in jobs[:-1]:
+        with pytest.raises((PermanentError, TryLaterError)):
+            runner.run(dataset.message(job).encode())
+    with pytest.raises(UnfitWorkerError, match="3 jobs failed here in a row") as unfit:
+        runner.run(dataset.message(jobs[-1]).encode())
+    assert all(f"{job.id}: " in str(unfit.value) for job in jobs)
+    assert jobs[-1].id not in given_up(dataset)
+    assert jobs[-1].id not in ledger.claims()
+    assert ledger.claim(jobs[-1].id, "elsewhere:1") == ledger.count_trouble(jobs[-1].id) == 1
+
+
+def test_success_in_between(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A job that succeeds shows that the worker is fit, however many fail around it."""
+    jobs = list(dataset.header.spec.jobs())
+    monkeypatch.setenv("STAND_IN_FAILS", " ".join(f"{job.id}=permanent" for job in (jobs[0], jobs[1], jobs[3])))
+    for job in jobs:
+        if job == jobs[2]:
+            runner.run(dataset.message(job).encode())
+        else:
+            with pytest.raises(SceneError):
+                runner.run(dataset.message(job).encode())
+    assert len(given_up(dataset)) == 3
+
+
+class CountingMaker(StandInMaker):
+    """Counts what it is asked for."""
+
+    asked = 0
+
+    def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+        """See `ImageMaker.make`."""
+        self.asked += 1
+        return super().make(job, header)
+
+
+def test_store_that_cannot_be_written(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
+    """A job whose files can't be written goes back uncounted; the next ones are not rendered until a write succeeds."""
+    maker = CountingMaker()
+    runner = JobRunner(str(tmp_path / "store"), lambda _: maker, lambda *_: ledger)
+    images = tmp_path / "store/cables/far/images"
+    images.parent.mkdir()
+    images.write_text("in the way")
+    for _ in range(2 * MAX_STARTS):
+        with pytest.raises(DestinationError, match="images"):
+            runner.run(dataset.message(JOB).encode())
+    assert maker.asked == 1
+    assert given_up(dataset) == ledger.claims() == {}
+    assert ledger.figures() == {}
+    images.unlink()
+    runner.run(dataset.message(JOB).encode())
+    assert maker.asked == 2
+    assert is_done(dataset, JOB)
+    assert not [path for path in dataset.storage.files() if "probe" in path]
+    assert ledger.claim(JOB.id, "elsewhere:1") == 1
+
+
+def test_claim_that_was_lost_meanwhile(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
+    """A worker that finds its job claimed by another, once it has rendered, leaves it there and writes nothing."""
+
+    class SlowMaker(StandInMaker):
+        def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+            ledger.release(job.id, this_process())
+            ledger.claim(job.id, "elsewhere:1")
+            return super().make(job, header)
+
+    before = dataset.storage.files()
+    runner = JobRunner(str(tmp_path / "store"), lambda _: SlowMaker(), lambda *_: ledger)
+    assert "left to another worker" in runner.run(dataset.message(JOB).encode())
+    assert dataset.storage.files() == before
+    assert ledger.claims() == {JOB.id: "elsewhere:1"}
+
+
+def pause(dataset: Dataset, store: Path, job: Job) -> float:
+    """How long a job is put off at its first failure, by a worker and Redis that know nothing of it."""
+    ledger = MemoryLedger()
+    runner = JobRunner(str(store), lambda _: StandInMaker(), lambda *_: ledger)
+    with pytest.raises(TryLaterError) as later:
+        runner.run(dataset.message(job).encode())
+    return later.value.delay_s
+
+
+def test_pauses_differ_and_repeat(dataset: Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Jobs that failed together come back apart, each after the same pause whenever it is made."""
+    jobs = list(dataset.header.spec.jobs())
+    monkeypatch.setenv("STAND_IN_FAILS", " ".join(f"{job.id}=passing" for job in jobs))
+    pauses = [pause(dataset, tmp_path / "store", job) for job in jobs]
+    assert len(set(pauses)) == len(jobs)
+    assert all(BACKOFF_S[0] <= each <= 1.5 * BACKOFF_S[0] for each in pauses)
+    assert [pause(dataset, tmp_path / "store", job) for job in jobs] == pauses
+
+
+def test_pauses_grow(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The second pause of a job is longer than any first one."""
+    monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=passing")
+    pauses = []
+    for _ in range(MAX_TRIES - 1):
+        with pytest.raises(TryLaterError) as later:
+            runner.run(dataset.message(JOB).encode())
+        pauses.append(later.value.delay_s)
+    assert pauses[0] <= 1.5 * BACKOFF_S[0] < BACKOFF_S[1] <= pauses[1]
+
+
+def test_figures(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """A finished job adds its image, its redrawn scenes and the seconds of its stages."""
+    runner.run(dataset.message(JOB).encode())
+    figures = ledger.figures()
+    assert figures["images:far"] == figures["redrawn"] == 1
+    assert figures["seconds:render"] == pytest.approx(0.01)
+    assert figures["seconds:write"] > 0
