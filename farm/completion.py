@@ -69,8 +69,8 @@ def job_of_manifest(path: str) -> Job | None:
 class Completion:
     """The done jobs of one dataset.
 
-    A look lists the manifests and reads those that are new. An audit lists the pictures too, and compares them with what
-    the manifests tell. What is remembered is some 60 bytes a job.
+    A look lists the manifests and reads those that are new. An audit lists the pictures too, and compares them with
+    what the manifests tell. What is remembered is some 60 bytes a job.
     """
 
     def __init__(self, dataset: Dataset) -> None:
