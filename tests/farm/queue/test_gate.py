@@ -19,7 +19,6 @@ from farm.job import Job
 from farm.local.redis_server import private_redis
 from farm.local.workers import LocalWorkers, WorkerOptions
 from farm.queue.broker import connect
-from farm.queue.celery import CeleryQueue
 from farm.queue.settings import QUEUE, TASK_NAME, VISIBILITY_S, make_app
 from tests.stand_in import stand_in_header
 
@@ -53,7 +52,8 @@ class Bench:
     def goes_on(self) -> list[str]:
         """Wait until the next good job is done; returns what the log tells of dropped messages so far."""
         job = self._next_job()
-        CeleryQueue(self.app, self.client).submit([self.dataset.message(job)])
+        message = self.dataset.message(job)
+        self.app.send_task(TASK_NAME, kwargs={"message": message.encode()}, task_id=message.task_id, queue=QUEUE)
         give_up_s = time.monotonic() + PATIENCE_S
         while not is_done(self.dataset, job):
             assert time.monotonic() < give_up_s, self.log.read_text()[-3000:]
@@ -82,7 +82,7 @@ def bench(tmp_path_factory: pytest.TempPathFactory, stale: list[str]) -> Iterato
         options = WorkerOptions(
             store=str(folder / "store"), broker_url=url, device="cpu", threads=1, assets=None, logs=folder / "logs"
         )
-        command = [sys.executable, "-P", str(Path(__file__).with_name("gated_worker.py"))]
+        command = [sys.executable, "-P", str(Path(__file__).parents[2] / "stand_in.py")]
         with LocalWorkers(1, options, command) as workers:
             yield Bench(client, make_app(url), dataset, workers.log_of("local-1"))
 
