@@ -3,7 +3,8 @@
 As a program it is a worker with this maker: `python -P tests/stand_in.py serve ...`. Environment variables make it
 slow or failing: `STAND_IN_DELAY_S`; `STAND_IN_UNFIT` with a reason why it can't be opened; and `STAND_IN_FAILS` with
 `job id=kind` pairs. The kinds: `permanent`; `passing`, which never passes; `once` in each process; `crash` of the
-process; `segfault`, a real one; `hang`; `asset`, which this machine lacks; `defect`, an exception of no FarmError.
+process; `segfault`, a real one; `hang`; `bloat`, which takes 400 MiB and hangs; `asset`, which this machine lacks;
+`defect`, an exception of no FarmError.
 `STAND_IN_STARTS` names a file that takes a line for each start: job id and process id.
 """
 
@@ -151,7 +152,11 @@ def _fail_if_told(job: Job) -> None:
         time.sleep(3600)
     if kind == "segfault":
         ctypes.string_at(0)
+    if kind == "bloat":
+        taken = np.ones(400 * 2**20, np.uint8)
+        time.sleep(3600 + taken[0])
     if kind == "crash":
+        print("the last words", flush=True)
         os.kill(os.getpid(), signal.SIGKILL)
 
 

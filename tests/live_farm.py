@@ -1,0 +1,151 @@
+"""A farm of real workers with the stand-in maker, on a Redis, a store and logs of its own."""
+
+import os
+import signal
+import subprocess
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from farm.board.port import Priority, RunState, WorkerReport, WorkerState
+from farm.board.redis import RedisBoard
+from farm.completion import Completion
+from farm.coordinator import Coordinator
+from farm.dataset import Dataset, Destination, create_dataset
+from farm.local.processes import stop
+from farm.progress import Hints
+from farm.queue.broker import connect
+from farm.redis_hints import redis_hints
+from tests.stand_in import stand_in_header
+
+PATIENCE_S = 120.0
+
+
+def wait_for(condition: Callable[[], object]) -> None:
+    """Wait until something is so; failing that is a failure of the test."""
+    give_up_s = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < give_up_s
+        time.sleep(0.05)
+
+
+def processes_with(text: str) -> dict[int, int]:
+    """Living processes, zombies aside, whose arguments hold a text: id to parent's id."""
+    found = {}
+    for folder in Path("/proc").iterdir():
+        # A process may end while it is looked at.
+        with suppress(OSError, ValueError):
+            arguments = (folder / "cmdline").read_bytes()
+            if text.encode() in arguments:
+                found[int(folder.name)] = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
+    return found
+
+
+class LiveFarm:
+    """Workers and what they share.
+
+    Args:
+        folder: takes store and logs.
+        redis_url: of a Redis.
+        command: starts a worker.
+    """
+
+    def __init__(self, folder: Path, redis_url: str, command: Sequence[str]) -> None:
+        self.url = redis_url
+        self.store = folder / "store"
+        self.logs = folder / "logs"
+        self.client = connect(redis_url)
+        self._command = command
+        self._journal = folder / "starts"
+        self._workers: list[subprocess.Popen[bytes]] = []
+        self.store.mkdir()
+
+    def start(self, name: str, *options: str, **environment: str) -> "subprocess.Popen[bytes]":
+        """Start a worker."""
+        command = [*self._command, "serve", "--store", str(self.store), "--name", name, "--logs", str(self.logs)]
+        process = subprocess.Popen(
+            [*command, "--min-free-mib", "0", *options],
+            env={**os.environ, "FARM_BROKER_URL": self.url, "STAND_IN_STARTS": str(self._journal), **environment},
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+        self._workers.append(process)
+        return process
+
+    def end(self) -> None:
+        """End all workers."""
+        stop(self._workers, grace_s=5.0)
+        self.client.close()
+
+    def dataset(self, name: str, **quotas: int) -> Dataset:
+        """A dataset in the store, with nothing made yet."""
+        return create_dataset(Destination(str(self.store), name), stand_in_header(**quotas))
+
+    def hints(self, dataset: Dataset, priority: Priority = Priority.NORMAL) -> Hints:
+        """A dataset's run."""
+        return redis_hints(dataset, self.url, self.client, priority)
+
+    def workers(self, state: WorkerState) -> list[WorkerReport]:
+        """The reports of the workers that are in a state."""
+        return [report for report in RedisBoard(self.client).workers() if report.state is state]
+
+    def submit(self, dataset: Dataset, priority: Priority = Priority.NORMAL) -> Hints:
+        """Put a dataset's run on the board, and what is missing into its queue."""
+        hints = self.hints(dataset, priority)
+        hints.board.replace(hints.run)
+        Coordinator(dataset, hints).submit_missing()
+        return hints
+
+    @staticmethod
+    def want(hints: Hints, state: RunState) -> None:
+        """Say what a person wants of a run."""
+        hints.board.replace(hints.run.model_copy(update={"state": state}))
+
+    def cancel(self, hints: Hints) -> None:
+        """Cancel a run, and wait until nobody works for it."""
+        self.want(hints, RunState.CANCELLED)
+        hints.queue.clear(hints.run)
+        wait_for(lambda: not hints.ledger.claims())
+
+    def starts(self, since: int = 0) -> list[str]:
+        """Every start of a job so far, in order, but for the first ones."""
+        return [line.split()[0] for line in self._lines()[since:]]
+
+    def renderers(self) -> set[str]:
+        """The processes that have begun jobs."""
+        return {line.split()[1] for line in self._lines()}
+
+    def _lines(self) -> list[str]:
+        return self._journal.read_text().splitlines() if self._journal.exists() else []
+
+
+def done(dataset: Dataset) -> int:
+    """How many images are done."""
+    return len(Completion(dataset).audit())
+
+
+def wait_until_done(dataset: Dataset, count: int | None = None) -> None:
+    """Wait for so many images, or all."""
+    wanted = dataset.header.spec.total if count is None else count
+    wait_for(lambda: done(dataset) >= wanted)
+
+
+def is_once_each(starts: Sequence[str], dataset: Dataset) -> bool:
+    """Whether the starts are those of all of a dataset's jobs, once each."""
+    return Counter(starts) == Counter(job.id for job in dataset.header.spec.jobs())
+
+
+@contextmanager
+def live_farm(folder: Path, redis_url: str, command: Sequence[str]) -> Iterator[LiveFarm]:
+    """One that ends with its test, and leaves no process."""
+    farm = LiveFarm(folder, redis_url, command)
+    try:
+        yield farm
+    finally:
+        farm.end()
+    for process in processes_with(str(farm.logs)):
+        with suppress(ProcessLookupError):
+            os.kill(process, signal.SIGKILL)
