@@ -82,6 +82,8 @@ class Coordinator:
         if len(undone):
             self._hints.board.register(self._hints.run)
             self._hints.ledger.forgive([])
+        else:
+            self._hints.board.remove(self._hints.run.key)
         self._feeder.survey()
         return self._feeder.feed(undone, on_submitted)
 

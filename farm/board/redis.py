@@ -46,8 +46,9 @@ class RedisBoard:
     def register(self, run: Run) -> Run:
         """See `Board.register`."""
         with _as_broker_error():
-            if self._client.hsetnx(_RUNS, run.key, run.model_dump_json()):
-                self._client.expire(_RUNS, _KEEP_S)
+            new = self._client.hsetnx(_RUNS, run.key, run.model_dump_json())
+            self._client.expire(_RUNS, _KEEP_S)
+            if new:
                 return run
             present = _read_run(run.key, cast(str | None, self._client.hget(_RUNS, run.key)))
         if present is None:

@@ -12,7 +12,7 @@ from farm.cli.display import console
 from farm.cli.options import Assets, Broker, Device, DeviceChoice, Logs, MinFree, log_folder
 from farm.cli.worker_program import become_worker, check_device, require_blender
 from farm.machine import usable_cores
-from farm.queue.broker import broker_url, connect
+from farm.queue.broker import broker_url, wait_for
 from farm.queue.settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
 from farm.storage import open_storage
 
@@ -36,13 +36,14 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
         float, typer.Option(min=1, max=HARD_LIMIT_S, help="A job's process is killed after so long.")
     ] = HARD_LIMIT_S,
     min_free_mib: MinFree = MIN_FREE_MIB,
+    broker_wait_s: Annotated[float, typer.Option(min=0, help="Wait so long for a Redis that is not there yet.")] = 0.0,
     assets: Assets = None,
     logs: Logs = None,
 ) -> None:
     """Make pictures for the datasets of a store until stopped; Ctrl-C lets the running one end."""
     require_blender()
     url = broker_url(broker)
-    connect(url).close()
+    wait_for(url, broker_wait_s)
     store = store if "://" in store else str(Path(store).expanduser().resolve())
     open_storage(store).is_empty()  # it may be empty or not there yet, but must be readable
     check_device(device, log_folder(logs))

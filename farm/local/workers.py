@@ -10,7 +10,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from farm.errors import DestinationError, EnvironmentMissingError, error_of
+from farm.errors import BrokerError, DestinationError, EnvironmentMissingError, error_of
 from farm.local.processes import stop
 from farm.local.tied import tied
 from farm.queue.broker import BROKER_VARIABLE
@@ -137,7 +137,8 @@ class LocalWorkers:
             if code is None:
                 continue
             fault = error_of(code, f"{self._last_line(worker.name)}; the worker's log is {self.log_of(worker.name)}")
-            if fault is not None:
+            # A Redis that was away when it started is back at the next start, or that fails in its turn.
+            if fault is not None and not isinstance(fault, BrokerError):
                 raise fault
             soon = time.monotonic() - worker.started_s < _SOON_S
             # A signal is somebody's doing, an exit its own.

@@ -1,6 +1,7 @@
 """The broker's address, and a direct line to it."""
 
 import os
+import time
 from pathlib import Path
 from urllib.parse import parse_qsl
 
@@ -114,6 +115,23 @@ def connect(url: str) -> "redis.Redis":
             f"no Redis at {masked(url)}: {_one_line(error)}; start one, or name it with --broker or {BROKER_VARIABLE}"
         ) from error
     return client
+
+
+def wait_for(url: str, patience_s: float) -> None:
+    """Wait until a Redis answers.
+
+    Raises:
+        BrokerError: if it does not within `patience_s` seconds; it is asked once at least.
+    """
+    give_up_s = time.monotonic() + patience_s
+    while True:
+        try:
+            connect(url).close()
+            return
+        except BrokerError:
+            if time.monotonic() >= give_up_s:
+                raise
+            time.sleep(1.0)
 
 
 def _one_line(error: Exception) -> str:

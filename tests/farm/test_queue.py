@@ -4,7 +4,9 @@ import base64
 import json
 import re
 import socket
+import subprocess
 from collections.abc import Iterable
+from pathlib import Path
 
 import pytest
 import redis
@@ -15,7 +17,8 @@ from farm.board.port import Priority, Run
 from farm.dataset import Dataset
 from farm.errors import BrokerError
 from farm.job import Job, JobMessage
-from farm.queue.broker import broker_url, connect, masked
+from farm.local.redis_server import find_redis_server
+from farm.queue.broker import broker_url, connect, masked, wait_for
 from farm.queue.celery import CeleryQueue
 from farm.queue.memory import MemoryQueue
 from farm.queue.port import JobQueue
@@ -205,3 +208,23 @@ def test_look_at_a_redis_that_is_away(run: Run, ask: str) -> None:
     )
     with pytest.raises(BrokerError):
         ids(getattr(queue, ask)(run))
+
+
+@pytest.mark.redis
+def test_waits_for_a_redis_that_comes_later(tmp_path: Path) -> None:
+    """A worker that is started before its Redis finds it when it comes."""
+    socket = tmp_path / "late.sock"
+    server = find_redis_server()
+    command = f"sleep 0.5; exec {server} --port 0 --unixsocket {socket} --save ''"
+    process = subprocess.Popen(["/bin/sh", "-c", command], stdout=subprocess.DEVNULL)
+    try:
+        wait_for(f"redis+socket://{socket}", patience_s=30.0)
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def test_does_not_wait_for_ever() -> None:
+    """A Redis that never comes is told of."""
+    with pytest.raises(BrokerError, match="no Redis at"):
+        wait_for("redis://127.0.0.1:1/0", patience_s=0.1)
