@@ -5,7 +5,7 @@ a person changes something. `UnfitWorkerError` tells of a worker, not of its job
 which the command line ends.
 
 Exit codes: 0 done, 1 an unexpected error (a defect: please report it), 2 wrong usage (from the argument parser),
-128 + N stopped by signal N (130 by Ctrl-C, 143 by SIGTERM), and those below.
+75 a worker that hung and ended itself, 128 + N stopped by signal N (130 by Ctrl-C, 143 by SIGTERM), and those below.
 """
 
 from typing import ClassVar
