@@ -42,7 +42,7 @@ def _ask(service: str, pins: Path) -> list[str] | str:
         packages = json.loads(done.stdout)["dependencies"]
     except subprocess.TimeoutExpired:
         return f"no answer within {_PATIENCE_S} s"
-    except (ValueError, KeyError):
+    except (ValueError, KeyError, TypeError):
         last = (done.stderr.strip().splitlines() or ["no output"])[-1]
         return f"pip-audit failed: {last[:200]}"
     if not packages:

@@ -120,6 +120,9 @@ def load_surface(folder: Path, name: str) -> BakedSurface:
     Raises:
         AssetError: It is not there, incomplete or damaged.
     """
+    if name in {"", ".", ".."} or Path(name).name != name:
+        # A dataset's header, which may come from anybody, must not lead out of the folder.
+        raise AssetError(f"{name!a} can't name a surface")
     directory = folder / name
     record_path = directory / RECORD_NAME
     repair = "run 'farm assets build' to draw it afresh"

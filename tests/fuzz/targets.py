@@ -10,6 +10,9 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+import cv2
+import numpy as np
+
 from assets.exr import check_exr
 from assets.radiance import check_radiance
 from farm.completion import job_of_manifest, parse_manifest
@@ -156,7 +159,7 @@ def targets() -> dict[str, Target]:
     """All of them, by name."""
     dataset = _dataset()
     message = json.dumps(dataset.message(JOB).encode()).encode()
-    exr = b"\x76\x2f\x31\x01\x02\0\0\0compression\0compression\0\x01\0\0\0\0dataWindow\0box2i\0\x10\0\0\0" + bytes(17)
+    exr = cv2.imencode(".exr", np.zeros((4, 8, 3), np.float32))[1].tobytes()
     return {
         "job message": Target(_one_line(_message), (message,)),
         "envelope": Target(_one_line(_envelope), (_good_envelope(),)),

@@ -24,7 +24,7 @@ from tests.stand_in import stand_in_header
 
 pytestmark = pytest.mark.redis
 
-PATIENCE_S = 20.0
+PATIENCE_S = 60.0
 JOBS = 500
 Message = dict[str, Any]
 
