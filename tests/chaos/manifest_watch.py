@@ -111,7 +111,6 @@ class ManifestWatch:
 def fingerprint(manifest: bytes) -> str:
     """A checksum of all that must be the same whenever a job is made: everything but the timings."""
     try:
-        content = json.loads(manifest)
         counts = {name: value for name, value in json.loads(manifest).items() if name != "timings_s"}
         return hashlib.sha256(json.dumps(counts, sort_keys=True).encode()).hexdigest()
     except (ValueError, AttributeError):
