@@ -1,5 +1,6 @@
 """A whole farm: Redis behind a proxy, workers, a coordinator; and what surrounds it, to be spoilt."""
 
+import signal
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
@@ -117,7 +118,9 @@ class FarmUnderTest:
         Returns:
             The names of those that did not do so when asked.
         """
-        return [service.name for service in self.services if not service.stop(_END_S)]
+        for service in self.services:
+            service.send(signal.SIGTERM)
+        return [service.name for service in self.services if not service.ended_within(_END_S)]
 
 
 @contextmanager

@@ -158,7 +158,7 @@ SMALL_STORM = Scenario(
 """For the ordinary test suite."""
 
 BLENDER_SCENARIOS: Sequence[Scenario] = tuple(
-    Scenario(f"blender-{name}", 6, recipes, patience_s=180.0)
+    Scenario(f"blender-{name}", 10, recipes, patience_s=180.0)
     for name, recipes in {
         "calm": [],
         "child-killed": [Recipe(Fault.KILL_CHILD, 2)],

@@ -70,13 +70,14 @@ class Event:
         return np.random.default_rng(self.choice)
 
 
-def draw_schedule(seed: int, scenario: str, recipes: Sequence[Recipe]) -> tuple[Event, ...]:
+def draw_schedule(seed: int, scenario: str, recipes: Sequence[Recipe], *, latest: float = LATEST) -> tuple[Event, ...]:
     """Draw when the faults of a scenario strike.
 
     Args:
         seed: of the whole chaos run, >= 0.
         scenario: its name, which keeps its draws apart from those of the others.
         recipes: what is to strike.
+        latest: fraction of done jobs by which all have struck, > `EARLIEST`.
 
     Returns:
         As many events of each fault as its recipes ask for, by the time at which they strike.
@@ -84,7 +85,7 @@ def draw_schedule(seed: int, scenario: str, recipes: Sequence[Recipe]) -> tuple[
     rng = scenario_generator(seed, scenario)
     events = [
         Event(
-            after=float(rng.uniform(EARLIEST, LATEST)),
+            after=float(rng.uniform(EARLIEST, latest)),
             fault=recipe.fault,
             lasts_s=float(rng.uniform(*recipe.lasts_s)),
             choice=int(rng.integers(2**32)),

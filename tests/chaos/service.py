@@ -97,15 +97,10 @@ class Service:
             stop([self._process], grace_s=0.0)
             self._process = None
 
-    def stop(self, grace_s: float) -> bool:
-        """Ask it to end, and leave it ended.
-
-        Returns:
-            Whether it ended by itself within `grace_s` seconds.
-        """
+    def ended_within(self, grace_s: float) -> bool:
+        """Wait for it to end, then see to it, and leave it ended; whether it ended by itself within so many seconds."""
         if self._process is None:
             return True
-        self.send(signal.SIGTERM)
         try:
             self._process.wait(grace_s)
         except subprocess.TimeoutExpired:

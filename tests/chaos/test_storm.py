@@ -4,8 +4,8 @@ from pathlib import Path
 import pytest
 
 from tests.chaos.play import play
-from tests.chaos.scenarios import SMALL_STORM, STAND_IN, Scenario
-from tests.chaos.schedule import Fault, Recipe, draw_schedule
+from tests.chaos.scenarios import SMALL_STORM, Scenario
+from tests.chaos.schedule import draw_schedule
 
 # The Redis of the fixture is not used, but its rule on where Redis may be missing is.
 pytestmark = [pytest.mark.redis, pytest.mark.slow, pytest.mark.usefixtures("redis_url")]
@@ -14,7 +14,8 @@ pytestmark = [pytest.mark.redis, pytest.mark.slow, pytest.mark.usefixtures("redi
 def test_farm_outlives_a_storm(tmp_path: Path) -> None:
     """Processes die, Redis forgets all, connections break and messages go astray: every image is made, and its own."""
     plan, claims = SMALL_STORM.for_stand_ins(seed=0)
-    events = draw_schedule(0, SMALL_STORM.name, SMALL_STORM.recipes)
+    # Early, so that what gets lost is looked for once, as that takes its time.
+    events = draw_schedule(0, SMALL_STORM.name, SMALL_STORM.recipes, latest=0.5)
     outcome = play(plan, claims, events, tmp_path, SMALL_STORM.patience_s)
     assert outcome.findings == ()
     assert Counter(struck.event.fault for struck in outcome.struck) == Counter(event.fault for event in events)
@@ -22,9 +23,8 @@ def test_farm_outlives_a_storm(tmp_path: Path) -> None:
 
 def test_the_judge_finds_what_is_wrong(tmp_path: Path) -> None:
     """A worker that draws another dataset's pictures is found out, by every file that is not its job's own."""
-    scenario = Scenario("false", 6, [Recipe(Fault.REDELIVER_DONE, 1)], delay_s=0.0)
+    scenario = Scenario("false", 6, [], delay_s=0.0)
     plan, _ = scenario.for_stand_ins(seed=0)
     _, claims_of_another = scenario.for_stand_ins(seed=1)
-    assert plan.worker == STAND_IN
     outcome = play(plan, claims_of_another, (), tmp_path, scenario.patience_s)
     assert any("not their job's own" in finding for finding in outcome.findings)
