@@ -13,11 +13,10 @@ from redis.exceptions import NoPermissionError
 from farm.coordinator import Coordinator
 from farm.dataset import Dataset
 from farm.errors import BrokerError
-from farm.ledger.redis import RedisLedger
 from farm.local.workers import LocalWorkers, WorkerOptions
 from farm.queue.broker import connect
-from farm.queue.celery import CeleryQueue
 from farm.queue.settings import make_app
+from farm.redis_hints import redis_hints
 from tests.farm.queue.servers import debian_redis, free_port
 from tests.farm.queue.servers import redis_server as run_redis
 
@@ -67,9 +66,7 @@ def test_a_farm_works_under_the_list(
     monkeypatch.setenv("STAND_IN_FAILS", "far-000001=once")
     client = connect(guarded.url)
     app = make_app(guarded.url)
-    queue = CeleryQueue(app, client)
-    ledger = RedisLedger(client, dataset.name, dataset.header.spec_sha256)
-    coordinator = Coordinator(dataset, ledger, queue, poll_s=0.1)
+    coordinator = Coordinator(dataset, redis_hints(dataset, guarded.url, client), poll_s=0.1)
     coordinator.submit_missing()
     options = WorkerOptions(
         store=str(tmp_path / "store"),

@@ -13,6 +13,7 @@ from typing import Any, cast
 import pytest
 import redis
 
+from farm.board.redis import RedisBoard
 from farm.completion import is_done
 from farm.dataset import Dataset, Destination, create_dataset
 from farm.job import Job
@@ -21,6 +22,7 @@ from farm.local.workers import LocalWorkers, WorkerOptions
 from farm.queue.broker import connect
 from farm.queue.celery import CeleryQueue
 from farm.queue.settings import QUEUE, TASK_NAME, VISIBILITY_S, make_app
+from farm.redis_hints import run_of
 from tests.stand_in import stand_in_header
 
 pytestmark = pytest.mark.redis
@@ -53,7 +55,7 @@ class Bench:
     def goes_on(self) -> list[str]:
         """Wait until the next good job is done; returns what the log tells of dropped messages so far."""
         job = self._next_job()
-        CeleryQueue(self.app, self.client).submit([self.dataset.message(job)])
+        CeleryQueue(self.app, self.client).submit(run_of(self.dataset), [self.dataset.message(job)])
         give_up_s = time.monotonic() + PATIENCE_S
         while not is_done(self.dataset, job):
             assert time.monotonic() < give_up_s, self.log.read_text()[-3000:]
@@ -76,6 +78,7 @@ def bench(tmp_path_factory: pytest.TempPathFactory, stale: list[str]) -> Iterato
     dataset = create_dataset(Destination(str(folder / "store"), "cables"), stand_in_header(far=JOBS))
     with private_redis() as url:
         client = connect(url)
+        RedisBoard(client).register(run_of(dataset))
         for number, entry in enumerate(stale):
             client.hset("unacked", f"stale-{number}", entry)
             client.zadd("unacked_index", {f"stale-{number}": time.time() - 2 * VISIBILITY_S})

@@ -11,11 +11,10 @@ from farm.completion import is_done
 from farm.coordinator import Coordinator
 from farm.dataset import Dataset
 from farm.errors import BrokerError
-from farm.ledger.redis import RedisLedger
 from farm.local.workers import LocalWorkers, WorkerOptions
 from farm.queue.broker import broker_url, connect
-from farm.queue.celery import CeleryQueue
 from farm.queue.settings import make_app
+from farm.redis_hints import redis_hints
 from tests.farm.queue.servers import ENCODED, PASSWORD, Certificates, debian_redis, free_port, make_certificates
 from tests.farm.queue.servers import redis_server as run_redis
 
@@ -51,12 +50,7 @@ def test_a_worker_does_its_jobs_over_tls_with_a_password(
     """Queue, ledger and worker all go over the one address."""
     url = broker_url(f"rediss://:{ENCODED}@{place}?ssl_ca_certs={certificates.authority}")
     client = connect(url)
-    coordinator = Coordinator(
-        dataset,
-        RedisLedger(client, dataset.name, dataset.header.spec_sha256),
-        CeleryQueue(make_app(url), client),
-        poll_s=0.1,
-    )
+    coordinator = Coordinator(dataset, redis_hints(dataset, url, client), poll_s=0.1)
     assert coordinator.submit_missing() == 4
     options = WorkerOptions(
         store=str(tmp_path / "store"), broker_url=url, device="cpu", threads=1, assets=None, logs=tmp_path / "logs"
