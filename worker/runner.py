@@ -200,6 +200,8 @@ class JobRunner:
             worker=this_process(),
             log=printed or ledger.log_of(message.job_id),
         )
+        # The record holds it by now; put back, even where this Redis can't be reached, it begins anew.
+        ledger.forgive([message.job_id])
         ledger.add_figures({"quarantined": 1})
 
     def _make(self, dataset: Dataset, job: Job) -> MadeImage:

@@ -1,5 +1,6 @@
 """`farm repair`, `farm retry`: putting back what was lost, damaged or given up."""
 
+from collections.abc import Mapping
 from typing import Annotated
 
 import typer
@@ -40,23 +41,23 @@ def retry(
 ) -> None:
     """Put images that were given up back: into the queue if Redis is there, else for the next farm run."""
     dataset = open_dataset(parse_destination(place))
-    released = _release(dataset, jobs or [])
     hints = hints_if_reachable(dataset, broker)
+    quarantine = Quarantine(dataset)
+    released = _chosen(dataset, quarantine.look(), jobs or [])
+    if hints is not None:
+        # First, or a job whose attempts are used up would be given up again at once.
+        hints.ledger.forgive(released)
+    quarantine.release(released)
     if hints is None:
         typer.echo(f"{len(released)} images put back; farm run or farm submit makes them")
         return
-    hints.ledger.forgive(released)
     count = Coordinator(dataset, hints).submit_missing()
     typer.echo(f"{len(released)} images put back; {count} queued for {place}")
 
 
-def _release(dataset: Dataset, asked: list[str]) -> list[str]:
-    quarantine = Quarantine(dataset)
-    given_up = quarantine.look()
+def _chosen(dataset: Dataset, given_up: Mapping[str, str], asked: list[str]) -> list[str]:
     for job_id in asked:
         Job.from_id(job_id)
         if job_id not in given_up:
             raise SpecError(f"{job_id}: not in quarantine; farm status {dataset.storage.location} lists those that are")
-    released = asked or list(given_up)
-    quarantine.release(released)
-    return released
+    return asked or list(given_up)

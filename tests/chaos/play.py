@@ -179,8 +179,7 @@ def _strike_what_is_due(farm: FarmUnderTest, course: _Course) -> None:
 
 
 def _unfinished(farm: FarmUnderTest, course: _Course, patience_s: float) -> str:
-    done = Completion(farm.dataset).audit()
-    missing = [job.id for job in farm.plan.header.spec.jobs() if job not in done]
+    missing = [job.id for job in Completion(farm.dataset).look().others()]
     shown = ", ".join(missing[:5]) + (" and more" if len(missing) > 5 else "")
     words = "; ".join(f"{service.name} said last: {service.last_words()}" for service in farm.services)
     strikes = ", ".join(event.fault for event in course.waiting)

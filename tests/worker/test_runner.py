@@ -442,6 +442,17 @@ def test_pauses_grow(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.Mo
     assert pauses[0] <= 1.5 * BACKOFF_S[0] < BACKOFF_S[1] <= pauses[1]
 
 
+def test_job_that_was_put_back_begins_anew(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """A given-up job whose record is removed is made, however often it was begun before."""
+    for number in range(MAX_STARTS):
+        ledger.claim(JOB.id, f"elsewhere:{number}", ttl_s=0.0)
+    with pytest.raises(PermanentError):
+        runner.run(dataset.message(JOB).encode())
+    Quarantine(dataset).release([JOB.id])
+    runner.run(dataset.message(JOB).encode())
+    assert is_done(dataset, JOB)
+
+
 def test_figures(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
     """A finished job adds its image, its redrawn scenes and the seconds of its stages."""
     runner.run(dataset.message(JOB).encode())

@@ -10,14 +10,17 @@ from pathlib import Path
 import pytest
 import redis
 
+from farm.board.port import Run
+from farm.board.redis import RedisBoard
 from farm.completion import Completion
 from farm.dataset import Dataset
 from farm.errors import DatasetMissingError, EnvironmentMissingError
 from farm.job import Job
 from farm.ledger.redis import RedisLedger
+from farm.quarantine import Quarantine
 from farm.queue.celery import CeleryQueue
 from farm.queue.settings import QUEUE, TASK_NAME, make_app
-from worker.runner import MAX_STARTS
+from farm.redis_hints import run_of
 
 pytestmark = pytest.mark.redis
 
@@ -32,6 +35,12 @@ def queue(redis_url: str, redis_client: "redis.Redis") -> CeleryQueue:
 
 
 @pytest.fixture
+def run(redis_client: "redis.Redis", dataset: Dataset) -> Run:
+    """The dataset's run, which is on the board."""
+    return RedisBoard(redis_client).register(run_of(dataset))
+
+
+@pytest.fixture
 def ledger(redis_client: "redis.Redis", dataset: Dataset) -> RedisLedger:
     """The dataset's ledger."""
     return RedisLedger(redis_client, dataset.name, dataset.header.spec_sha256)
@@ -43,13 +52,13 @@ def worker(
 ) -> Iterator["subprocess.Popen[bytes]"]:
     """A worker with the stand-in maker, on the store of the `dataset` fixture."""
     del queue  # emptied before the worker listens
-    command = [*worker_command, "serve", "--store", str(tmp_path / "store"), "--name", "test"]
+    command = [*worker_command, "serve", "--store", str(tmp_path / "store"), "--name", "test", "--min-free-mib", "0"]
     process = subprocess.Popen(
         [*command, "--logs", str(tmp_path / "logs")],
         env={
             **os.environ,
             "FARM_BROKER_URL": redis_url,
-            "STAND_IN_FAILS": "far-000001=passing close_concentrated_light-000000=hang",
+            "STAND_IN_FAILS": "far-000001=passing",
         },
         stdout=subprocess.DEVNULL,
         stderr=(tmp_path / "main.log").open("wb"),
@@ -63,23 +72,23 @@ def wait_until_done(dataset: Dataset, count: int) -> None:
     """Wait for so many images."""
     completion = Completion(dataset)
     give_up_s = time.monotonic() + PATIENCE_S
-    while len(completion.refresh()) < count:
+    while len(completion.look()) < count:
         assert time.monotonic() < give_up_s
         time.sleep(0.05)
 
 
 def test_message_becomes_a_picture(
-    queue: CeleryQueue, worker: "subprocess.Popen[bytes]", dataset: Dataset, ledger: RedisLedger
+    queue: CeleryQueue, run: Run, worker: "subprocess.Popen[bytes]", dataset: Dataset, ledger: RedisLedger
 ) -> None:
     """A submitted job is made, counted and acknowledged."""
     del worker
-    queue.submit([dataset.message(JOB)])
+    queue.submit(run, [dataset.message(JOB)])
     wait_until_done(dataset, 1)
     give_up_s = time.monotonic() + PATIENCE_S
     while ledger.claims() or not ledger.activity().last_picture:
         assert time.monotonic() < give_up_s
         time.sleep(0.05)
-    assert queue.length() == 0
+    assert queue.length(run) == 0
 
 
 @pytest.mark.usefixtures("worker")
@@ -94,28 +103,28 @@ def test_message_becomes_a_picture(
     ],
 )
 def test_bad_message_does_not_stop_the_worker(
-    redis_url: str, queue: CeleryQueue, dataset: Dataset, kwargs: dict[str, object]
+    redis_url: str, queue: CeleryQueue, run: Run, dataset: Dataset, kwargs: dict[str, object]
 ) -> None:
     """A worker survives a malformed message and makes the next picture."""
     make_app(redis_url).send_task(TASK_NAME, kwargs=kwargs, queue=QUEUE)
-    queue.submit([dataset.message(JOB)])
+    queue.submit(run, [dataset.message(JOB)])
     wait_until_done(dataset, 1)
 
 
 def test_passing_failure_is_put_off(
-    queue: CeleryQueue, worker: "subprocess.Popen[bytes]", dataset: Dataset, ledger: RedisLedger
+    queue: CeleryQueue, run: Run, worker: "subprocess.Popen[bytes]", dataset: Dataset, ledger: RedisLedger
 ) -> None:
     """A job that fails in a way that may pass is held for its next try, and not counted as failed."""
     del worker
-    queue.submit([dataset.message(Job.from_id("far-000001")), dataset.message(JOB)])
+    queue.submit(run, [dataset.message(Job.from_id("far-000001")), dataset.message(JOB)])
     wait_until_done(dataset, 1)
     assert "far-000001" in ledger.claims()
-    assert ledger.failures() == {}
+    assert Quarantine(dataset).look() == {}
 
 
-def test_stops_when_told(worker: "subprocess.Popen[bytes]", queue: CeleryQueue, dataset: Dataset) -> None:
+def test_stops_when_told(worker: "subprocess.Popen[bytes]", queue: CeleryQueue, run: Run, dataset: Dataset) -> None:
     """A worker that is told to stop ends by itself."""
-    queue.submit([dataset.message(JOB)])
+    queue.submit(run, [dataset.message(JOB)])
     wait_until_done(dataset, 1)
     worker.send_signal(signal.SIGTERM)
     assert worker.wait(PATIENCE_S) == 0
@@ -134,44 +143,38 @@ def serve(command: list[str], store: Path, redis_url: str, **environment: str) -
 
 
 def test_unfit_worker_takes_itself_out(
-    worker_command: list[str], tmp_path: Path, redis_url: str, queue: CeleryQueue, dataset: Dataset, ledger: RedisLedger
+    worker_command: list[str],
+    tmp_path: Path,
+    redis_url: str,
+    queue: CeleryQueue,
+    run: Run,
+    dataset: Dataset,
+    ledger: RedisLedger,
 ) -> None:
     """A worker that can't open its maker gives its job back and ends, with the reason and its code."""
-    queue.submit([dataset.message(JOB)])
+    queue.submit(run, [dataset.message(JOB)])
     result = serve(worker_command, tmp_path / "store", redis_url, STAND_IN_UNFIT="--device optix: no such device")
     assert result.returncode == EnvironmentMissingError.exit_code
     assert result.stderr.splitlines()[-1] == "--device optix: no such device"
-    assert queue.queued(dataset.name, dataset.header.spec_sha256) == {JOB.id}
-    assert ledger.failures() == ledger.claims() == {}
+    assert list(queue.queued(run)) == [JOB]
+    assert Quarantine(dataset).look() == ledger.claims() == {}
 
 
 def test_worker_with_a_wrong_store_takes_itself_out(
-    worker_command: list[str], tmp_path: Path, redis_url: str, queue: CeleryQueue, dataset: Dataset, ledger: RedisLedger
+    worker_command: list[str],
+    tmp_path: Path,
+    redis_url: str,
+    queue: CeleryQueue,
+    run: Run,
+    dataset: Dataset,
 ) -> None:
     """A worker whose store lacks the dataset leaves all of its jobs to others."""
-    queue.submit([dataset.message(job) for job in dataset.header.spec.jobs()])
+    queue.submit(run, [dataset.message(job) for job in dataset.header.spec.jobs()])
     result = serve(worker_command, tmp_path / "elsewhere", redis_url)
     assert result.returncode == DatasetMissingError.exit_code
     assert "elsewhere" in result.stderr.splitlines()[-1]
-    assert len(queue.queued(dataset.name, dataset.header.spec_sha256)) == 4
-    assert ledger.failures() == {}
-
-
-@pytest.mark.usefixtures("worker")
-def test_job_that_meets_the_hard_limit(
-    redis_url: str, dataset: Dataset, queue: CeleryQueue, ledger: RedisLedger
-) -> None:
-    """A job that is killed at the hard limit comes back, but not for ever, and holds nobody up."""
-    hanging = dataset.message(Job.from_id("close_concentrated_light-000000"))
-    limits = {"soft_time_limit": 0.3, "time_limit": 0.6}
-    make_app(redis_url).send_task(TASK_NAME, kwargs={"message": hanging.encode()}, queue=QUEUE, **limits)
-    queue.submit([dataset.message(JOB)])
-    give_up_s = time.monotonic() + PATIENCE_S
-    while hanging.job_id not in ledger.failures():
-        assert time.monotonic() < give_up_s
-        time.sleep(0.1)
-    assert f"in each of {MAX_STARTS} attempts" in ledger.failures()[hanging.job_id]
-    wait_until_done(dataset, 1)
+    assert len({job.id for job in queue.queued(run)}) == 4
+    assert Quarantine(dataset).look() == {}
 
 
 @pytest.mark.parametrize("option", ["--logs", "--store"])

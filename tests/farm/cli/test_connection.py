@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from farm.dataset import Dataset
 from farm.errors import BrokerError
 from tests.farm.cli.result import Farm, assert_refused
 
@@ -30,3 +31,12 @@ def test_broker_that_is_no_redis(farm: Farm) -> None:
     """Another kind of broker is refused."""
     result = farm("submit", "--images", "1", "--out", "data", "--broker", "amqp://localhost")
     assert_refused(result, BrokerError.exit_code, "amqp://localhost", "redis://")
+
+
+@pytest.mark.parametrize("command", ["pause", "resume", "cancel", "repair", "watch"])
+def test_no_redis_for_a_run(farm: Farm, dataset: Dataset, command: str) -> None:
+    """What needs a run's Redis says that it is not there, and changes nothing."""
+    before = dataset.storage.files()
+    result = farm(command, dataset.storage.location, "--broker", NO_REDIS)
+    assert_refused(result, BrokerError.exit_code, "127.0.0.1:1", "--broker")
+    assert dataset.storage.files() == before

@@ -7,10 +7,15 @@ from pathlib import Path
 import pytest
 import redis
 
+from farm.board.port import RunState, WorkerReport, WorkerState
+from farm.board.redis import RedisBoard
 from farm.dataset import Dataset
 from farm.errors import DestinationError, IncompleteError
+from farm.job import Job
 from farm.layout import INDEX_FILE, REPORT_FILE
 from farm.ledger.redis import RedisLedger
+from farm.quarantine import put_in_quarantine
+from farm.redis_hints import run_of
 from tests.farm.cli.result import Farm, assert_refused
 
 submit_command = import_module("farm.cli.submit")  # the package's own `submit` is the command
@@ -36,7 +41,8 @@ def test_status(farm: Farm, made: Dataset) -> None:
 def test_status_names_the_last_picture(farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
     """Of a finished dataset, too, the newest picture is told by a path that can be opened from anywhere."""
     ledger = RedisLedger(redis_client, made.name, made.header.spec_sha256)
-    ledger.record_done("far-000001", "far/images/far-000001.png")
+    ledger.claim("far-000001", "a:1")
+    ledger.finish("far-000001", "a:1", "far/images/far-000001.png")
     result = farm("status", made.storage.location, "--broker", redis_url)
     line = next(line for line in result.stdout.splitlines() if line.startswith("last "))
     assert Path(line.split()[1]).is_absolute()
@@ -59,12 +65,11 @@ def test_watch_and_submit_leave_index_and_report(
 
 
 @pytest.mark.redis
-def test_watch_of_a_failure_leaves_index_and_report(
-    farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis"
-) -> None:
+def test_watch_of_a_failure_leaves_index_and_report(farm: Farm, made: Dataset, redis_url: str) -> None:
     """What could be made is listed though the rest failed."""
     made.storage.remove("far/manifests/far-000001.json")
-    RedisLedger(redis_client, made.name, made.header.spec_sha256).record_failure("far-000001", "no scene passed")
+    job = Job.from_id("far-000001")
+    put_in_quarantine(made, job, "no scene passed", attempts=1, worker="host:1", log="")
     result = farm("watch", made.storage.location, "--broker", redis_url)
     assert result.returncode == IncompleteError.exit_code
     assert len(made.storage.read(INDEX_FILE).splitlines()) == 3
@@ -77,3 +82,26 @@ def test_watch_ends_with_the_dataset(farm: Farm, made: Dataset, redis_url: str) 
     result = farm("watch", made.storage.location, "--broker", redis_url)
     assert result.returncode == 0
     assert "4 of 4 done" in result.stderr
+
+
+def test_status_names_the_given_up(farm: Farm, made: Dataset) -> None:
+    """Without Redis, too, the given-up images are told with their reasons, for people and for programs."""
+    job = Job.from_id("far-000001")
+    made.storage.remove("far/manifests/far-000001.json")
+    put_in_quarantine(made, job, "no scene passed", attempts=1, worker="host:1", log="")
+    assert "far-000001: no scene passed" in farm("status", made.storage.location).stdout
+    as_json = json.loads(farm("status", made.storage.location, "--json").stdout)
+    assert as_json["quarantined"] == {"far-000001": "no scene passed"}
+
+
+@pytest.mark.redis
+def test_status_tells_of_workers_and_state(
+    farm: Farm, dataset: Dataset, redis_url: str, redis_client: "redis.Redis"
+) -> None:
+    """A paused run says so, and each worker what it does and why it does nothing."""
+    board = RedisBoard(redis_client)
+    board.register(run_of(dataset).model_copy(update={"state": RunState.PAUSED}))
+    board.report(WorkerReport(name="one@host", state=WorkerState.HELD, reason="disk full", done=7))
+    shown = farm("status", dataset.storage.location, "--broker", redis_url).stdout
+    assert "state    paused" in shown
+    assert "worker   one@host held: disk full, 7 done" in shown

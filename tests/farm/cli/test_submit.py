@@ -1,7 +1,10 @@
 """`farm submit`."""
 
 import pytest
+import redis
 
+from farm.board.port import Priority, RunState
+from farm.board.redis import RedisBoard
 from farm.errors import ConflictError
 from tests.farm.cli.result import Farm, assert_refused
 
@@ -17,3 +20,15 @@ def test_submit_queues_once(farm: Farm, redis_url: str, redis_client: object) ->
     assert again.stdout.startswith("0 of 12 images queued")
     other = farm("submit", "--images", "12", "--seed", "5", *options)
     assert_refused(other, ConflictError.exit_code, "spec.seed is 0, asked 5", "another --out")
+
+
+@pytest.mark.redis
+def test_submit_again_goes_on(farm: Farm, redis_url: str, redis_client: "redis.Redis") -> None:
+    """A cancelled run goes on when it is submitted again, with the priority then asked for."""
+    options = ["--images", "12", "--out", "data", "--broker", redis_url]
+    farm("submit", *options)
+    assert farm("cancel", "data", "--broker", redis_url).returncode == 0
+    again = farm("submit", *options, "--priority", "high")
+    assert again.stdout.startswith("12 of 12 images queued"), again.stderr
+    (run,) = RedisBoard(redis_client).runs().values()
+    assert (run.state, run.priority) == (RunState.ACTIVE, Priority.HIGH)

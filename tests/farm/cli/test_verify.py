@@ -4,8 +4,11 @@ import json
 
 from farm.collect import write_index
 from farm.dataset import Dataset
-from farm.errors import VerificationError
-from tests.farm.cli.result import Farm
+from farm.errors import IncompleteError, VerificationError
+from farm.job import Job
+from farm.layout import FileRole, file_path, manifest_path
+from farm.quarantine import put_in_quarantine
+from tests.farm.cli.result import Farm, assert_refused
 
 
 def test_verify_clean(farm: Farm, made: Dataset) -> None:
@@ -31,3 +34,15 @@ def test_verify_finds(farm: Farm, made: Dataset) -> None:
         "far/masks/far-000001.png",
         "far/stray.txt",
     }
+
+
+def test_verify_of_a_dataset_with_given_up_images(farm: Farm, made: Dataset) -> None:
+    """A dataset whose only lack is what was given up ends with a code of its own, and says what to do."""
+    job = Job.from_id("far-000001")
+    for path in (manifest_path(job), *(file_path(job, role) for role in FileRole)):
+        made.storage.remove(path)
+    put_in_quarantine(made, job, "no scene passed", attempts=1, worker="host:1", log="")
+    result = farm("verify", made.storage.location)
+    assert_refused(result, IncompleteError.exit_code, "3 images", "1 are in quarantine", "farm retry")
+    as_json = json.loads(farm("verify", made.storage.location, "--json").stdout)
+    assert as_json["quarantined"] == {"far-000001": "no scene passed"}

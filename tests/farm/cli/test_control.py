@@ -1,0 +1,71 @@
+"""`farm pause`, `resume` and `cancel`."""
+
+import pytest
+import redis
+
+from farm.board.port import Priority, Run, RunState
+from farm.board.redis import RedisBoard
+from farm.coordinator import Coordinator
+from farm.dataset import Dataset
+from farm.errors import ConflictError, DestinationError
+from farm.progress import Hints
+from farm.redis_hints import redis_hints
+from tests.farm.cli.result import Farm, assert_refused
+
+pytestmark = pytest.mark.redis
+
+
+@pytest.fixture
+def submitted(dataset: Dataset, redis_url: str, redis_client: "redis.Redis") -> Hints:
+    """A run of four images that wait."""
+    hints = redis_hints(dataset, redis_url, redis_client)
+    Coordinator(dataset, hints).submit_missing()
+    return hints
+
+
+def on_the_board(hints: Hints) -> Run:
+    """The run's notice."""
+    return hints.board.runs()[hints.run.key]
+
+
+def test_pause_and_resume(farm: Farm, submitted: Hints, dataset: Dataset, redis_url: str) -> None:
+    """A paused run keeps its queue and says how to go on; resumed, it is active again."""
+    place = [dataset.storage.location, "--broker", redis_url]
+    assert "4 images wait; farm resume" in farm("pause", *place).stdout
+    assert on_the_board(submitted).state is RunState.PAUSED
+    assert "4 images wait" in farm("resume", *place).stdout
+    assert on_the_board(submitted).state is RunState.ACTIVE
+    assert submitted.queue.length(submitted.run) == 4
+
+
+def test_resume_with_a_priority(farm: Farm, submitted: Hints, dataset: Dataset, redis_url: str) -> None:
+    """A run may be resumed with another priority, which what waits already does not get; pausing keeps it."""
+    place = [dataset.storage.location, "--broker", redis_url]
+    result = farm("resume", *place, "--priority", "high")
+    assert "the 4 images that wait keep their priority" in result.stderr
+    farm("pause", *place)
+    assert on_the_board(submitted) == submitted.run.model_copy(
+        update={"priority": Priority.HIGH, "state": RunState.PAUSED}
+    )
+
+
+def test_cancel(farm: Farm, submitted: Hints, dataset: Dataset, redis_url: str) -> None:
+    """A cancelled run has an empty queue, and whoever looks is told so."""
+    result = farm("cancel", dataset.storage.location, "--broker", redis_url)
+    assert "4 images were waiting" in result.stdout
+    assert on_the_board(submitted).state is RunState.CANCELLED
+    assert submitted.queue.length(submitted.run) == 0
+
+
+@pytest.mark.parametrize("command", ["pause", "resume", "cancel"])
+def test_no_run(farm: Farm, dataset: Dataset, redis_url: str, redis_client: "redis.Redis", command: str) -> None:
+    """Of a dataset of which nothing was submitted there is nothing to control, and nothing comes up."""
+    result = farm(command, dataset.storage.location, "--broker", redis_url)
+    assert_refused(result, ConflictError.exit_code, "nothing of it was submitted")
+    assert RedisBoard(redis_client).runs() == {}
+
+
+@pytest.mark.parametrize("command", ["pause", "resume", "cancel", "repair", "retry"])
+def test_no_dataset(farm: Farm, redis_url: str, command: str) -> None:
+    """Where there is no dataset, that is told."""
+    assert_refused(farm(command, "data", "--broker", redis_url), DestinationError.exit_code, "no dataset here")

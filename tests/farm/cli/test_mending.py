@@ -1,0 +1,127 @@
+"""`farm repair`, `farm retry` and what `farm replay` refuses."""
+
+from pathlib import Path
+
+import pytest
+import redis
+
+from farm.dataset import Dataset
+from farm.errors import DestinationError, MessageError, SpecError
+from farm.job import Job
+from farm.layout import FileRole, file_path, manifest_path
+from farm.quarantine import Quarantine, put_in_quarantine
+from farm.redis_hints import redis_hints
+from tests.farm.cli.result import Farm, assert_refused
+
+JOB = Job.from_id("far-000001")
+OTHER = Job.from_id("far-000000")
+
+
+@pytest.fixture
+def lacking(made: Dataset) -> Dataset:
+    """A dataset of which two images were given up."""
+    for job in (JOB, OTHER):
+        made.storage.remove(manifest_path(job))
+        put_in_quarantine(made, job, "died", attempts=3, worker="host:1", log="")
+    return made
+
+
+def queued(dataset: Dataset, redis_url: str, client: "redis.Redis") -> list[str]:
+    """The images that wait."""
+    hints = redis_hints(dataset, redis_url, client)
+    return sorted(job.id for job in hints.queue.queued(hints.run))
+
+
+@pytest.mark.redis
+def test_repair_queues_what_is_missing(farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
+    """An image one of whose files is gone is queued, once, however often this is asked for."""
+    made.storage.remove(file_path(JOB, FileRole.MASK))
+    place = [made.storage.location, "--broker", redis_url]
+    assert farm("repair", *place).stdout.startswith("1 of 4 images queued")
+    assert farm("repair", *place).stdout.startswith("0 of 4 images queued")
+    assert queued(made, redis_url, redis_client) == [JOB.id]
+
+
+@pytest.mark.redis
+def test_repair_of_a_whole_dataset(farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
+    """Nothing of a whole dataset is touched or queued, checksums and all."""
+    before = made.storage.files()
+    result = farm("repair", made.storage.location, "--checksums", "--broker", redis_url)
+    assert result.stdout.startswith("0 of 4 images queued")
+    assert made.storage.files() == before
+    assert queued(made, redis_url, redis_client) == []
+
+
+@pytest.mark.redis
+def test_repair_leaves_the_given_up(farm: Farm, lacking: Dataset, redis_url: str) -> None:
+    """What was given up is not queued by a repair."""
+    result = farm("repair", lacking.storage.location, "--broker", redis_url)
+    assert result.stdout.startswith("0 of 4 images queued")
+
+
+@pytest.mark.redis
+def test_retry_of_one(farm: Farm, lacking: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
+    """The image that is named is put back and queued, with its attempts forgotten; the other stays given up."""
+    hints = redis_hints(lacking, redis_url, redis_client)
+    hints.ledger.claim(JOB.id, "a:1")
+    hints.ledger.release(JOB.id, "a:1")
+    result = farm("retry", lacking.storage.location, JOB.id, "--broker", redis_url)
+    assert result.stdout.startswith("1 images put back; 1 queued"), result.stderr
+    assert queued(lacking, redis_url, redis_client) == [JOB.id]
+    assert list(Quarantine(lacking).look()) == [OTHER.id]
+    assert hints.ledger.claim(JOB.id, "a:1") == 1
+
+
+@pytest.mark.redis
+def test_retry_of_all(farm: Farm, lacking: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
+    """Without a name all are put back."""
+    result = farm("retry", lacking.storage.location, "--broker", redis_url)
+    assert result.stdout.startswith("2 images put back; 2 queued"), result.stderr
+    assert queued(lacking, redis_url, redis_client) == [OTHER.id, JOB.id]
+    assert Quarantine(lacking).look() == {}
+
+
+def test_retry_without_redis(farm: Farm, lacking: Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where no Redis is, images are put back for whoever comes next."""
+    monkeypatch.setenv("FARM_BROKER_URL", "redis://127.0.0.1:1/0")
+    result = farm("retry", lacking.storage.location)
+    assert result.stdout.startswith("2 images put back; farm run or farm submit"), result.stderr
+    assert Quarantine(lacking).look() == {}
+
+
+def test_retry_with_a_redis_that_is_not_there(farm: Farm, lacking: Dataset) -> None:
+    """A Redis that was asked for and is not there ends the command."""
+    result = farm("retry", lacking.storage.location, "--broker", "redis://127.0.0.1:1/0")
+    assert "127.0.0.1:1" in result.stderr
+    assert result.returncode == 8
+    assert len(Quarantine(lacking).look()) == 2
+
+
+@pytest.mark.parametrize(
+    ("job_id", "kind", "words"),
+    [("close_concentrated_light-000000", SpecError, "not in quarantine"), ("../far", MessageError, "no job id")],
+)
+def test_retry_of_what_was_not_given_up(
+    farm: Farm, lacking: Dataset, job_id: str, kind: type[SpecError] | type[MessageError], words: str
+) -> None:
+    """A name that is not in quarantine is refused, and nothing is put back, not even what is."""
+    assert_refused(farm("retry", lacking.storage.location, JOB.id, job_id), kind.exit_code, words)
+    assert len(Quarantine(lacking).look()) == 2
+
+
+@pytest.mark.parametrize(
+    ("job_id", "options", "kind", "words"),
+    [
+        ("far-000002", [], SpecError, "outside the quotas"),
+        ("far-2", [], MessageError, "no job id"),
+        ("far-000001", ["--out", "nowhere"], DestinationError, "nowhere"),
+    ],
+)
+def test_replay_that_cannot_be(
+    farm: Farm, made: Dataset, tmp_path: Path, job_id: str, options: list[str], kind: type[SpecError], words: str
+) -> None:
+    """What can't be replayed is refused before Blender is loaded, and the dataset stays as it is."""
+    before = made.storage.files()
+    assert_refused(farm("replay", made.storage.location, job_id, *options), kind.exit_code, words)
+    assert made.storage.files() == before
+    assert list(tmp_path.glob("*.png")) == []
