@@ -25,6 +25,7 @@ from tests.stand_in import StandInMaker, stand_in_header
 
 _STAND_IN = Path(__file__).parents[1] / "stand_in.py"
 _PATIENCE_S = 60.0
+_IDLE_S = 20.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +37,7 @@ class JobCost:
         workers_s: processor seconds of the workers, their children included, without what the stand-in itself takes.
         redis_s: of Redis.
         coordinator_s: of the submitting and watching process.
+        idle_redis_s: of Redis in a second without any job, from workers that listen and report.
     """
 
     workers: int
@@ -44,6 +46,7 @@ class JobCost:
     workers_s: float
     redis_s: float
     coordinator_s: float
+    idle_redis_s: float
 
     @property
     def jobs_per_s(self) -> float:
@@ -70,6 +73,7 @@ def measure_jobs(workers: int, jobs: int, seed: int) -> JobCost:
         coordinator = Coordinator(dataset, hints, poll_s=0.2)
         redis_process = int(client.info("server")["process_id"])
         with _stand_ins(workers, folder, server.url, hints) as processes:
+            idle_redis_s = _idle(redis_process)
             making_s = jobs * _stand_in_s(dataset)
             before = processor_s(processes), processor_s([redis_process]), time.process_time()
             start_s = time.perf_counter()
@@ -81,7 +85,13 @@ def measure_jobs(workers: int, jobs: int, seed: int) -> JobCost:
         if not verdict.clean or verdict.images != jobs:
             raise VerificationError(f"{workers} workers: {verdict.images} of {jobs} images are as they should be")
     spent = [end - start for start, end in zip(before, after, strict=True)]
-    return JobCost(workers, jobs, wall_s, max(0.0, spent[0] - making_s), spent[1], spent[2])
+    return JobCost(workers, jobs, wall_s, max(0.0, spent[0] - making_s), spent[1], spent[2], idle_redis_s)
+
+
+def _idle(redis_process: int) -> float:
+    before_s = processor_s([redis_process])
+    time.sleep(_IDLE_S)
+    return (processor_s([redis_process]) - before_s) / _IDLE_S
 
 
 def _stand_in_s(dataset: Dataset, times: int = 200) -> float:

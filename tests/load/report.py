@@ -19,12 +19,22 @@ from matplotlib import pyplot as plt  # the backend must be chosen first
 def jobs_table(costs: Sequence[JobCost]) -> Table:
     """A row a number of workers."""
     table = Table(title="jobs through the queue, stand-in renderer", title_justify="left")
-    for name in ("workers", "jobs", "jobs/s", "CPU ms a job", "of it workers", "Redis", "coordinator"):
+    for name in (
+        "workers",
+        "jobs",
+        "jobs/s",
+        "CPU ms a job",
+        "of it workers",
+        "Redis",
+        "coordinator",
+        "idle: Redis ms/s",
+    ):
         table.add_column(name, justify="right")
     for cost in costs:
         parts = (cost.workers_s, cost.redis_s, cost.coordinator_s)
         shares = [f"{1000 * seconds / cost.jobs:.2f}" for seconds in parts]
-        table.add_row(str(cost.workers), str(cost.jobs), f"{cost.jobs_per_s:.0f}", f"{cost.cpu_ms:.2f}", *shares)
+        idle = f"{1000 * cost.idle_redis_s:.1f}"
+        table.add_row(str(cost.workers), str(cost.jobs), f"{cost.jobs_per_s:.0f}", f"{cost.cpu_ms:.2f}", *shares, idle)
     return table
 
 
