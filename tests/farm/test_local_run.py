@@ -4,9 +4,7 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
-from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,6 +17,7 @@ from farm.layout import FileRole, file_path
 from farm.local.run import LocalRun, run_locally
 from farm.progress import Progress
 from farm.verify import verify
+from tests.live_farm import processes_with, wait_for
 from tests.stand_in import stand_in_header
 
 pytestmark = pytest.mark.redis
@@ -46,24 +45,9 @@ def destination(tmp_path: Path) -> Destination:
     return Destination(str(tmp_path / "store"), "cables")
 
 
-def processes_with(text: str) -> dict[int, int]:
-    """Living processes, zombies aside, whose arguments hold a text: id to parent's id."""
-    found = {}
-    for folder in Path("/proc").iterdir():
-        # A process may end while it is looked at.
-        with suppress(OSError, ValueError):
-            arguments = (folder / "cmdline").read_bytes()
-            if text.encode() in arguments:
-                found[int(folder.name)] = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
-    return found
-
-
-def wait_for(condition: Callable[[], bool]) -> None:
-    """Wait until something is so; failing that is a failure of the test."""
-    give_up_s = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < give_up_s
-        time.sleep(0.05)
+def servers_of(parent: int) -> set[int]:
+    """The Redis servers that a process has started."""
+    return {process for process, started_by in processes_with("redis-server").items() if started_by == parent}
 
 
 def once(action: Callable[[], None], after: int) -> Callable[[Progress], None]:
@@ -140,6 +124,28 @@ def test_killed_process(destination: Destination, how: LocalRun, monkeypatch: py
 
     made = run_locally(destination, stand_in_header(far=10, close_distributed_light=4), how, once(kill, after=2))
     assert_whole(destination, made, how.logs)
+
+
+@pytest.mark.slow
+def test_killed_redis(destination: Destination, how: LocalRun, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """When the private Redis is killed amid a run, it comes back empty, and the run fills its quota, once each."""
+    monkeypatch.setenv("STAND_IN_DELAY_S", "0.2")
+    monkeypatch.setenv("STAND_IN_STARTS", str(tmp_path / "starts"))
+    others = servers_of(os.getpid())
+    killed: list[int] = []
+
+    def kill() -> None:
+        (server,) = servers_of(os.getpid()) - others
+        killed.append(server)
+        os.kill(server, signal.SIGKILL)
+
+    header = stand_in_header(far=10, close_distributed_light=4)
+    made = run_locally(destination, header, how, once(kill, after=3))
+    assert len(killed) == 1
+    assert made.done == made.quota == 14
+    assert verify(open_dataset(destination)).clean
+    assert len((tmp_path / "starts").read_text().splitlines()) <= 14 + how.workers  # what ran then may be begun twice
+    assert servers_of(os.getpid()) == others
 
 
 @pytest.mark.slow
@@ -243,11 +249,11 @@ def test_stopped_run_leaves_no_process(
     running: "subprocess.Popen[bytes]", how: LocalRun, destination: Destination, number: signal.Signals
 ) -> None:
     """However a run is stopped, its Redis and workers end with it, and the dataset can be completed."""
-    servers = [process for process, parent in processes_with("redis-server").items() if parent == running.pid]
+    servers = servers_of(running.pid)
     assert len(servers) == 1
     running.send_signal(number)
     running.wait(PATIENCE_S)
     wait_for(lambda: not processes_with(str(how.logs)))
-    wait_for(lambda: not (processes_with("redis-server").keys() & set(servers)))
+    wait_for(lambda: not (processes_with("redis-server").keys() & servers))
     made = run_locally(destination, open_dataset(destination).header, how)
     assert made.done == made.quota
