@@ -28,10 +28,6 @@ _DISK_MIB = 24
 _MIN_FREE_MIB = 1
 
 
-class NoMeansError(Exception):
-    """This machine lacks what a scenario needs; the text says what."""
-
-
 @dataclass(frozen=True, slots=True)
 class Plan:
     """How a farm is set up.
@@ -132,7 +128,7 @@ def farm_under_test(root: Path, plan: Plan) -> Iterator[FarmUnderTest]:
         plan: how it is set up.
 
     Raises:
-        NoMeansError: if this machine lacks what it needs.
+        OSError: if this machine lacks what it needs; see `tests.chaos.means`.
     """
     (root / "store").mkdir(parents=True)
     with ExitStack() as stack:
@@ -147,7 +143,7 @@ def farm_under_test(root: Path, plan: Plan) -> Iterator[FarmUnderTest]:
         if plan.with_disk:
             disk = stack.enter_context(small_disk(farm.store, _DISK_MIB))
             if isinstance(disk, str):
-                raise NoMeansError(disk)
+                raise OSError(disk)
             farm.disk = disk
         farm.dataset = create_dataset(Destination(str(farm.store), plan.dataset), plan.header)
         quotas = plan.header.spec.quotas
@@ -164,5 +160,5 @@ def farm_under_test(root: Path, plan: Plan) -> Iterator[FarmUnderTest]:
 def _clock(root: Path) -> WrongClock:
     library = find_faketime()
     if library is None:
-        raise NoMeansError("setting clocks wrong needs Debian's package libfaketime")
+        raise OSError("libfaketime is not installed")
     return WrongClock(library, root / "clock")

@@ -10,8 +10,6 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import redis
-
 from farm.errors import IncompleteError
 from farm.job import Job
 from farm.layout import FileRole, file_path, manifest_path
@@ -67,7 +65,11 @@ def judge(farm: FarmUnderTest, claims: Claims) -> Judgement:
 
     Every finding is one sentence.
     """
-    findings = list(_drain(farm))
+    findings = []
+    if not farm.redis.runs:
+        findings.append("Redis ended by itself")
+        farm.redis.start()
+    findings += _drain(farm)
     notes = []
     status = _status(farm)
     left = unacknowledged(farm.redis.client)
@@ -106,20 +108,13 @@ def _drain(farm: FarmUnderTest) -> Iterator[str]:
     give_up_s = time.monotonic() + _DRAIN_S
     while True:
         farm.supervise()
-        left = {key: len(found) for key, found in _waiting(farm).items()}
+        left = {key: len(found) for key, found in waiting(farm.redis.client).items()}
         if not left:
             return
         if time.monotonic() > give_up_s:
             yield f"messages are left in the queue: {left}"
             return
         time.sleep(0.1)
-
-
-def _waiting(farm: FarmUnderTest) -> Mapping[str, list[str]]:
-    try:
-        return waiting(farm.redis.client)
-    except redis.RedisError as error:
-        return {f"Redis is not there: {error}": []}
 
 
 def _status(farm: FarmUnderTest) -> Mapping[str, Any]:

@@ -10,7 +10,7 @@ from pathlib import Path
 import redis
 
 from farm.completion import Completion
-from tests.chaos.farm_under_test import FarmUnderTest, NoMeansError, Plan, farm_under_test
+from tests.chaos.farm_under_test import FarmUnderTest, Plan, farm_under_test
 from tests.chaos.faults import NotNowError, Undo, strike
 from tests.chaos.judge import Claims, Judgement, judge, starts
 from tests.chaos.messages import remember
@@ -74,7 +74,9 @@ class _Course:
     undo: list[tuple[float, Undo]] = field(default_factory=list)
 
 
-def play(plan: Plan, claims: Claims, events: Sequence[Event], folder: Path, patience_s: float) -> Outcome:
+def play(
+    plan: Plan, claims: Claims, events: Sequence[Event], folder: Path, patience_s: float, *, keep: bool = False
+) -> Outcome:
     """Play a scenario.
 
     Args:
@@ -83,28 +85,22 @@ def play(plan: Plan, claims: Claims, events: Sequence[Event], folder: Path, pati
         events: the faults, by the time at which they strike.
         folder: takes everything in a folder of the dataset's name, which remains if something did not hold.
         patience_s: how long all of it may take.
+        keep: leave the folder in any case.
     """
     root = folder / plan.dataset
-    jobs = plan.header.spec.total
-    try:
-        with farm_under_test(root, plan) as farm:
-            course = _Course(list(events))
-            in_time = _run(farm, course, patience_s)
-            seconds = time.monotonic() - course.start_s
-            findings = [] if in_time else [_unfinished(farm, course, patience_s)]
-            if course.waiting and in_time:
-                findings.append(
-                    f"it was over before these struck: {', '.join(event.fault for event in course.waiting)}"
-                )
-            verdict = judge(farm, claims)
-            findings += verdict.findings
-            if findings and farm.disk is not None:
-                shutil.copytree(farm.store, root / "store-kept")  # the disk goes with the farm
-    except NoMeansError as error:
-        shutil.rmtree(root)
-        return Outcome(plan.dataset, jobs, (), skipped=str(error))
+    with farm_under_test(root, plan) as farm:
+        course = _Course(list(events))
+        in_time = _run(farm, course, patience_s)
+        seconds = time.monotonic() - course.start_s
+        findings = [] if in_time else [_unfinished(farm, course, patience_s)]
+        if course.waiting and in_time:
+            findings.append(f"it was over before these struck: {', '.join(event.fault for event in course.waiting)}")
+        verdict = judge(farm, claims)
+        findings += verdict.findings
+        if findings and farm.disk is not None:
+            shutil.copytree(farm.store, root / "store-kept")  # the disk goes with the farm
     outcome = _outcome(farm, course, verdict, tuple(findings), seconds)
-    if outcome.held and plan.dataset != "blender-calm":
+    if outcome.held and not keep:
         shutil.rmtree(root)
     return outcome
 

@@ -66,11 +66,12 @@ def _again(outcome: Outcome) -> int:
 
 
 def remarks(outcomes: Sequence[Outcome]) -> list[str]:
-    """What did not hold and where its logs lie, what was skipped and why."""
+    """What did not hold and where its logs lie, what was skipped and why, and what else is worth knowing."""
     lines = []
     for outcome in outcomes:
         if outcome.skipped is not None:
             lines.append(f"{outcome.scenario}: skipped: {escape(outcome.skipped)}")
+        lines += [f"{outcome.scenario}: {escape(note)}" for note in outcome.notes]
         lines += [f"{outcome.scenario}: [red]{escape(finding)}[/]" for finding in outcome.findings]
         if outcome.left is not None:
             lines.append(f"{outcome.scenario}: its files and logs are in {outcome.left}")

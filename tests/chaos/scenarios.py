@@ -1,8 +1,8 @@
 """The scenarios: each a dataset of its own, and what strikes while it is made."""
 
 import sys
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from farm.quotas import split_total
@@ -51,7 +51,6 @@ class Scenario:
     with_clock: bool = False
     with_disk: bool = False
     patience_s: float = 120.0
-    environment: Mapping[str, str] = field(default_factory=dict)
 
     def for_stand_ins(self, seed: int) -> tuple[Plan, Claims]:
         """The farm with stand-in workers, and what must come of it."""

@@ -1,0 +1,42 @@
+"""What this machine lacks for some faults; a scenario is played without them, or not at all if nothing is left."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from tests.chaos.clock import find_faketime
+from tests.chaos.disk import small_disk
+from tests.chaos.scenarios import Scenario
+from tests.chaos.schedule import Fault
+
+
+def lacking() -> Mapping[Fault, str]:
+    """The faults that this machine has no means for, and why."""
+    found = {}
+    if find_faketime() is None:
+        found[Fault.JUMP_CLOCK] = "setting clocks wrong needs Debian's package libfaketime"
+    with TemporaryDirectory() as folder, small_disk(Path(folder), 1) as disk:
+        if isinstance(disk, str):
+            found[Fault.FILL_DISK] = disk
+    return found
+
+
+def within_means(scenario: Scenario, lacks: Mapping[Fault, str]) -> tuple[Scenario | None, tuple[str, ...]]:
+    """The scenario without the faults that can't be done here.
+
+    Returns:
+        The scenario, None if nothing is left of it; and what was left out, and why.
+    """
+    left_out = [recipe.fault for recipe in scenario.recipes if recipe.fault in lacks]
+    if not left_out:
+        return scenario, ()
+    reasons = tuple(f"without '{fault}': {lacks[fault]}" for fault in dict.fromkeys(left_out))
+    recipes = [recipe for recipe in scenario.recipes if recipe.fault not in lacks]
+    if not recipes:
+        return None, reasons
+    faults = {recipe.fault for recipe in recipes}
+    reduced = replace(
+        scenario, recipes=recipes, with_clock=Fault.JUMP_CLOCK in faults, with_disk=Fault.FILL_DISK in faults
+    )
+    return reduced, reasons
