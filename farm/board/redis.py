@@ -1,14 +1,13 @@
 """The board in Redis. What is not written by this version of the farm is passed over."""
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from typing import cast
 
 import redis
 from pydantic import ValidationError
 
 from farm.board.port import SEEN_S, Run, WorkerReport
-from farm.errors import BrokerError
+from farm.queue.broker import as_broker_error
 
 _RUNS = "farm:runs"
 _WORKERS = "farm:workers"
@@ -24,14 +23,6 @@ _REPORT = (
 )
 
 
-@contextmanager
-def _as_broker_error() -> Iterator[None]:
-    try:
-        yield
-    except redis.RedisError as error:
-        raise BrokerError(f"Redis refused or went away: {error}") from error
-
-
 class RedisBoard:
     """Implements `farm.board.port.Board`.
 
@@ -45,7 +36,7 @@ class RedisBoard:
 
     def register(self, run: Run) -> Run:
         """See `Board.register`."""
-        with _as_broker_error():
+        with as_broker_error():
             new = self._client.hsetnx(_RUNS, run.key, run.model_dump_json())
             self._client.expire(_RUNS, _KEEP_S)
             if new:
@@ -57,36 +48,36 @@ class RedisBoard:
 
     def replace(self, run: Run) -> None:
         """See `Board.replace`."""
-        with _as_broker_error():
+        with as_broker_error():
             self._client.hset(_RUNS, run.key, run.model_dump_json())
             self._client.expire(_RUNS, _KEEP_S)
 
     def remove(self, key: str) -> None:
         """See `Board.remove`."""
-        with _as_broker_error():
+        with as_broker_error():
             self._client.hdel(_RUNS, key)
 
     def runs(self) -> Mapping[str, Run]:
         """See `Board.runs`."""
-        with _as_broker_error():
+        with as_broker_error():
             found = cast(dict[str, str], self._client.hgetall(_RUNS))
         runs = {key: _read_run(key, text) for key, text in found.items()}
         return {key: run for key, run in runs.items() if run is not None}
 
     def report(self, report: WorkerReport) -> None:
         """See `Board.report`."""
-        with _as_broker_error():
+        with as_broker_error():
             self._report(keys=[_WORKERS, _SEEN], args=[report.name, report.model_dump_json(), SEEN_S])
 
     def sign_off(self, name: str) -> None:
         """See `Board.sign_off`."""
-        with _as_broker_error():
+        with as_broker_error():
             self._client.hdel(_WORKERS, name)
             self._client.zrem(_SEEN, name)
 
     def workers(self) -> tuple[WorkerReport, ...]:
         """See `Board.workers`."""
-        with _as_broker_error():
+        with as_broker_error():
             seconds, _ = self._client.time()
             names = cast(list[str], self._client.zrangebyscore(_SEEN, seconds - SEEN_S, "+inf"))
             texts = cast(list[str | None], self._client.hmget(_WORKERS, sorted(names))) if names else []

@@ -1,14 +1,13 @@
 """The ledger in Redis, shared by all workers and coordinators. Times are the Redis server's own."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping
 from typing import cast
 
 import redis
 
-from farm.errors import BrokerError
 from farm.job import queue_key
 from farm.ledger.port import CLAIM_S, RECENT_COMPLETIONS, RETRY_OWNER, Activity, images_per_hour
+from farm.queue.broker import as_broker_error
 
 KEEP_S = 30 * 24 * 3600
 """What nobody has written to for so long is forgotten, so that a shared Redis does not fill up."""
@@ -62,14 +61,6 @@ _LEAD = (
 _RESIGN = "if redis.call('GET', KEYS[1]) == ARGV[1] then redis.call('DEL', KEYS[1]) end return 1"
 
 
-@contextmanager
-def _as_broker_error() -> Iterator[None]:
-    try:
-        yield
-    except redis.RedisError as error:
-        raise BrokerError(f"Redis refused or went away: {error}") from error
-
-
 class RedisLedger:
     """Implements `farm.ledger.port.Ledger`.
 
@@ -103,27 +94,27 @@ class RedisLedger:
 
     def claim(self, job_id: str, owner: str, ttl_s: float = CLAIM_S) -> int | None:
         """See `Ledger.claim`."""
-        with _as_broker_error():
+        with as_broker_error():
             return cast(int | None, self._claim(keys=self._claim_keys, args=[job_id, owner, ttl_s]))
 
     def refresh(self, job_id: str, owner: str, ttl_s: float = CLAIM_S) -> bool:
         """See `Ledger.refresh`."""
-        with _as_broker_error():
+        with as_broker_error():
             return bool(self._refresh(keys=self._claim_keys, args=[job_id, owner, ttl_s]))
 
     def release(self, job_id: str, owner: str) -> None:
         """See `Ledger.release`."""
-        with _as_broker_error():
+        with as_broker_error():
             self._release(keys=self._claim_keys, args=[job_id, owner, 0])
 
     def give_back(self, job_id: str, owner: str) -> None:
         """See `Ledger.give_back`."""
-        with _as_broker_error():
+        with as_broker_error():
             self._release(keys=self._claim_keys, args=[job_id, owner, 1])
 
     def count_trouble(self, job_id: str) -> int:
         """See `Ledger.count_trouble`."""
-        with _as_broker_error():
+        with as_broker_error():
             pipe = self._client.pipeline(transaction=True)
             pipe.hincrby(self._key("troubles"), job_id, 1)
             pipe.expire(self._key("troubles"), KEEP_S)
@@ -131,7 +122,7 @@ class RedisLedger:
 
     def count_absence(self) -> int:
         """See `Ledger.count_absence`."""
-        with _as_broker_error():
+        with as_broker_error():
             pipe = self._client.pipeline(transaction=True)
             pipe.incr(self._key("absences"))
             pipe.expire(self._key("absences"), KEEP_S)
@@ -139,12 +130,12 @@ class RedisLedger:
 
     def postpone(self, job_id: str, owner: str, delay_s: float) -> None:
         """See `Ledger.postpone`."""
-        with _as_broker_error():
+        with as_broker_error():
             self._postpone(keys=self._claim_keys, args=[job_id, owner, delay_s])
 
     def claims(self) -> Mapping[str, str]:
         """See `Ledger.claims`."""
-        with _as_broker_error():
+        with as_broker_error():
             now = self._now()
             until = f"({now + _LONGEST_HOLD_S:.6f}"
             live = cast(list[str], self._client.zrangebyscore(self._key("claims"), f"({now:.6f}", until))
@@ -156,17 +147,17 @@ class RedisLedger:
     def finish(self, job_id: str, owner: str, picture: str) -> bool:
         """See `Ledger.finish`."""
         more = [self._key(name) for name in ("troubles", "logs", "absences", "finished", "last")]
-        with _as_broker_error():
+        with as_broker_error():
             return bool(self._finish(keys=[*self._claim_keys, *more], args=[job_id, owner, picture]))
 
     def absences(self) -> int:
         """See `Ledger.absences`."""
-        with _as_broker_error():
+        with as_broker_error():
             return int(cast(str | None, self._client.get(self._key("absences"))) or 0)
 
     def keep_log(self, job_id: str, text: str) -> None:
         """See `Ledger.keep_log`."""
-        with _as_broker_error():
+        with as_broker_error():
             pipe = self._client.pipeline(transaction=True)
             pipe.hset(self._key("logs"), job_id, text)
             pipe.expire(self._key("logs"), KEEP_S)
@@ -174,13 +165,13 @@ class RedisLedger:
 
     def log_of(self, job_id: str) -> str:
         """See `Ledger.log_of`."""
-        with _as_broker_error():
+        with as_broker_error():
             return cast(str | None, self._client.hget(self._key("logs"), job_id)) or ""
 
     def forgive(self, job_ids: Iterable[str]) -> None:
         """See `Ledger.forgive`."""
         forgiven = list(job_ids)
-        with _as_broker_error():
+        with as_broker_error():
             pipe = self._client.pipeline(transaction=True)
             if forgiven:
                 for name in ("starts", "troubles", "logs"):
@@ -190,22 +181,22 @@ class RedisLedger:
 
     def lead(self, owner: str, ttl_s: float) -> bool:
         """See `Ledger.lead`."""
-        with _as_broker_error():
+        with as_broker_error():
             return bool(self._lead(keys=[self._key("leader")], args=[owner, max(1, round(ttl_s * 1000))]))
 
     def leader(self) -> str | None:
         """See `Ledger.leader`."""
-        with _as_broker_error():
+        with as_broker_error():
             return cast(str | None, self._client.get(self._key("leader")))
 
     def resign(self, owner: str) -> None:
         """See `Ledger.resign`."""
-        with _as_broker_error():
+        with as_broker_error():
             self._resign(keys=[self._key("leader")], args=[owner])
 
     def add_figures(self, figures: Mapping[str, float]) -> None:
         """See `Ledger.add_figures`."""
-        with _as_broker_error():
+        with as_broker_error():
             pipe = self._client.pipeline(transaction=True)
             for name, value in figures.items():
                 pipe.hincrbyfloat(self._key("figures"), name, value)
@@ -214,13 +205,13 @@ class RedisLedger:
 
     def figures(self) -> Mapping[str, float]:
         """See `Ledger.figures`."""
-        with _as_broker_error():
+        with as_broker_error():
             found = cast(dict[str, str], self._client.hgetall(self._key("figures")))
         return {name: float(value) for name, value in found.items()}
 
     def activity(self) -> Activity:
         """See `Ledger.activity`."""
-        with _as_broker_error():
+        with as_broker_error():
             finished = cast(list[str], self._client.lrange(self._key("finished"), 0, -1))
             last = cast(str | None, self._client.get(self._key("last")))
             now = self._now()

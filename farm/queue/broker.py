@@ -2,6 +2,8 @@
 
 import os
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import parse_qsl
 
@@ -115,6 +117,19 @@ def connect(url: str) -> "redis.Redis":
             f"no Redis at {masked(url)}: {_one_line(error)}; start one, or name it with --broker or {BROKER_VARIABLE}"
         ) from error
     return client
+
+
+@contextmanager
+def as_broker_error() -> Iterator[None]:
+    """Tell what a client raises inside `with` as the farm's own error.
+
+    Raises:
+        BrokerError: if Redis refuses, or went away.
+    """
+    try:
+        yield
+    except redis.RedisError as error:
+        raise BrokerError(f"Redis refused or went away: {error}") from error
 
 
 def wait_for(url: str, patience_s: float) -> None:

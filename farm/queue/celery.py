@@ -10,6 +10,7 @@ from kombu.exceptions import BatchPublishError, OperationalError
 from farm.board.port import PRIORITY_STEPS, Run
 from farm.errors import BrokerError, MessageError
 from farm.job import Job, JobMessage
+from farm.queue.broker import as_broker_error
 from farm.queue.settings import TASK_NAME, queue_name
 
 _PAGE = 500
@@ -57,17 +58,15 @@ class CeleryQueue:
 
     def length(self, run: Run) -> int:
         """See `JobQueue.length`."""
-        try:
+        with as_broker_error():
             pipe = self._client.pipeline(transaction=False)
             for name in _lists(run):
                 pipe.llen(name)
             return sum(pipe.execute())
-        except redis.RedisError as error:
-            raise BrokerError(f"can't look at the queue: {error}") from error
 
     def queued(self, run: Run) -> Iterator[Job]:
         """See `JobQueue.queued`. Messages enter on the left, so reading from there misses none that stays."""
-        try:
+        with as_broker_error():
             for name in _lists(run):
                 start = 0
                 while page := cast(list[str], self._client.lrange(name, start, start + _PAGE - 1)):
@@ -75,16 +74,12 @@ class CeleryQueue:
                         if key == run.key and job is not None:
                             yield job
                     start += _PAGE
-        except redis.RedisError as error:
-            raise BrokerError(f"can't look at the queue: {error}") from error
 
     def clear(self, run: Run) -> int:
         """See `JobQueue.clear`."""
         count = self.length(run)
-        try:
+        with as_broker_error():
             self._client.delete(*_lists(run))
-        except redis.RedisError as error:
-            raise BrokerError(f"can't empty the queue: {error}") from error
         return count
 
 

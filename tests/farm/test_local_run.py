@@ -164,7 +164,7 @@ def test_killed_worker_of_a_bucket(bucket: str, how: LocalRun, monkeypatch: pyte
     made = run_locally(destination, stand_in_header(far=8), how, once(kill, after=2))
     dataset = assert_whole(destination, made, how.logs)
     assert len(dataset.storage.files("far/manifests")) == 8
-    assert not any(os.environ["AWS_SECRET_ACCESS_KEY"] in log.read_text() for log in how.logs.iterdir())
+    assert not any(os.environ["AWS_SECRET_ACCESS_KEY"] in log.read_text() for log in how.logs.rglob("*.log"))
     assert processes_with(str(how.logs)) == {}
 
 

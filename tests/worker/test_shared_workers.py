@@ -1,5 +1,6 @@
 """Runs that share two real workers."""
 
+import os
 import sys
 import time
 from collections.abc import Iterator
@@ -146,13 +147,16 @@ def test_retry(farm: LiveFarm, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_repair_with_checksums(farm: LiveFarm, capsys: pytest.CaptureFixture[str]) -> None:
-    """An image with one other bit, which only its checksum tells, is made again by `farm repair --checksums`."""
+    """An image that rotted, as only its checksum tells, is made again by `farm repair --checksums`."""
     dataset = made(farm, "repaired")
     path = file_path(Job.from_id("far-000002"), FileRole.IMAGE)
     whole = dataset.storage.read(path)
     altered = bytearray(whole)
     altered[-20] ^= 1
-    dataset.storage.write(path, bytes(altered))
+    file = Path(dataset.storage.location) / path
+    times = file.stat()
+    file.write_bytes(altered)
+    os.utime(file, ns=(times.st_atime_ns, times.st_mtime_ns))
     repair(dataset.storage.location, broker=farm.url)
     assert "0 of 4 images queued" in capsys.readouterr().out
     repair(dataset.storage.location, broker=farm.url, checksums=True)

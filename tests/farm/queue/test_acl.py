@@ -62,7 +62,7 @@ def refusals(guarded: Guarded) -> list[tuple[str, str]]:
 def test_a_farm_works_under_the_list(
     guarded: Guarded, dataset: Dataset, worker_command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Two workers, a job that is tried again, a look by remote control: nothing is refused on the way."""
+    """A worker, a job that is tried again, a look by remote control: nothing is refused on the way."""
     monkeypatch.setenv("STAND_IN_FAILS", "far-000001=once")
     client = connect(guarded.url)
     app = make_app(guarded.url)
@@ -76,9 +76,9 @@ def test_a_farm_works_under_the_list(
         assets=None,
         logs=tmp_path / "logs",
     )
-    with LocalWorkers(2, options, worker_command) as workers:
+    with LocalWorkers(1, options, worker_command) as workers:
         assert coordinator.watch(supervise=workers.supervise).done == 4
-        assert len(app.control.inspect(timeout=3).ping()) == 2
+        assert len(app.control.inspect(timeout=3).ping()) == 1
     assert refusals(guarded) == []
 
 
