@@ -1,5 +1,6 @@
 """Runs that share two real workers."""
 
+import os
 import sys
 import time
 from collections.abc import Iterator
@@ -63,20 +64,18 @@ def test_two_runs_take_turns(farm: LiveFarm) -> None:
 
 def test_urgent_run_goes_first(farm: LiveFarm) -> None:
     """A run of high priority that comes later is made whole while the other waits, but for what was taken before."""
-    normal, urgent = farm.dataset("normal", far=200), farm.dataset("urgent", far_aligned=8)
+    normal, urgent = farm.dataset("normal", far=300), farm.dataset("urgent", far_aligned=20)
     since = len(farm.starts())
     normal_hints = farm.submit(normal)
     wait_until_done(normal, 3)
     farm.submit(urgent, Priority.HIGH)
     wait_until_done(urgent)
     farm.cancel(normal_hints)
-    starts = farm.starts(since)
-    of_urgent = [number for number, job_id in enumerate(starts) if job_id.startswith("far_aligned")]
-    assert len(of_urgent) == 8
-    # Each worker has taken one message before, and may join a queue a second after the other.
-    between = of_urgent[-1] - of_urgent[0] + 1 - 8
-    assert between <= 30
-    assert done(normal) < 200
+    for starts in farm.by_renderer(since).values():
+        places = [number for number, job_id in enumerate(starts) if job_id.startswith("far_aligned")]
+        # One message may have been taken before.
+        assert not places or places[-1] - places[0] + 1 - len(places) <= 2
+    assert done(normal) < 300
 
 
 def test_pause_and_resume(farm: LiveFarm) -> None:
@@ -146,13 +145,14 @@ def test_retry(farm: LiveFarm, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_repair_with_checksums(farm: LiveFarm, capsys: pytest.CaptureFixture[str]) -> None:
-    """An image with one other bit, which only its checksum tells, is made again by `farm repair --checksums`."""
+    """An image that lost a bit on the disk, unnoticed, is made again by `farm repair --checksums`."""
     dataset = made(farm, "repaired")
     path = file_path(Job.from_id("far-000002"), FileRole.IMAGE)
     whole = dataset.storage.read(path)
     altered = bytearray(whole)
     altered[-20] ^= 1
     dataset.storage.write(path, bytes(altered))
+    os.utime(Path(dataset.storage.location) / path, (1, 1))  # the disk does not tell of a change
     repair(dataset.storage.location, broker=farm.url)
     assert "0 of 4 images queued" in capsys.readouterr().out
     repair(dataset.storage.location, broker=farm.url, checksums=True)
