@@ -4,7 +4,7 @@ import os
 import signal
 import subprocess
 import time
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -122,9 +122,13 @@ class LiveFarm:
         """Every start of a job so far, in order, but for the first ones."""
         return [line.split()[0] for line in self._lines()[since:]]
 
-    def renderers(self) -> set[str]:
-        """The processes that have begun jobs."""
-        return {line.split()[1] for line in self._lines()}
+    def by_renderer(self, since: int = 0) -> dict[str, list[str]]:
+        """The same by the process that has begun them."""
+        found: dict[str, list[str]] = defaultdict(list)
+        for line in self._lines()[since:]:
+            job_id, process = line.split()
+            found[process].append(job_id)
+        return found
 
     def _lines(self) -> list[str]:
         return self._journal.read_text().splitlines() if self._journal.exists() else []

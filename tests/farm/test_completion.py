@@ -92,6 +92,21 @@ def test_audit_finds_a_longer_file(made: Dataset) -> None:
     assert ids(Completion(made).audit()) == OTHERS
 
 
+@pytest.mark.parametrize("role", FileRole)
+def test_audit_reads_what_changed(made: Dataset, role: FileRole) -> None:
+    """A picture that was changed after its manifest, in a bit, is found by an audit; one that is the same is not."""
+    completion = Completion(made)
+    later_s = time.time() + 60
+    same, other = file_path(Job.from_id("far-000000"), role), file_path(JOB, role)
+    content = bytearray(made.storage.read(other))
+    content[-20] ^= 1
+    made.storage.write(other, bytes(content))
+    for path in (same, other):
+        os.utime(path_of(made, path), (later_s, later_s))
+    for _ in range(2):
+        assert ids(completion.audit()) == OTHERS
+
+
 def test_damaged_job_that_was_made_again(made: Dataset) -> None:
     """A look sees that a job that was damaged has been made again, with pictures of other sizes even."""
     completion = Completion(made)

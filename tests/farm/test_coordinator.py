@@ -301,10 +301,11 @@ def test_two_coordinators_do_not_double(large: Dataset, monkeypatch: pytest.Monk
     """Of two machines that watch one dataset, one queues and the other looks on, even where messages get lost."""
     bench = Bench(large, window=10, lost_after_s=NEVER_S)
     other = Coordinator(large, bench.hints, poll_s=0.0, lost_after_s=0.0, window=50)
-    longest = 0
+    longest, steps = 0, itertools.count()
 
     def work() -> None:
         nonlocal longest
+        assert next(steps) < 1000  # each would survey for ever if both led
         with monkeypatch.context() as patch:
             patch.setattr(farm.coordinator, "this_process", lambda: "elsewhere:1")
             looks(other, 1)

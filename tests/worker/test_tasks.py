@@ -65,7 +65,10 @@ def worker(
     )
     yield process
     process.terminate()
-    process.wait(PATIENCE_S)
+    try:
+        process.wait(PATIENCE_S)
+    finally:
+        process.kill()  # its renderer ends with it
 
 
 def wait_until_done(dataset: Dataset, count: int) -> None:

@@ -171,10 +171,18 @@ def test_worker_that_was_stopped_and_not_missed(dataset: Dataset, made: MadeImag
 def test_stop_between_check_and_write(dataset: Dataset, made: MadeImage, path: str) -> None:
     """A late write among another machine's files, whose bytes differ, leaves no job that seems done and is mixed."""
     other = Elsewhere(dataset, seed=5)
-    storage = StoppedStorage(Path(dataset.storage.location), path, other.take_over)
+    theirs: dict[str, bytes] = {}
+
+    def take_over() -> None:
+        other.take_over()
+        theirs.update({each: dataset.storage.read(each) for each in ALL_PATHS})
+
+    storage = StoppedStorage(Path(dataset.storage.location), path, take_over)
     with pytest.raises(ClaimLostError):
         upload(made, JOB, replace(dataset, storage=storage), other.claim)
     assert manifest_path(JOB) not in dataset.storage.files()
+    for each in set(ALL_PATHS) - {path, manifest_path(JOB)}:
+        assert dataset.storage.read(each) == theirs[each]
     upload(made, JOB, dataset)
     assert is_done(dataset, JOB)
 
@@ -204,6 +212,17 @@ def test_stop_before_a_redis_that_is_away(dataset: Dataset, made: MadeImage, mon
     with pytest.raises(BrokerError):
         upload(made, JOB, replace(dataset, storage=storage), other.claim)
     assert manifest_path(JOB) not in dataset.storage.files()
+
+
+def test_claim_that_another_got_early(dataset: Dataset, made: MadeImage) -> None:
+    """A claim that is another's though its time is not over, as after the loss of Redis, is noticed before a write."""
+    other = Elsewhere(dataset, seed=5)
+    other.ledger.release(JOB.id, "here:1")
+    other.ledger.claim(JOB.id, "elsewhere:1", 60.0)
+    before = dataset.storage.files()
+    with pytest.raises(ClaimLostError):
+        upload(made, JOB, dataset, other.claim)
+    assert dataset.storage.files() == before
 
 
 def test_claim_that_is_held_writes(dataset: Dataset, made: MadeImage) -> None:

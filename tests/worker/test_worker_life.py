@@ -115,7 +115,7 @@ def test_replaced_renderers_lose_no_job(farm: LiveFarm) -> None:
     farm.start("w", "--tasks-per-child", "3")
     wait_until_done(dataset)
     assert is_once_each(farm.starts(), dataset)
-    assert len(farm.renderers()) == 3
+    assert len(farm.by_renderer()) == 3
 
 
 @pytest.mark.slow
