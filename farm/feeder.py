@@ -37,8 +37,7 @@ class Feeder:
         self._window = window
         self._lost_after_s = lost_after_s
         self._on_the_way = self._none()
-        self._suspected = self._none()
-        self._suspected_since_s = 0.0
+        self._suspected_s: dict[Job, float] = {}
 
     def _none(self) -> JobSet:
         return JobSet(self._dataset.header.spec.quotas)
@@ -51,7 +50,7 @@ class Feeder:
         """
         # The queue is looked at before the claims: a job moves from there to here, never back.
         self._on_the_way = self._waiting() | self._claimed()
-        self._suspected = self._none()
+        self._suspected_s = {}
 
     def _waiting(self) -> JobSet:
         found = self._none()
@@ -105,13 +104,11 @@ class Feeder:
         Raises:
             BrokerError: if Redis can't be read.
         """
-        lost = self._lost(undone)
-        self._suspected = self._suspected & lost
-        if not len(self._suspected):
-            self._suspected, self._suspected_since_s = lost, time.monotonic()
-        if len(self._suspected) and time.monotonic() - self._suspected_since_s >= self._lost_after_s:
-            self._on_the_way = self._on_the_way - self._suspected
-            self._suspected = self._none()
+        now_s = time.monotonic()
+        self._suspected_s = {job: self._suspected_s.get(job, now_s) for job in self._lost(undone)}
+        for job, since_s in self._suspected_s.items():
+            if now_s - since_s >= self._lost_after_s:
+                self._on_the_way.discard(job)
 
     def _lost(self, undone: JobSet) -> JobSet:
         outstanding = undone & self._on_the_way

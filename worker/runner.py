@@ -134,7 +134,7 @@ class JobRunner:
             return f"{message.task_id} is done already"
         if start > MAX_STARTS:
             reason = f"its process died, or met the time limit, in each of {MAX_STARTS} attempts"
-            self._give_up(message, dataset, ledger, reason)
+            self._give_up(message, dataset, ledger, reason, MAX_STARTS)
             raise PermanentError(f"{message.task_id}: {reason}")
         try:
             manifest = self._make_and_upload(message, dataset, ledger)
@@ -145,7 +145,7 @@ class JobRunner:
             raise self._postponed(message, dataset, ledger, error) from error
         except PermanentError as error:
             self._count_failure(job.id, error)
-            self._give_up(message, dataset, ledger, str(error))
+            self._give_up(message, dataset, ledger, str(error), start)
             raise
         self._failed.clear()
         return _note_done(message, manifest, ledger)
@@ -177,7 +177,7 @@ class JobRunner:
         ledger.add_figures({"retries": 1})
         if troubles >= MAX_TRIES:
             reason = f"{error} (tried {troubles} times)"
-            self._give_up(message, dataset, ledger, reason)
+            self._give_up(message, dataset, ledger, reason, troubles)
             return PermanentError(f"{message.task_id}: {reason}")
         delay_s = BACKOFF_S[troubles - 1] * (1.0 + 0.5 * _jitter(dataset, message.job, troubles))
         # The claim stays, free for the taking, so that a coordinator knows the job is on its way.
@@ -190,13 +190,13 @@ class JobRunner:
             told = "; ".join(f"{failed}: {why}" for failed, why in self._failed.items())
             raise UnfitWorkerError(f"{len(self._failed)} jobs failed here in a row: {told}", error.exit_code) from error
 
-    def _give_up(self, message: JobMessage, dataset: Dataset, ledger: Ledger, reason: str) -> None:
+    def _give_up(self, message: JobMessage, dataset: Dataset, ledger: Ledger, reason: str, attempts: int) -> None:
         printed = "" if self._logs is None else self._logs.tail(message)
         put_in_quarantine(
             dataset,
             message.job,
             reason,
-            attempts=MAX_TRIES,
+            attempts=attempts,
             worker=this_process(),
             log=printed or ledger.log_of(message.job_id),
         )

@@ -52,7 +52,7 @@ class Ledger(Protocol):
         ...
 
     def release(self, job_id: str, owner: str) -> None:
-        """Give a claim up, if it is the owner's."""
+        """Give a claim up, if it is the owner's or was the last to be; a clock that is set back does not revive it."""
         ...
 
     def give_back(self, job_id: str, owner: str) -> None:

@@ -39,8 +39,9 @@ _POSTPONE = (
     _NOW + _OWNER + _HOLD + f"if owner ~= ARGV[2] then return 0 end hold('{RETRY_OWNER}', ARGV[3]) "
     "redis.call('HINCRBY', KEYS[3], ARGV[1], -1) return 1"
 )
+# Lapsed or not: a clock that is set back would bring it to life again.
 _RELEASE = (
-    _NOW + _OWNER + "if owner ~= ARGV[2] then return 0 end "
+    "if redis.call('HGET', KEYS[2], ARGV[1]) ~= ARGV[2] then return 0 end "
     "redis.call('ZREM', KEYS[1], ARGV[1]) redis.call('HDEL', KEYS[2], ARGV[1]) "
     "if ARGV[3] == '1' then redis.call('HINCRBY', KEYS[3], ARGV[1], -1) end return 1"
 )

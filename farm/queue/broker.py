@@ -105,7 +105,12 @@ def connect(url: str) -> "redis.Redis":
         first.ping()
         first.close()
         client = redis.Redis.from_url(
-            address, decode_responses=True, socket_connect_timeout=_CONNECT_S, socket_timeout=_ANSWER_S
+            address,
+            decode_responses=True,
+            socket_connect_timeout=_CONNECT_S,
+            socket_timeout=_ANSWER_S,
+            # Once more, as a connection may have been lost since it was last used; who calls knows how to wait.
+            retry=Retry(NoBackoff(), 1),
         )
     except ValueError:
         # The parser's own words may quote a part of the password.

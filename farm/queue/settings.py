@@ -50,6 +50,8 @@ def make_app(broker_url: str) -> Any:
         broker_transport_options={
             "visibility_timeout": VISIBILITY_S,
             "socket_connect_timeout": 5,
+            # A Redis that no longer answers must not keep a worker from ending; it answers a waiting one every second.
+            "socket_timeout": 10,
             # A worker takes from its queues in turn, all those of one priority before any of the next.
             "priority_steps": PRIORITY_STEPS,
             "queue_order_strategy": "round_robin",

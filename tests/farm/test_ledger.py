@@ -279,3 +279,21 @@ def test_claim_of_an_ended_process_is_released() -> None:
     ledger.claim("far-000002", this_process())
     assert live_claims(ledger) == {"far-000002": this_process()}
     assert ledger.claims() == {"far-000002": this_process()}
+
+
+def test_lapsed_claim_can_be_given_back(ledger: Ledger) -> None:
+    """Its owner may take it away for good, and the start with it."""
+    ledger.claim("far-000001", "a:1", ttl_s=0.0)
+    ledger.give_back("far-000001", "a:1")
+    assert ledger.claim("far-000001", "b:1") == 1
+
+
+def test_released_claim_stays_released_when_the_clock_goes_back() -> None:
+    """What was given up after it had lapsed is nobody's, whatever time it is."""
+    now_s = 100.0
+    ledger = MemoryLedger(lambda: now_s)
+    ledger.claim("far-000001", "a:1", ttl_s=10.0)
+    now_s = 200.0
+    ledger.release("far-000001", "a:1")
+    now_s = 100.0
+    assert ledger.claims() == {}
