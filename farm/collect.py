@@ -1,6 +1,7 @@
 """Gathers what the manifests tell: the done images in order, and `index.jsonl`, one line for each."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 
 from pydantic import NonNegativeInt
 
@@ -42,9 +43,11 @@ def done_manifests(dataset: Dataset) -> Iterator[tuple[Job, Manifest]]:
     """
     order = {category: number for number, category in enumerate(Category)}
     for job in sorted(Completion(dataset).audit(), key=lambda job: (order[job.category], job.index)):
-        manifest = parse_manifest(dataset.storage.read(manifest_path(job)), dataset, job)
-        if manifest is not None:
-            yield job, manifest
+        # It may be taken away meanwhile, as damaged.
+        with suppress(FileNotFoundError):
+            manifest = parse_manifest(dataset.storage.read(manifest_path(job)), dataset, job)
+            if manifest is not None:
+                yield job, manifest
 
 
 def index_entry(job: Job, manifest: Manifest) -> IndexEntry:

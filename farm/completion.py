@@ -1,7 +1,6 @@
 """Which jobs are done, told by the dataset's folder alone: the manifest is there and fits, and so do the files."""
 
 import hashlib
-import itertools
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,10 +8,10 @@ from pydantic import ValidationError
 
 from farm.category import Category
 from farm.dataset import Dataset
-from farm.errors import MessageError
+from farm.errors import DestinationError, MessageError
 from farm.job import Job
 from farm.job_set import JobSet
-from farm.layout import FileRole, file_path, manifest_folder, manifest_path
+from farm.layout import QUARANTINE_FOLDER, FileRole, file_path, manifest_folder, manifest_path
 from farm.manifest import Manifest
 from farm.storage import TEMPORARY_PREFIX, StoredFile, is_temporary
 
@@ -112,8 +111,8 @@ class Completion:
     def _read(self, job: Job, path: str, stored: StoredFile) -> bool:
         try:
             manifest = parse_manifest(self._dataset.storage.read(path), self._dataset, job)
-        except FileNotFoundError:
-            return False
+        except (FileNotFoundError, DestinationError):
+            return False  # one that can't be read counts for nothing; the others do
         sizes = (0, 0, 0) if manifest is None else tuple(manifest.files[role].bytes for role in FileRole)
         self._seen[job.category][job.index] = (stored.bytes, stored.modified_s, manifest is not None, sizes)
         return True
@@ -161,8 +160,9 @@ class Completion:
             DestinationError: if the folder can't be read or written.
         """
         removed = 0
-        for category, folder in itertools.product(self._seen, [*FileRole, "manifests"]):
-            for path, stored in self._dataset.storage.files(f"{category}/{folder}").items():
+        below = [f"{category}/{folder}" for category in self._seen for folder in (*FileRole, "manifests")]
+        for folder in ("", QUARANTINE_FOLDER, *below):
+            for path, stored in self._dataset.storage.files(folder, deep=False).items():
                 if is_temporary(path) and (now_s - stored.modified_s > STALE_TEMPORARY_S or self._is_done(path)):
                     self._dataset.storage.remove(path)
                     removed += 1

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from dataclasses import replace
 
 from farm.board.port import RunState
 from farm.completion import Completion
@@ -11,6 +12,7 @@ from farm.errors import BrokerError, DatasetMissingError, DestinationError, Inco
 from farm.feeder import LOST_AFTER_S, WINDOW, Feeder
 from farm.job import Job
 from farm.job_set import JobSet
+from farm.layout import HEADER_FILE
 from farm.ledger.owner import is_gone, this_process
 from farm.ledger.port import MAX_ABSENCES
 from farm.progress import Hints, Progress, on_disk, with_hints
@@ -74,13 +76,14 @@ class Coordinator:
         Raises:
             BrokerError: if Redis goes away.
             DestinationError: if the folder can't be read.
+            RunCancelledError: if the run was cancelled, and not submitted again since.
         """
         self._audit()
         self._completion.remove_leftovers(time.time())
         self._look_at_quarantine()
         undone = self._undone()
         if len(undone):
-            self._hints.board.register(self._hints.run)
+            self._follow_notice()
             self._hints.ledger.forgive([])
         else:
             self._hints.board.remove(self._hints.run.key)
@@ -115,14 +118,12 @@ class Coordinator:
         self,
         on_progress: Callable[[Progress], None] = lambda _: None,
         *,
-        mend: bool = True,
         supervise: Callable[[], None] = lambda: None,
     ) -> Progress:
         """Wait until every job is done or given up. A Redis or folder that goes away meanwhile is waited for.
 
         Args:
             on_progress: told after every look.
-            mend: queue what is missing, and what gets lost.
             supervise: called at every look; may restart workers.
 
         Returns:
@@ -137,7 +138,7 @@ class Coordinator:
             while True:
                 supervise()
                 start_s = time.monotonic()
-                progress = self._look(mend=mend)
+                progress = self._look(mend=True)
                 on_progress(progress)
                 # Of a Redis that is away nothing is needed any more.
                 if progress.ended and self._ends_well():
@@ -148,9 +149,25 @@ class Coordinator:
             with suppress(BrokerError):
                 self._hints.ledger.resign(this_process())
 
+    def end_if_complete(self, on_progress: Callable[[Progress], None] = lambda _: None) -> Progress | None:
+        """Look once, and queue nothing.
+
+        Returns:
+            The look, if every job is done; None if some are not.
+
+        Raises:
+            IncompleteError: if those that are not were given up.
+        """
+        progress = self._look(mend=False)
+        if not progress.ended or not self._ends_well():
+            return None
+        on_progress(progress)
+        return self._end(progress)
+
     def _look(self, *, mend: bool) -> Progress:
         trouble = None
         try:
+            self._require_header()
             if time.monotonic() - self._audited_s > max(_AUDIT_S, _AUDIT_REST * self._audit_took_s):
                 self._audit()
             else:
@@ -169,13 +186,16 @@ class Coordinator:
             trouble = f"{error}; waiting for it"
         return progress.model_copy(update={"trouble": trouble})
 
+    def _require_header(self) -> None:
+        # Of a folder that is gone, say with its mount, no file is listed, as if nothing were done.
+        try:
+            self._dataset.storage.read(HEADER_FILE)
+        except FileNotFoundError as error:
+            raise DestinationError(f"{self._dataset.storage.location}: its {HEADER_FILE} is gone") from error
+
     def _tend(self) -> None:
-        run = self._hints.board.register(self._hints.run)
-        if run.state is RunState.CANCELLED:
-            raise RunCancelledError(
-                f"{self._dataset.storage.location}: cancelled by farm cancel; submit it again to go on"
-            )
-        if run.state is RunState.PAUSED or not self._take_the_lead():
+        self._follow_notice()
+        if self._hints.run.state is RunState.PAUSED or not self._take_the_lead():
             return
         if self._hints.ledger.absences() > MAX_ABSENCES:
             raise DatasetMissingError(
@@ -184,7 +204,19 @@ class Coordinator:
             )
         undone = self._undone()
         self._feeder.mend(undone)
-        self._feeder.feed(undone)
+        self._feeder.top_up(undone)
+
+    def _follow_notice(self) -> None:
+        """Put the run's notice up, as it was last seen: a Redis that lost its memory does not undo a pause."""
+        run = self._hints.board.register(self._hints.run)
+        self._hints = replace(self._hints, run=run)
+        self._feeder.follow(run)
+        if run.state is RunState.CANCELLED:
+            # What a coordinator was about to queue when it was cancelled goes, too.
+            self._hints.queue.clear(run)
+            raise RunCancelledError(
+                f"{self._dataset.storage.location}: cancelled by farm cancel; submit it again to go on"
+            )
 
     def _take_the_lead(self) -> bool:
         ledger, me = self._hints.ledger, this_process()
@@ -199,6 +231,7 @@ class Coordinator:
     def _ends_well(self) -> bool:
         """Whether the end still stands after a look at the files themselves."""
         try:
+            self._require_header()
             self._audit()
             self._look_at_quarantine()
             self._completion.remove_leftovers(time.time())

@@ -3,7 +3,9 @@
 import itertools
 import time
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 
+from farm.board.port import Run
 from farm.dataset import Dataset
 from farm.errors import MessageError
 from farm.job import Job
@@ -68,8 +70,18 @@ class Feeder:
                 continue
         return found
 
+    def follow(self, run: Run) -> None:
+        """Take up a changed notice: a new priority, for what is queued from now on."""
+        self._hints = replace(self._hints, run=run)
+
+    def top_up(self, undone: JobSet) -> int:
+        """As `feed`, once the queue is half empty: a full one is not measured out at every look."""
+        if self._hints.queue.length(self._hints.run) > self._window // 2:
+            return 0
+        return self.feed(undone)
+
     def feed(self, undone: JobSet, on_submitted: Callable[[int], None] = lambda _: None) -> int:
-        """Queue undone jobs that are not on their way, once the queue is half empty, up to the window.
+        """Queue undone jobs that are not on their way, up to the window.
 
         Args:
             undone: neither done nor given up.
@@ -82,9 +94,7 @@ class Feeder:
             BrokerError: if Redis goes away; what was queued before is counted as not on its way.
         """
         waiting = self._hints.queue.length(self._hints.run)
-        if waiting > self._window // 2:
-            return 0
-        jobs = list(itertools.islice(undone - self._on_the_way, self._window - waiting))
+        jobs = list(itertools.islice(undone - self._on_the_way, max(0, self._window - waiting)))
         messages = (self._dataset.message(job) for job in _counted(jobs, on_submitted))
         count = self._hints.queue.submit(self._hints.run, messages) if jobs else 0
         for job in jobs:

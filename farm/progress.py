@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from farm.board.port import Board, Run, RunState, WorkerReport
 from farm.category import Category
 from farm.dataset import Dataset
+from farm.job import Job
 from farm.job_set import JobSet
 from farm.ledger.owner import live_claims
 from farm.ledger.port import RETRY_OWNER, Ledger
@@ -91,7 +92,7 @@ def on_disk(dataset: Dataset, done: JobSet, quarantined: Mapping[str, str]) -> P
             category: CategoryProgress(done=counts[category], quota=quota)
             for category, quota in dataset.header.spec.quotas.items()
         },
-        quarantined=quarantined,
+        quarantined={job_id: reason for job_id, reason in quarantined.items() if Job.from_id(job_id) not in done},
     )
 
 

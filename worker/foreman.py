@@ -20,7 +20,7 @@ from farm.board.port import Board, RunState, WorkerReport, WorkerState
 from farm.errors import BrokerError, DestinationError, MessageError, RenderError, UnfitWorkerError
 from farm.job import JobMessage
 from farm.ledger.port import LedgerFactory
-from farm.queue.settings import queue_name
+from farm.queue.settings import QUEUE, queue_name
 from worker.hold import Hold
 from worker.job_log import JobLogs
 from worker.runner import FAILED_IN_A_ROW
@@ -86,7 +86,8 @@ class Foreman:
     def attach(self, consumer: Any) -> None:
         """Work for a consumer that has just connected; Celery ends its timers with the connection."""
         self._consumer = consumer
-        self._joined = set()
+        # What Celery consumed before the connection was lost it consumes again.
+        self._joined = set(consumer.app.amqp.queues.consume_from) - {QUEUE}
         self.tick()
         consumer.timer.call_repeatedly(TICK_S, self.tick)
 
@@ -102,6 +103,7 @@ class Foreman:
             # Celery finds out, too, and connects again.
             log.warning("%s", error)
         self._keep_memory()
+        self._bound_logs()
 
     def _join(self, wanted: set[str]) -> None:
         for name in sorted(self._joined - wanted):
@@ -116,10 +118,11 @@ class Foreman:
         """What this worker does."""
         jobs = tuple(str(request.id).rpartition(":")[2] for request in list(state.active_requests))
         unoccupied = WorkerState.HELD if self._held_reason else WorkerState.IDLE
+        doing = WorkerState.WORKING if jobs else unoccupied
         memory = sum(_rss_bytes(pid) for pid in self._children())
         return WorkerReport(
             name=self._name,
-            state=WorkerState.WORKING if jobs else unoccupied,
+            state=WorkerState.DRAINING if is_stopping() else doing,
             reason=self._held_reason,
             jobs=jobs,
             done=self._done,
@@ -137,8 +140,13 @@ class Foreman:
                 log.error("process %d takes %d MiB and is killed", pid, taken // 2**20)
                 kill_group(pid)
 
+    def _bound_logs(self) -> None:
+        for request in list(state.active_requests):
+            with suppress(MessageError):
+                self._logs.bound(JobMessage.decode((request.kwargs or {}).get("message")))
+
     def note_done(self) -> None:
-        """A job has ended well."""
+        """A picture was made."""
         self._done += 1
         self._crashed.clear()
         self._hold.succeed()
@@ -159,6 +167,7 @@ class Foreman:
             kill_group(request.worker_pid)
         try:
             message = JobMessage.decode((request.kwargs or {}).get("message"))
+            self._logs.bound(message)
             printed = self._logs.tail(message)
             ledger = self._open_ledger(message.dataset, message.spec_sha256)
             ledger.add_figures({"crashes": 1})
@@ -173,6 +182,12 @@ class Foreman:
             told = ", ".join(self._crashed)
             reason = f"the renderer died in {len(self._crashed)} jobs in a row: {told}; see {self._logs.path(message)}"
             self.note_unfit(UnfitWorkerError(reason, RenderError.exit_code))
+
+
+def is_stopping() -> bool:
+    """Whether this worker was told to end."""
+    # Celery says False, None or an exit code, which may be 0.
+    return any(code is not None and code is not False for code in (state.should_stop, state.should_terminate))
 
 
 def kill_group(pid: int) -> None:

@@ -16,6 +16,7 @@ MAX_FILES = 1000
 """Of so many of a dataset's newest jobs logs are kept, and of some more until somebody makes room."""
 
 _ROOM_EVERY = 100
+_RUNNING_BYTES = 16 * MAX_BYTES
 
 _TAIL_BYTES = 16 * 1024
 
@@ -61,7 +62,11 @@ class JobLogs:
             _send_output(*former)
             for each in former:
                 os.close(each)
-            _keep_the_end(path)
+            _keep_the_end(path, MAX_BYTES)
+
+    def bound(self, message: JobMessage) -> None:
+        """Keep the log of a job that still runs, or whose process died, from filling the disk."""
+        _keep_the_end(self.path(message), _RUNNING_BYTES)
 
     @staticmethod
     def _make_room(folder: Path) -> None:
@@ -85,17 +90,19 @@ class JobLogs:
 
 
 def _send_output(standard: int, error: int) -> None:
-    sys.stdout.flush()
-    sys.stderr.flush()
+    for stream in (sys.stdout, sys.stderr):
+        # A full disk takes no last words.
+        with suppress(OSError):
+            stream.flush()
     os.dup2(standard, 1)
     os.dup2(error, 2)
 
 
-def _keep_the_end(path: Path) -> None:
+def _keep_the_end(path: Path, most: int) -> None:
     # The process goes on whatever becomes of a log.
     with suppress(OSError):
         size = path.stat().st_size
-        if size > MAX_BYTES:
+        if size > most:
             with path.open("r+b") as file:
                 file.seek(size - MAX_BYTES)
                 end = file.read()

@@ -12,7 +12,6 @@ from typing import Any
 
 import billiard
 from celery import signals
-from celery.worker import state
 
 from farm.board.port import Board, RunState, WorkerState
 from farm.board.redis import RedisBoard
@@ -25,7 +24,7 @@ from farm.queue.celery import CeleryQueue
 from farm.queue.settings import HARD_LIMIT_S, QUEUE, SOFT_LIMIT_S, make_app
 from farm.queue.wire import install, keep_only_task
 from farm.storage import open_storage
-from worker.foreman import Foreman, kill_group
+from worker.foreman import Foreman, is_stopping, kill_group
 from worker.hold import Hold
 from worker.job_log import JobLogs
 from worker.runner import JobRunner, MakerFactory
@@ -162,10 +161,13 @@ class _Eyes:
         runs = [run for run in self._shared.board().runs().values() if run.state is RunState.ACTIVE]
         queue = CeleryQueue(self._app, self._shared.client())
         report = self._foreman.report()
+        if is_stopping():
+            # The loop that reports no longer runs.
+            self._shared.board().report(report)
         return Signs(
             ticked_s=self._foreman.ticked_s,
             busy=bool(report.jobs),
-            stopping=state.should_stop is not None or state.should_terminate is not None,
+            stopping=is_stopping(),
             jobs_wait=report.state is not WorkerState.HELD and any(queue.length(run) for run in runs),
         )
 

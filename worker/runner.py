@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from celery.exceptions import SoftTimeLimitExceeded
@@ -12,6 +13,7 @@ from farm.dataset import Dataset, open_for_message
 from farm.errors import (
     AssetError,
     BrokerError,
+    ConflictError,
     DatasetMissingError,
     DestinationError,
     EnvironmentMissingError,
@@ -52,6 +54,7 @@ BACKOFF_S = (5.0, 30.0)
 """Pauses before the second and third try, each made up to half longer."""
 
 _MARGIN_S = 30.0
+_LOST_CLAIM_S = 2.0
 _PROBE = ".tmp-probe"
 _FAULTS_OF_THE_MACHINE = (AssetError, EnvironmentMissingError, TemplateError)
 
@@ -66,6 +69,18 @@ class TryLaterError(RetryableError):
     def __reduce__(self) -> tuple[type, tuple[str]]:
         """As a plain error: Celery carries it from the child to the worker's main process by pickle."""
         return RetryableError, (str(self),)
+
+
+class Outcome(NamedTuple):
+    """How a job ended that did not fail.
+
+    Attributes:
+        said: one line about what was done.
+        made: whether a picture was made.
+    """
+
+    said: str
+    made: bool = False
 
 
 class JobRunner:
@@ -88,18 +103,17 @@ class JobRunner:
         self._maker: tuple[str, ImageMaker] | None = None
         self._failed: dict[str, str] = {}
         self._must_probe = False
+        self._found: set[str] = set()
 
-    def run(self, payload: object) -> str:
+    def run(self, payload: object) -> Outcome:
         """Run the job that a message asks for, unless it is done.
 
         Args:
             payload: the message as it came off the wire.
 
-        Returns:
-            One line about what was done.
-
         Raises:
             TryLaterError: when the message is to be sent again.
+            MessageError: it asks for no job, or for one that its dataset does not.
             PermanentError: the job is given up; its record is in the dataset's quarantine.
             DestinationError: the dataset can't be read or written now; the message must go back to the queue.
             BrokerError: if the ledger can't be reached; the message must go back to the queue.
@@ -112,26 +126,31 @@ class JobRunner:
             return self._run_claimed(message, ledger, start)
         except StaleMessageError as error:
             # Its dataset was replaced by another of the same name; whoever replaced it has submitted that one.
-            return f"dropped: {error}"
+            return Outcome(f"dropped: {error}")
         except ClaimLostError as error:
-            return f"left to another worker: {error}"
+            # Another has it, or Redis came back without its memory: whoever is next sees.
+            raise TryLaterError(str(error), _LOST_CLAIM_S) from error
         except (UnfitWorkerError, DestinationError, BrokerError):
             ledger.give_back(message.job_id, this_process())
             raise
+        except (SoftTimeLimitExceeded, OSError) as error:
+            # Outside of the maker there is nothing that takes long but the store.
+            ledger.give_back(message.job_id, this_process())
+            raise DestinationError(f"{message.task_id}: {type(error).__name__}: {error}") from error
         finally:
             ledger.release(message.job_id, this_process())
 
-    def _run_claimed(self, message: JobMessage, ledger: Ledger, start: int) -> str:
+    def _run_claimed(self, message: JobMessage, ledger: Ledger, start: int) -> Outcome:
         job = message.job
-        try:
-            dataset = open_for_message(self._store, message)
-        except DatasetMissingError as error:
-            return _count_absence(ledger, error)
+        dataset = self._open_dataset(message, ledger)
+        if dataset is None:
+            ledger.give_back(job.id, this_process())
+            return Outcome(f"dropped: {message.task_id}: {MAX_ABSENCES} other workers lacked its dataset, too")
         self._probe(dataset, job)
-        if is_in_quarantine(dataset, job):
-            return f"{message.task_id} is in quarantine"
-        if is_done(dataset, job):
-            return f"{message.task_id} is done already"
+        if nothing_to_do := _nothing_to_do(dataset, job):
+            # A second delivery is no start.
+            ledger.give_back(job.id, this_process())
+            return Outcome(f"{message.task_id} {nothing_to_do}")
         if start > MAX_STARTS:
             reason = f"its process died, or met the time limit, in each of {MAX_STARTS} attempts"
             self._give_up(message, dataset, ledger, reason, MAX_STARTS)
@@ -144,11 +163,29 @@ class JobRunner:
         except RetryableError as error:
             raise self._postponed(message, dataset, ledger, error) from error
         except PermanentError as error:
+            # Three in a row may be the dataset's fault, too; but a broken worker must not give up all of it.
             self._count_failure(job.id, error)
             self._give_up(message, dataset, ledger, str(error), start)
             raise
         self._failed.clear()
-        return _note_done(message, manifest, ledger)
+        return Outcome(_note_done(message, manifest, ledger), made=True)
+
+    def _open_dataset(self, message: JobMessage, ledger: Ledger) -> Dataset | None:
+        """The message's dataset; None if so many workers lack it that its run has ended."""
+        try:
+            dataset = open_for_message(self._store, message)
+        except DatasetMissingError as error:
+            if message.dataset in self._found:
+                # It was there before: the store has gone, say a mount, and may come back.
+                raise DestinationError(str(error)) from error
+            if ledger.count_absence() > MAX_ABSENCES:
+                return None
+            raise UnfitWorkerError(f"{error}; or give this worker the right --store", error.exit_code) from error
+        except ConflictError as error:
+            # Its header is of another version of the farm, or damaged: another worker may read it.
+            raise UnfitWorkerError(str(error), error.exit_code) from error
+        self._found.add(message.dataset)
+        return dataset
 
     def _probe(self, dataset: Dataset, job: Job) -> None:
         """After a failure of the destination a small write tells whether rendering is worth the time."""
@@ -166,12 +203,18 @@ class JobRunner:
             else:
                 with self._logs.taking(message):
                     made = self._make(dataset, job)
-            return upload(made, job, dataset, claim)
+            try:
+                return upload(made, job, dataset, claim)
+            except (FarmError, SoftTimeLimitExceeded, OSError):
+                raise
+            except Exception as error:
+                raise _defect(job, error) from error
 
     def _postponed(
         self, message: JobMessage, dataset: Dataset, ledger: Ledger, error: RetryableError
     ) -> TryLaterError | PermanentError:
         job_id = message.job_id
+        _require_claim(ledger, job_id)
         self._count_failure(job_id, error)
         troubles = ledger.count_trouble(job_id)
         ledger.add_figures({"retries": 1})
@@ -191,6 +234,7 @@ class JobRunner:
             raise UnfitWorkerError(f"{len(self._failed)} jobs failed here in a row: {told}", error.exit_code) from error
 
     def _give_up(self, message: JobMessage, dataset: Dataset, ledger: Ledger, reason: str, attempts: int) -> None:
+        _require_claim(ledger, message.job_id)
         printed = "" if self._logs is None else self._logs.tail(message)
         put_in_quarantine(
             dataset,
@@ -216,9 +260,7 @@ class JobRunner:
         except SoftTimeLimitExceeded as error:
             raise RenderError("took longer than the time limit") from error
         except Exception as error:
-            # A defect of the maker must end as a reason in quarantine, not as a message lost without a word.
-            log.exception("%s: unexpected error", job.id)
-            raise RenderError(f"unexpected {type(error).__name__}: {error}") from error
+            raise _defect(job, error) from error
 
     def _maker_for(self, header: DatasetHeader) -> ImageMaker:
         fingerprint = header.spec_sha256
@@ -254,11 +296,22 @@ def _claim(ledger: Ledger, job_id: str) -> int:
     return attempt
 
 
-def _count_absence(ledger: Ledger, error: DatasetMissingError) -> str:
-    if ledger.count_absence() > MAX_ABSENCES:
-        # A coordinator that sees the dataset ends with a word about it.
-        return f"dropped: {error}; {MAX_ABSENCES} other workers lacked it, too"
-    raise UnfitWorkerError(f"{error}; or give this worker the right --store", error.exit_code) from error
+def _defect(job: Job, error: Exception) -> RenderError:
+    """A defect must end as a reason in quarantine, not as a message lost without a word."""
+    log.error("%s: unexpected error", job.id, exc_info=error)
+    return RenderError(f"unexpected {type(error).__name__}: {error}")
+
+
+def _require_claim(ledger: Ledger, job_id: str) -> None:
+    """Only the holder may count a job's failures or give it up."""
+    if not ledger.refresh(job_id, this_process()):
+        raise ClaimLostError(f"{job_id}: failed here, but is another worker's by now")
+
+
+def _nothing_to_do(dataset: Dataset, job: Job) -> str:
+    if is_in_quarantine(dataset, job):
+        return "is in quarantine"
+    return "is done already" if is_done(dataset, job) else ""
 
 
 def _note_done(message: JobMessage, manifest: Manifest, ledger: Ledger) -> str:

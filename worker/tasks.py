@@ -6,7 +6,7 @@ import time
 from typing import Any
 
 from billiard.exceptions import WorkerLostError
-from celery.exceptions import Reject
+from celery.exceptions import Ignore, Reject
 from celery.worker.request import Request
 
 from farm.errors import BrokerError, DestinationError, FarmError, UnfitWorkerError
@@ -39,7 +39,7 @@ def register_tasks(app: Any, runner: JobRunner, foreman: Foreman) -> Any:
         failed = False
 
         def acknowledge(self) -> Any:
-            """Learn that a job ended well: Celery replaces `on_success`, but acknowledges there."""
+            """Learn that a picture was made: Celery replaces `on_success`, but acknowledges there."""
             if not self.failed:
                 foreman.note_done()
             return super().acknowledge()
@@ -65,7 +65,10 @@ def register_tasks(app: Any, runner: JobRunner, foreman: Foreman) -> Any:
 
     def render_image(task: Any, message: object = None) -> None:
         try:
-            log.info("%s", runner.run(message))
+            outcome = runner.run(message)
+            log.info("%s", outcome.said)
+            if not outcome.made:
+                raise Ignore
         except TryLaterError as error:
             raise task.retry(exc=error, countdown=error.delay_s) from error
         except (UnfitWorkerError, DestinationError) as error:

@@ -84,6 +84,9 @@ def watch(see: Callable[[], Signs], end: Callable[[], None]) -> threading.Thread
             except BrokerError:
                 judge.forget()
                 continue
+            except Exception:  # it must outlive whatever it looks at
+                log.exception("the watchdog saw nothing")
+                continue
             if wrong:
                 log.critical("this worker ends itself: %s", wrong)
                 end()

@@ -12,14 +12,28 @@ from farm.queue.broker import as_broker_error
 _RUNS = "farm:runs"
 _WORKERS = "farm:workers"
 _SEEN = "farm:workers:seen"
+_RUNS_SEEN = "farm:runs:seen"
 _KEEP_S = 30 * 24 * 3600
+
+_PRUNE = (
+    "for _, old in ipairs(redis.call('ZRANGEBYSCORE', KEYS[2], '-inf', '(' .. (now - ARGV[3]))) do "
+    "redis.call('HDEL', KEYS[1], old) redis.call('ZREM', KEYS[2], old) end "
+)
+_NOW = "local t = redis.call('TIME') local now = tonumber(t[1]) "
+
+# A notice that nobody renews goes with the next that is put up.
+_PUT = (
+    _NOW + "local new = redis.call('HEXISTS', KEYS[1], ARGV[1]) == 0 "
+    "if new or ARGV[4] == '1' then redis.call('HSET', KEYS[1], ARGV[1], ARGV[2]) end "
+    "redis.call('ZADD', KEYS[2], now, ARGV[1]) " + _PRUNE + "if new then return 1 end return 0"
+)
 
 # A report that nobody renews goes with the next one of another worker.
 _REPORT = (
-    "local t = redis.call('TIME') local now = tonumber(t[1]) "
-    "redis.call('HSET', KEYS[1], ARGV[1], ARGV[2]) redis.call('ZADD', KEYS[2], now, ARGV[1]) "
-    "for _, old in ipairs(redis.call('ZRANGEBYSCORE', KEYS[2], '-inf', '(' .. (now - ARGV[3]))) do "
-    "redis.call('HDEL', KEYS[1], old) redis.call('ZREM', KEYS[2], old) end return 1"
+    _NOW
+    + "redis.call('HSET', KEYS[1], ARGV[1], ARGV[2]) redis.call('ZADD', KEYS[2], now, ARGV[1]) "
+    + _PRUNE
+    + "return 1"
 )
 
 
@@ -33,13 +47,12 @@ class RedisBoard:
     def __init__(self, client: "redis.Redis") -> None:
         self._client = client
         self._report = client.register_script(_REPORT)
+        self._put = client.register_script(_PUT)
 
     def register(self, run: Run) -> Run:
         """See `Board.register`."""
         with as_broker_error():
-            new = self._client.hsetnx(_RUNS, run.key, run.model_dump_json())
-            self._client.expire(_RUNS, _KEEP_S)
-            if new:
+            if self._put(keys=[_RUNS, _RUNS_SEEN], args=[run.key, run.model_dump_json(), _KEEP_S, 0]):
                 return run
             present = _read_run(run.key, cast(str | None, self._client.hget(_RUNS, run.key)))
         if present is None:
@@ -49,13 +62,13 @@ class RedisBoard:
     def replace(self, run: Run) -> None:
         """See `Board.replace`."""
         with as_broker_error():
-            self._client.hset(_RUNS, run.key, run.model_dump_json())
-            self._client.expire(_RUNS, _KEEP_S)
+            self._put(keys=[_RUNS, _RUNS_SEEN], args=[run.key, run.model_dump_json(), _KEEP_S, 1])
 
     def remove(self, key: str) -> None:
         """See `Board.remove`."""
         with as_broker_error():
             self._client.hdel(_RUNS, key)
+            self._client.zrem(_RUNS_SEEN, key)
 
     def runs(self) -> Mapping[str, Run]:
         """See `Board.runs`."""

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from farm.board.port import RunState
 from farm.cli.connection import hints_if_reachable, hints_of
 from farm.cli.options import Broker, DatasetPlace
 from farm.coordinator import Coordinator
@@ -12,6 +13,7 @@ from farm.dataset import Dataset, open_dataset, parse_destination
 from farm.errors import SpecError
 from farm.job import Job
 from farm.layout import manifest_path
+from farm.progress import Hints
 from farm.quarantine import Quarantine
 from farm.verify import damaged_jobs
 
@@ -30,6 +32,7 @@ def repair(
     for job in damaged:
         dataset.storage.remove(manifest_path(job))
     count = Coordinator(dataset, hints).submit_missing()
+    _tell_if_paused(hints)
     found = f", {len(damaged)} of them damaged" if damaged else ""
     typer.echo(f"{count} of {dataset.header.spec.total} images queued for {place}{found}")
 
@@ -53,6 +56,13 @@ def retry(
         return
     count = Coordinator(dataset, hints).submit_missing()
     typer.echo(f"{len(released)} images put back; {count} queued for {place}")
+    _tell_if_paused(hints)
+
+
+def _tell_if_paused(hints: Hints) -> None:
+    run = hints.board.runs().get(hints.run.key)
+    if run is not None and run.state is RunState.PAUSED:
+        typer.echo("the run is paused; farm resume lets it go on", err=True)
 
 
 def _chosen(dataset: Dataset, given_up: Mapping[str, str], asked: list[str]) -> list[str]:

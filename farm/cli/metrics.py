@@ -73,15 +73,21 @@ class _Datasets:
         self._client = client
         self._store = store
         self._named = named
+        self._lock = threading.Lock()
         self._found: dict[str, tuple[Dataset, Hints]] = {}
 
     def find(self) -> list[tuple[Dataset, Hints]]:
         """All of them; raises BrokerError."""
+        with self._lock:  # each scrape has a thread of its own
+            return self._look()
+
+    def _look(self) -> list[tuple[Dataset, Hints]]:
         while self._named:
             self._add(self._named[-1])
             self._named.pop()
+        known = {hints.run.key for _, hints in self._found.values()}
         for run in RedisBoard(self._client).runs().values() if self._store is not None else ():
-            if run.key not in self._found:
+            if run.key not in known:
                 # A dataset of another store is another's to show.
                 with suppress(DestinationError, ConflictError):
                     dataset = open_dataset(Destination(self._store or "", run.dataset))
@@ -91,4 +97,5 @@ class _Datasets:
 
     def _add(self, dataset: Dataset) -> None:
         hints = redis_hints(dataset, self._url, self._client)
-        self._found[hints.run.key] = (dataset, hints)
+        # Another that took its place takes its name, too.
+        self._found[dataset.storage.location] = (dataset, hints)

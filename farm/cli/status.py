@@ -23,6 +23,9 @@ def status(place: DatasetPlace, broker: Broker = None, as_json: AsJson = False) 
     progress = on_disk(dataset, Completion(dataset).audit(), Quarantine(dataset).look())
     if hints is not None:
         progress = with_hints(progress, hints)
+        if progress.ended:
+            # Nobody may have watched to the end.
+            hints.board.remove(hints.run.key)
     if as_json:
         typer.echo(progress.model_dump_json(indent=1))
         return

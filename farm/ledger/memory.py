@@ -38,19 +38,17 @@ class MemoryLedger:
         return True
 
     def _holds(self, job_id: str, owner: str) -> bool:
-        return self.claims().get(job_id) == owner
-
-    def _was_given_to(self, job_id: str, owner: str) -> bool:
+        # A lapsed claim that nobody has taken is still its owner's.
         return job_id in self._claims and self._claims[job_id][0] == owner
 
     def release(self, job_id: str, owner: str) -> None:
         """See `Ledger.release`."""
-        if self._was_given_to(job_id, owner):
+        if self._holds(job_id, owner):
             del self._claims[job_id]
 
     def give_back(self, job_id: str, owner: str) -> None:
         """See `Ledger.give_back`."""
-        if self._was_given_to(job_id, owner):
+        if self._holds(job_id, owner):
             del self._claims[job_id]
             self._starts[job_id] -= 1
 

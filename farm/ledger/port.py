@@ -48,7 +48,7 @@ class Ledger(Protocol):
         ...
 
     def refresh(self, job_id: str, owner: str, ttl_s: float = CLAIM_S) -> bool:
-        """Hold a claim for another `ttl_s` seconds; False if it is no longer the owner's."""
+        """Hold a claim for another `ttl_s` seconds, even a lapsed one that nobody took; False if it is another's."""
         ...
 
     def release(self, job_id: str, owner: str) -> None:

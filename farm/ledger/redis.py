@@ -34,21 +34,19 @@ _CLAIM = (
     _NOW + _OWNER + _HOLD + f"if owner and owner ~= ARGV[2] and owner ~= '{RETRY_OWNER}' then return false end "
     "local start = redis.call('HINCRBY', KEYS[3], ARGV[1], 1) hold(ARGV[2], ARGV[3]) return start"
 )
-_REFRESH = _NOW + _OWNER + _HOLD + "if owner ~= ARGV[2] then return 0 end hold(ARGV[2], ARGV[3]) return 1"
+# A lapsed claim that nobody has taken is still its owner's.
+_MINE = "if redis.call('HGET', KEYS[2], ARGV[1]) ~= ARGV[2] then return 0 end "
+_REFRESH = _NOW + _HOLD + _MINE + "hold(ARGV[2], ARGV[3]) return 1"
 _POSTPONE = (
-    _NOW + _OWNER + _HOLD + f"if owner ~= ARGV[2] then return 0 end hold('{RETRY_OWNER}', ARGV[3]) "
-    "redis.call('HINCRBY', KEYS[3], ARGV[1], -1) return 1"
+    _NOW + _HOLD + _MINE + f"hold('{RETRY_OWNER}', ARGV[3]) redis.call('HINCRBY', KEYS[3], ARGV[1], -1) return 1"
 )
-# Lapsed or not: a clock that is set back would bring it to life again.
 _RELEASE = (
-    "if redis.call('HGET', KEYS[2], ARGV[1]) ~= ARGV[2] then return 0 end "
-    "redis.call('ZREM', KEYS[1], ARGV[1]) redis.call('HDEL', KEYS[2], ARGV[1]) "
+    _MINE + "redis.call('ZREM', KEYS[1], ARGV[1]) redis.call('HDEL', KEYS[2], ARGV[1]) "
     "if ARGV[3] == '1' then redis.call('HINCRBY', KEYS[3], ARGV[1], -1) end return 1"
 )
 # Keys 4 to 8: troubles, logs, absences, finished, last.
 _FINISH = (
-    _NOW + _OWNER + "if owner ~= ARGV[2] then return 0 end "
-    "redis.call('ZREM', KEYS[1], ARGV[1]) "
+    _NOW + _MINE + "redis.call('ZREM', KEYS[1], ARGV[1]) "
     "for place = 2, 5 do redis.call('HDEL', KEYS[place], ARGV[1]) end "
     "redis.call('DEL', KEYS[6]) "
     "redis.call('LPUSH', KEYS[7], string.format('%.3f', now)) "

@@ -70,8 +70,8 @@ def run_locally(
         dataset = create_dataset(destination, header)
         hints = redis_hints(dataset, url, connect(url))
         coordinator = Coordinator(dataset, hints, lost_after_s=how.lost_after_s, poll_s=0.5)
-        if coordinator.submit_missing() == 0:
-            return coordinator.watch(on_progress, mend=False)
+        if coordinator.submit_missing() == 0 and (complete := coordinator.end_if_complete(on_progress)):
+            return complete
         options = WorkerOptions(
             store=destination.store,
             broker_url=url,

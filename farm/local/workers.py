@@ -137,8 +137,8 @@ class LocalWorkers:
             if code is None:
                 continue
             fault = error_of(code, f"{self._last_line(worker.name)}; the worker's log is {self.log_of(worker.name)}")
-            # A Redis that was away when it started is back at the next start, or that fails in its turn.
-            if fault is not None and not isinstance(fault, BrokerError):
+            # A Redis or store that was away when it started is back at the next start, or that fails in its turn.
+            if fault is not None and not isinstance(fault, BrokerError | DestinationError):
                 raise fault
             soon = time.monotonic() - worker.started_s < _SOON_S
             # A signal is somebody's doing, an exit its own.
@@ -152,5 +152,8 @@ class LocalWorkers:
             worker.process, worker.started_s = self._start(worker.name), time.monotonic()
 
     def _last_line(self, name: str) -> str:
-        lines = self.log_of(name).read_text(errors="replace").strip().splitlines()
+        try:
+            lines = self.log_of(name).read_text(errors="replace").strip().splitlines()
+        except OSError:
+            lines = []
         return lines[-1].strip() if lines else "it left no message"

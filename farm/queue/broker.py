@@ -133,8 +133,8 @@ def as_broker_error() -> Iterator[None]:
     """
     try:
         yield
-    except redis.RedisError as error:
-        raise BrokerError(f"Redis refused or went away: {error}") from error
+    except (redis.RedisError, UnicodeDecodeError) as error:
+        raise BrokerError(f"Redis refused, went away or holds what is no text: {error}") from error
 
 
 def wait_for(url: str, patience_s: float) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from farm.errors import DestinationError
 from farm.machine import machine_name
-from farm.storage.port import TEMPORARY_PREFIX, StoredFile
+from farm.storage.port import TEMPORARY_PREFIX, StoredFile, is_temporary
 
 
 @contextmanager
@@ -66,24 +66,25 @@ class LocalStorage:
         if hashlib.sha256(temporary.read_bytes()).digest() != hashlib.sha256(content).digest():
             raise DestinationError(f"{temporary}: reads back other than written; check the disk")
 
-    def files(self, under: str = "") -> dict[str, StoredFile]:
+    def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
         """Every file below the folder; see `Storage.files`."""
         found: dict[str, StoredFile] = {}
         folder = self._root / under
         with _as_destination_error("list", str(folder)), suppress(FileNotFoundError):
             if not under:
-                self._collect(folder, "", found)
+                self._collect(folder, "", found, deep=deep)
             elif folder.is_dir():
-                self._collect(folder, f"{under}/", found)
+                self._collect(folder, f"{under}/", found, deep=deep)
         return found
 
-    def _collect(self, folder: Path, prefix: str, found: dict[str, StoredFile]) -> None:
+    def _collect(self, folder: Path, prefix: str, found: dict[str, StoredFile], *, deep: bool) -> None:
         with os.scandir(folder) as entries:
             for entry in entries:
                 # A file may vanish between its listing and its stat: a temporary one that was moved.
                 with suppress(FileNotFoundError):
                     if entry.is_dir(follow_symlinks=False):
-                        self._collect(folder / entry.name, f"{prefix}{entry.name}/", found)
+                        if deep:
+                            self._collect(folder / entry.name, f"{prefix}{entry.name}/", found, deep=True)
                     else:
                         stat = entry.stat()
                         found[prefix + entry.name] = StoredFile(stat.st_size, stat.st_mtime)
@@ -93,7 +94,7 @@ class LocalStorage:
         with _as_destination_error("list", str(self._root)):
             try:
                 with os.scandir(self._root) as entries:
-                    return next(entries, None) is None
+                    return all(is_temporary(entry.name) for entry in entries)
             except FileNotFoundError:
                 return True
 

@@ -81,12 +81,13 @@ class ObjectStorage:
         checksum = hashlib.md5(content, usedforsecurity=False).hexdigest()
         return str(info.get("ETag")).strip('"') == checksum or self.read(path) == content
 
-    def files(self, under: str = "") -> dict[str, StoredFile]:
+    def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
         """Every object below the folder; see `Storage.files`."""
         folder = self._full(under)
+        depth = None if deep else 1
         listing: Mapping[str, Mapping[str, Any]] = {}
         with suppress(FileNotFoundError), as_destination_error("list", f"{self._location}/{under}".rstrip("/")):
-            listing = self._filesystem.find(folder, detail=True)
+            listing = self._filesystem.find(folder, maxdepth=depth, detail=True)
         start = len(self._root) + 1
         return {
             name[start:]: StoredFile(int(info["size"]), _modified_s(info))

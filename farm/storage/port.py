@@ -41,11 +41,12 @@ class Storage(Protocol):
         """
         ...
 
-    def files(self, under: str = "") -> dict[str, StoredFile]:
+    def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
         """Every file below the folder, by path; none if the folder does not exist.
 
         Args:
             under: a folder in it, to list that alone; the paths stay relative to the whole.
+            deep: whether to list folders in it, too.
 
         Raises:
             DestinationError: if the folder can't be read.
@@ -53,7 +54,7 @@ class Storage(Protocol):
         ...
 
     def is_empty(self) -> bool:
-        """Whether the folder holds nothing or does not exist.
+        """Whether the folder holds nothing but what killed writers left, or does not exist.
 
         Raises:
             DestinationError: if the folder can't be read.

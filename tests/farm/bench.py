@@ -52,7 +52,7 @@ class Bench:
         """Take some messages and do what they ask."""
         for _ in range(min(count, len(self.queue.messages))):
             try:
-                self.runs.append(self.runner.run(self.queue.messages.popleft().encode()))
+                self.runs.append(self.runner.run(self.queue.messages.popleft().encode()).said)
             except PermanentError:
                 continue
 

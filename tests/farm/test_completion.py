@@ -210,12 +210,12 @@ class GrowingStorage(LocalStorage):
         self._watched = watched
         self._act: Callable[[], None] | None = act
 
-    def files(self, under: str = "") -> dict[str, StoredFile]:
+    def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
         """See `Storage.files`."""
         if under == self._watched and self._act is not None:
             act, self._act = self._act, None
             act()
-        return super().files(under)
+        return super().files(under, deep=deep)
 
 
 def test_job_that_is_made_during_an_audit(dataset: Dataset) -> None:

@@ -3,14 +3,14 @@
 import itertools
 import os
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import farm.coordinator
-from farm.board.port import Run, RunState
+from farm.board.port import Priority, Run, RunState
 from farm.coordinator import Coordinator
 from farm.dataset import Dataset, Destination, create_dataset
 from farm.errors import (
@@ -21,7 +21,7 @@ from farm.errors import (
     RunCancelledError,
 )
 from farm.header import DatasetHeader
-from farm.job import Job
+from farm.job import Job, JobMessage
 from farm.ledger.memory import MemoryLedger
 from farm.ledger.owner import this_process
 from farm.ledger.port import MAX_ABSENCES
@@ -282,21 +282,6 @@ def test_emptied_redis(large: Dataset) -> None:
     assert bench.rendered == 100
 
 
-def test_watch_without_mending_leaves_the_lost(bench: Bench) -> None:
-    """Where mending is off, a lost message stays lost."""
-    bench.coordinator.submit_missing()
-    bench.queue.messages.clear()
-    seen = itertools.count()
-
-    def stop_after_some(_progress: Progress) -> None:
-        if next(seen) == 10:
-            raise StopWatchingError
-
-    with pytest.raises(StopWatchingError):
-        bench.coordinator.watch(stop_after_some, mend=False)
-    assert bench.queued() == []
-
-
 def test_two_coordinators_do_not_double(large: Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of two machines that watch one dataset, one queues and the other looks on, even where messages get lost."""
     bench = Bench(large, window=10, lost_after_s=NEVER_S)
@@ -452,12 +437,12 @@ class FlakyStorage(LocalStorage):
 
     away = 0
 
-    def files(self, under: str = "") -> dict[str, StoredFile]:
+    def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
         """See `Storage.files`."""
         self.away -= 1
         if self.away >= 0:
             raise DestinationError("stale file handle")
-        return super().files(under)
+        return super().files(under, deep=deep)
 
 
 def test_folder_that_is_away_is_waited_for(dataset: Dataset) -> None:
@@ -571,3 +556,78 @@ def test_done_job_of_another_description_does_not_count(tmp_path: Path, dataset:
         if path.startswith("far/"):
             dataset.storage.write(path, other.storage.read(path))
     assert Bench(dataset).coordinator.submit_missing() == 4
+
+
+def looks_of(bench: Bench, number: int) -> list[Progress]:
+    """So many looks of a watch."""
+    seen: list[Progress] = []
+
+    def look(progress: Progress) -> None:
+        seen.append(progress)
+        if len(seen) == number:
+            raise StopWatchingError
+
+    with pytest.raises(StopWatchingError):
+        bench.coordinator.watch(look)
+    return seen
+
+
+def test_folder_that_vanished_is_not_taken_for_an_empty_one(bench: Bench, tmp_path: Path) -> None:
+    """While a mount is gone nothing is queued anew, and the watch says what it waits for."""
+    bench.coordinator.submit_missing()
+    bench.work(4)
+    (tmp_path / "store/cables").rename(tmp_path / "gone")
+    (look,) = looks_of(bench, 1)
+    assert "is gone" in str(look.trouble)
+    assert bench.queued() == []
+    (tmp_path / "gone").rename(tmp_path / "store/cables")
+    assert bench.coordinator.watch().done == 4
+
+
+def test_emptied_redis_does_not_undo_a_pause(bench: Bench) -> None:
+    """The notice is put up again as it was last seen."""
+    bench.coordinator.submit_missing()
+    bench.want(RunState.PAUSED)
+    looks_of(bench, 1)
+    bench.board.remove(bench.hints.run.key)
+    looks_of(bench, 1)
+    assert bench.board.runs()[bench.hints.run.key].state is RunState.PAUSED
+
+
+def test_changed_priority_holds_for_what_is_queued_next(large: Dataset) -> None:
+    """A coordinator that watches follows the notice."""
+
+    class Noting(MemoryQueue):
+        priorities: tuple[Priority, ...] = ()
+
+        def submit(self, run: Run, messages: Iterable[JobMessage]) -> int:
+            """See `JobQueue.submit`."""
+            self.priorities += (run.priority,)
+            return super().submit(run, messages)
+
+    queue = Noting()
+    bench = Bench(large, window=10, queue=queue)
+    bench.coordinator.submit_missing()
+    bench.board.replace(bench.hints.run.model_copy(update={"priority": Priority.HIGH}))
+    bench.work(8)
+    looks_of(bench, 1)
+    assert queue.priorities == (Priority.NORMAL, Priority.HIGH)
+
+
+def test_cancelled_run_takes_no_jobs(bench: Bench) -> None:
+    """Mending a cancelled run says so, and what a coordinator had queued after the cancelling goes."""
+    bench.coordinator.submit_missing()
+    bench.want(RunState.CANCELLED)
+    with pytest.raises(RunCancelledError, match="submit it again"):
+        bench.coordinator.submit_missing()
+    assert bench.queued() == []
+
+
+def test_complete_run_needs_no_worker(bench: Bench) -> None:
+    """Whether all is done is told without queueing anything."""
+    assert bench.coordinator.end_if_complete() is None
+    bench.coordinator.submit_missing()
+    bench.work(4)
+    complete = bench.coordinator.end_if_complete()
+    assert complete is not None
+    assert complete.done == 4

@@ -39,16 +39,24 @@ def test_fills_the_window(bench: Bench) -> None:
     assert full.left_out(undone(bench.dataset)) == 90
 
 
-def test_feeds_again_when_half_empty(bench: Bench) -> None:
+def test_tops_up_when_half_empty(bench: Bench) -> None:
     """Nothing is added until half of the window was taken; then it is filled, without doubling what was taken."""
     full = feeder(bench)
     full.feed(undone(bench.dataset))
     for _ in range(WINDOW // 2 - 1):
         bench.queue.messages.popleft()
-    assert full.feed(undone(bench.dataset)) == 0
+    assert full.top_up(undone(bench.dataset)) == 0
     bench.queue.messages.popleft()
-    assert full.feed(undone(bench.dataset)) == WINDOW // 2
+    assert full.top_up(undone(bench.dataset)) == WINDOW // 2
     assert bench.queued() == [f"far-{index:06d}" for index in range(5, 15)]
+
+
+def test_a_submission_fills_the_window(bench: Bench) -> None:
+    """What one call queues does not wait for the queue to drain: a job that is put back, say."""
+    full = feeder(bench)
+    full.feed(undone(bench.dataset))
+    bench.queue.messages.popleft()
+    assert full.feed(undone(bench.dataset)) == 1
 
 
 def test_survey_finds_what_is_on_its_way(bench: Bench) -> None:

@@ -4,8 +4,10 @@ import hashlib
 import os
 from collections.abc import Mapping
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
+from celery.exceptions import SoftTimeLimitExceeded
 
 from farm.completion import is_done
 from farm.dataset import Dataset
@@ -77,7 +79,7 @@ def test_second_time_does_nothing(dataset: Dataset, runner: JobRunner) -> None:
     """A message that comes twice makes one picture."""
     runner.run(dataset.message(JOB).encode())
     before = dataset.storage.files()
-    assert "already" in runner.run(dataset.message(JOB).encode())
+    assert "already" in runner.run(dataset.message(JOB).encode()).said
     assert dataset.storage.files() == before
 
 
@@ -223,7 +225,7 @@ def test_dataset_that_is_not_here(dataset: Dataset, tmp_path: Path, ledger: Memo
         with pytest.raises(UnfitWorkerError, match=r"no dataset here.*--store"):
             runner.run(dataset.message(JOB).encode())
     assert given_up(dataset) == {}
-    assert "other workers lacked it" in runner.run(dataset.message(JOB).encode())
+    assert "other workers lacked it" in runner.run(dataset.message(JOB).encode()).said
     assert ledger.absences() == MAX_ABSENCES + 1
     assert not (tmp_path / "elsewhere").exists()
 
@@ -245,7 +247,7 @@ def test_restarted_worker_with_a_wrong_store(
 def test_message_for_another_description(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
     """What is left of a dataset that was replaced is dropped: nothing is written or recorded."""
     before = dataset.storage.files()
-    assert runner.run(dataset.message(JOB).encode() | {"spec_sha256": "f" * 64}).startswith("dropped")
+    assert runner.run(dataset.message(JOB).encode() | {"spec_sha256": "f" * 64}).said.startswith("dropped")
     assert dataset.storage.files() == before
     assert given_up(dataset) == ledger.claims() == {}
 
@@ -293,7 +295,7 @@ def test_given_up_job_is_dropped(dataset: Dataset, runner: JobRunner, ledger: Me
     """A message of a job that is in quarantine is taken and nothing else."""
     put_in_quarantine(dataset, JOB, "died", attempts=3, worker="host:1", log="")
     before = dataset.storage.files()
-    assert "in quarantine" in runner.run(dataset.message(JOB).encode())
+    assert "in quarantine" in runner.run(dataset.message(JOB).encode()).said
     assert dataset.storage.files() == before
     assert ledger.claims() == {}
 
@@ -397,7 +399,7 @@ def test_store_that_cannot_be_written(dataset: Dataset, tmp_path: Path, ledger: 
 
 
 def test_claim_that_was_lost_meanwhile(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
-    """A worker that finds its job claimed by another, once it has rendered, leaves it there and writes nothing."""
+    """A worker that finds its job claimed by another, once it has rendered, writes nothing and looks again later."""
 
     class SlowMaker(StandInMaker):
         def make(self, job: Job, header: DatasetHeader) -> MadeImage:
@@ -407,7 +409,8 @@ def test_claim_that_was_lost_meanwhile(dataset: Dataset, tmp_path: Path, ledger:
 
     before = dataset.storage.files()
     runner = JobRunner(str(tmp_path / "store"), lambda _: SlowMaker(), lambda *_: ledger)
-    assert "left to another worker" in runner.run(dataset.message(JOB).encode())
+    with pytest.raises(TryLaterError, match=r"another's|lost its claim"):
+        runner.run(dataset.message(JOB).encode())
     assert dataset.storage.files() == before
     assert ledger.claims() == {JOB.id: "elsewhere:1"}
 
@@ -460,3 +463,59 @@ def test_figures(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> N
     assert figures["images:far"] == figures["redrawn"] == 1
     assert figures["seconds:render"] == pytest.approx(0.01)
     assert figures["seconds:write"] > 0
+
+
+def test_duplicates_are_no_starts(dataset: Dataset, runner: JobRunner) -> None:
+    """However often a finished job is delivered again, it may be made again when its picture is damaged."""
+    for _ in range(MAX_STARTS + 2):
+        runner.run(dataset.message(JOB).encode())
+    dataset.storage.write(file_path(JOB, FileRole.MASK), b"damaged")
+    assert runner.run(dataset.message(JOB).encode()).made
+    assert given_up(dataset) == {}
+
+
+@pytest.mark.parametrize("content", [b"{}", b"no json"])
+def test_header_that_this_worker_cannot_read(dataset: Dataset, runner: JobRunner, content: bytes) -> None:
+    """A worker of another version takes itself out and spends none of the job's starts."""
+    good = dataset.storage.read("dataset.json")
+    dataset.storage.write("dataset.json", content)
+    for _ in range(MAX_STARTS + 1):
+        with pytest.raises(UnfitWorkerError, match="not readable by this version"):
+            runner.run(dataset.message(JOB).encode())
+    dataset.storage.write("dataset.json", good)
+    assert runner.run(dataset.message(JOB).encode()).made
+
+
+def test_dataset_that_was_here_before(dataset: Dataset, runner: JobRunner, tmp_path: Path) -> None:
+    """A store that vanishes amid the work is waited for: the worker is not unfit."""
+    runner.run(dataset.message(JOB).encode())
+    (tmp_path / "store/cables").rename(tmp_path / "gone")
+    with pytest.raises(DestinationError, match="no dataset here"):
+        runner.run(dataset.message(JOB).encode())
+
+
+def test_late_failure_is_not_counted(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
+    """Who fails at a job that is another's by now neither counts that nor gives the job up."""
+
+    class LateMaker(StandInMaker):
+        def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+            del header
+            ledger.release(job.id, this_process())
+            ledger.claim(job.id, "elsewhere:1")
+            raise SceneError("too late")
+
+    runner = JobRunner(str(tmp_path / "store"), lambda _: LateMaker(), lambda *_: ledger)
+    with pytest.raises(TryLaterError, match="another worker's"):
+        runner.run(dataset.message(JOB).encode())
+    assert given_up(dataset) == {}
+    assert ledger.claims() == {JOB.id: "elsewhere:1"}
+
+
+def test_slow_store_fails_no_job(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A time limit that is met while files are written is the store's doing."""
+    monkeypatch.setattr("worker.runner.upload", Mock(side_effect=SoftTimeLimitExceeded()))
+    for _ in range(MAX_STARTS + 1):
+        with pytest.raises(DestinationError, match="SoftTimeLimitExceeded"):
+            runner.run(dataset.message(JOB).encode())
+    monkeypatch.undo()
+    assert runner.run(dataset.message(JOB).encode()).made
