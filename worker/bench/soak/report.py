@@ -14,6 +14,10 @@ mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first
 
 
+_FILLED = 100
+"""By then a renderer's store of decoded textures, a GiB, is full."""
+
+
 def _figures(samples: Sequence[Sample]) -> dict[str, float | None]:
     done = samples[-1].done
     memory = [sample.rss_bytes / MIB for sample in samples if sample.rss_bytes]
@@ -22,6 +26,7 @@ def _figures(samples: Sequence[Sample]) -> dict[str, float | None]:
         "peak_mib": max(memory),
         "last_mib": memory[-1],
         "growth_mib_per_100": growth_mib(samples, after=1),
+        "growth_mib_per_100_from_100": growth_mib(samples, after=_FILLED),
         "growth_mib_per_100_second_half": growth_mib(samples, after=done // 2),
     }
 
@@ -29,7 +34,15 @@ def _figures(samples: Sequence[Sample]) -> dict[str, float | None]:
 def soak_table(samples: Mapping[str, Sequence[Sample]]) -> Table:
     """A row a worker."""
     table = Table(title="resident memory of a renderer", title_justify="left")
-    for name in ("worker", "images", "peak MiB", "last MiB", "MiB per 100 images", "of the second half"):
+    for name in (
+        "worker",
+        "images",
+        "peak MiB",
+        "last MiB",
+        "MiB per 100 images",
+        f"from image {_FILLED} on",
+        "second half",
+    ):
         table.add_column(name, justify="left" if name == "worker" else "right")
     for name, each in samples.items():
         figures = _figures(each)
