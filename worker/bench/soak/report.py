@@ -13,7 +13,6 @@ from worker.bench.soak.growth import MIB, Sample, growth_mib
 mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first
 
-
 _FILLED = 100
 """By then a renderer's store of decoded textures, a GiB, is full."""
 
