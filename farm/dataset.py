@@ -1,5 +1,6 @@
 """A dataset in its place: opening one that is there, or laying down the header of a new one."""
 
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -155,7 +156,7 @@ def create_dataset(destination: Destination, header: DatasetHeader) -> Dataset:
 
 def _read_header(storage: Storage) -> DatasetHeader:
     try:
-        return DatasetHeader.model_validate_json(storage.read(HEADER_FILE))
+        return _parse_header(storage.read(HEADER_FILE))
     except ValidationError as error:
         first = error.errors(include_url=False, include_context=False, include_input=False)[0]
         where = ".".join(str(part) for part in first["loc"])
@@ -163,6 +164,11 @@ def _read_header(storage: Storage) -> DatasetHeader:
             f"{storage.location}/{HEADER_FILE}: not readable by this version of the farm: {where}: {first['msg']}; "
             "choose another --out"
         ) from error
+
+
+@functools.lru_cache(maxsize=16)  # a worker reads it for each job, as it may have been replaced
+def _parse_header(content: bytes) -> DatasetHeader:
+    return DatasetHeader.model_validate_json(content)
 
 
 def first_difference(present: object, asked: object, where: str = "") -> str:
