@@ -145,7 +145,6 @@ def write_plot(path: Path, outcomes: Sequence[Outcome]) -> None:
     handles = [Rectangle((0, 0), 1, 1, color=colours[fault], alpha=0.6) for fault in shown]
     if shown:
         figure.legend(handles, shown, loc="outside lower center", ncols=7, fontsize=8)
-    figure.supxlabel("seconds", fontsize=9)
-    figure.supylabel("images done", fontsize=9)
+    figure.supylabel("images done over seconds", fontsize=9)
     figure.savefig(path, dpi=110)
     plt.close(figure)
