@@ -138,7 +138,8 @@ class Foreman:
             taken = _rss_bytes(pid)
             if taken > self._most_bytes:
                 log.error("process %d takes %d MiB and is killed", pid, taken // 2**20)
-                kill_group(pid)
+                with suppress(ProcessLookupError, PermissionError):
+                    kill_group(pid)
 
     def _bound_logs(self) -> None:
         for request in list(state.active_requests):
