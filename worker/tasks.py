@@ -1,7 +1,7 @@
 """The farm's one Celery task."""
 
 import logging
-import random
+import os
 import time
 from typing import Any
 
@@ -17,6 +17,12 @@ from worker.runner import JobRunner, TryLaterError
 log = logging.getLogger(__name__)
 
 _BROKER_PAUSE_S = (0.5, 2.0)
+
+
+def _broker_pause_s(process: int) -> float:
+    """Another for each process of a machine, so that they don't all come back at once to a Redis that was away."""
+    least, most = _BROKER_PAUSE_S
+    return least + (most - least) * (process % 100) / 100
 
 
 def register_tasks(app: Any, runner: JobRunner, foreman: Foreman) -> Any:
@@ -74,8 +80,7 @@ def register_tasks(app: Any, runner: JobRunner, foreman: Foreman) -> Any:
         except (UnfitWorkerError, DestinationError) as error:
             raise Reject(error, requeue=True) from error
         except BrokerError as error:
-            # No seed decides how workers spread out when they come back to a Redis that was away.
-            time.sleep(random.uniform(*_BROKER_PAUSE_S))  # noqa: S311 - not for secrets
+            time.sleep(_broker_pause_s(os.getpid()))
             raise Reject(error, requeue=True) from error
 
     # Failures that the farm foresees are logged in one line, without a traceback.
