@@ -68,7 +68,7 @@ def index_entry(job: Job, manifest: Manifest) -> IndexEntry:
         cables=len(scene.cables),
         surface=scene.floor.texture if scene.floor else None,
         hdri=scene.hdri_world.hdri if scene.hdri_world else None,
-        lamp=scene.lamp.kind if scene.lamp else None,
+        lamp=scene.lamps[0].kind if scene.lamps else None,
         camera_height_m=scene.camera.height_m,
     )
 

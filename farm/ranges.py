@@ -10,58 +10,72 @@ publication gives no figure (cable length, drop height, spacing, f-number) the d
 
 from typing import Annotated, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import Field, model_validator
 
+from farm.camera_ranges import CameraRanges, DevelopmentRanges
+from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
+from farm.light_ranges import LampRanges, PlateRanges, StudioRanges, WorldRanges
+from farm.look_ranges import BundleRanges, ClutterRanges, EndRanges, SkinRanges
 from farm.model import Model
+from farm.range_types import (
+    BendRange,
+    CableCountRange,
+    CableLengthRange,
+    DensityRange,
+    DiameterRange,
+    Fraction,
+    FractionRange,
+    FrictionRange,
+    LengthRange,
+    LevelRange,
+    ModulusRange,
+    NotNegative,
+    NotNegativeRange,
+    PositiveRange,
+    Range,
+)
 
-
-def _in_order(bounds: tuple[float, float]) -> tuple[float, float]:
-    if bounds[0] > bounds[1]:
-        raise ValueError(f"the low end {bounds[0]} is above the high end {bounds[1]}")
-    return bounds
-
-
-def _counts_in_order(bounds: tuple[int, int]) -> tuple[int, int]:
-    _in_order(bounds)
-    return bounds
-
-
-Fraction = Annotated[float, Field(ge=0, le=1)]
-Length = Annotated[float, Field(ge=-10, le=10)]
-Positive = Annotated[float, Field(gt=0, le=1e5)]
-NotNegative = Annotated[float, Field(ge=0, le=1e5)]
-Level = Annotated[int, Field(ge=0, le=255)]
-Modulus = Annotated[float, Field(ge=1e5, le=1e10)]
-Density = Annotated[float, Field(ge=100, le=20_000)]
-FrictionCoefficient = Annotated[float, Field(ge=0, le=2)]
-CableCount = Annotated[int, Field(ge=1, le=8)]
-
-Bend = Annotated[float, Field(ge=-15, le=15)]
 BEND_KNOTS = 7
 
-Range = Annotated[tuple[float, float], AfterValidator(_in_order)]
-FractionRange = Annotated[tuple[Fraction, Fraction], AfterValidator(_in_order)]
-LengthRange = Annotated[tuple[Length, Length], AfterValidator(_in_order)]
-PositiveRange = Annotated[tuple[Positive, Positive], AfterValidator(_in_order)]
-NotNegativeRange = Annotated[tuple[NotNegative, NotNegative], AfterValidator(_in_order)]
-ModulusRange = Annotated[tuple[Modulus, Modulus], AfterValidator(_in_order)]
-DensityRange = Annotated[tuple[Density, Density], AfterValidator(_in_order)]
-FrictionRange = Annotated[tuple[FrictionCoefficient, FrictionCoefficient], AfterValidator(_in_order)]
-LevelRange = Annotated[tuple[Level, Level], AfterValidator(_counts_in_order)]
-CableCountRange = Annotated[tuple[CableCount, CableCount], AfterValidator(_counts_in_order)]
-
-
 SPACING_DIAMETERS = 1.5
-"""Cables start at least so far above each other, which leaves room for the cloth's collision distance."""
+"""Cables start at least so many diameters above each other, which leaves room for the cloth's collision distance."""
+
+
+class WearRanges(Model):
+    """What a floor has been through, beyond what its texture shows; see `farm.scene.Wear` for each.
+
+    Attributes:
+        share: of the floors that are changed so.
+        brightness_ev: stops, by which its colour is brighter or darker.
+        tint_ev: stops of red, green and blue beside that.
+        stained_share: of these floors that have stains; likewise for scratches and dust.
+    """
+
+    share: Fraction = 0.0
+    brightness_ev: Range = (-0.5, 0.7)
+    tint_ev: Range = (-0.12, 0.12)
+    saturation: NotNegativeRange = (0.5, 1.2)
+    contrast: NotNegativeRange = (0.7, 1.3)
+    stained_share: Fraction = 0.3
+    stains: FractionRange = (0.02, 0.2)
+    scratched_share: Fraction = 0.3
+    scratches: NotNegativeRange = (1.0, 12.0)
+    dusty_share: Fraction = 0.3
+    dust: FractionRange = (0.05, 0.35)
 
 
 class FloorRanges(Model):
-    """Where the floor's texture lies. Offsets are counted in whole tiles of the texture."""
+    """Where the floor's texture lies. Offsets are counted in whole tiles of the texture.
+
+    `light_share` is ours: of the floors that are drawn from the light surfaces alone (`farm.header`), as tables are.
+    """
 
     offset_x: Range = (-100.0, 100.0)
     offset_y: Range = (-100.0, 100.0)
     rotation_deg: Range = (0.0, 360.0)
     scale: PositiveRange = (0.7, 1.5)
+    light_share: Fraction = 0.0
+    wear: WearRanges = WearRanges()
 
 
 class WindRanges(Model):
@@ -85,7 +99,8 @@ class PlacementRanges(Model):
     """Where the cables start, at stacked heights. `drop_height_m`, `spacing_m` and `bend_per_m` are ours.
 
     `bend_per_m` is a cable's natural curvature, drawn at `BEND_KNOTS` points along it: what is left of the coil it
-    came from. The published cables start straight and are bent by the cloth's own drift.
+    came from. The published cables start straight and are bent by the cloth's own drift. Cables with a loop
+    somewhere, or coiled all along, are ours too.
     """
 
     free_x_m: LengthRange = (-0.025, 0.025)
@@ -97,11 +112,17 @@ class PlacementRanges(Model):
     aligned_deviation_deg: Range = (-10.0, 10.0)
     drop_height_m: Annotated[float, Field(ge=0, le=0.2)] = 0.004
     spacing_m: Annotated[float, Field(gt=0, le=0.1)] = 0.004
-    bend_per_m: Annotated[tuple[Bend, Bend], AfterValidator(_in_order)] = (-5.0, 5.0)
+    bend_per_m: BendRange = (-5.0, 5.0)
+    loop_share: Fraction = 0.0
+    loop_radius_m: PositiveRange = (0.012, 0.04)
+    coil_share: Fraction = 0.0
+    coil_radius_m: PositiveRange = (0.015, 0.05)
 
 
 class CableRanges(Model):
     """How many cables, how thick (ours: one value), how long (ours), how heavy and stiff, and their surface.
+
+    Diameters are drawn evenly in their logarithm; one wider than `widest_share` of the picture is made so thin.
 
     `vertex_mass` is the published setting of the cloth. Young's modulus (drawn evenly in its logarithm), density and
     friction are ours: soft silicone leads to stiff sheathed wire. Modulus and density are those of a full round
@@ -109,8 +130,9 @@ class CableRanges(Model):
     """
 
     count: CableCountRange = (1, 8)
-    diameter_m: Annotated[float, Field(ge=0.0005, le=0.02)] = 0.002
-    length_m: Annotated[float, Field(ge=0.05, le=2.0)] = 0.40
+    diameter_m: DiameterRange = (0.002, 0.002)
+    widest_share: Fraction = 1.0
+    length_m: CableLengthRange = (0.40, 0.40)
     vertex_mass: PositiveRange = (0.3, 0.5)
     youngs_modulus_pa: ModulusRange = (1e6, 3e7)
     density_kg_m3: DensityRange = (1200.0, 2500.0)
@@ -121,49 +143,9 @@ class CableRanges(Model):
     dirt_offset: Range = (-500.0, 500.0)
     dirt_colour: LevelRange = (0, 4)
     reflection_position: FractionRange = (0.60, 0.70)
-
-
-class LampRanges(Model):
-    """The one lamp of a concentrated light: a point or an area light, distances in metres."""
-
-    area_share: Fraction = 0.5
-    point_bearing_deg: Range = (0.0, 360.0)
-    point_radius_m: PositiveRange = (5.0, 6.5)
-    point_height_m: PositiveRange = (5.0, 6.5)
-    point_power_w: NotNegativeRange = (800.0, 1500.0)
-    point_size_m: PositiveRange = (0.1, 2.0)
-    area_distance_m: PositiveRange = (4.0, 15.0)
-    area_power_w: NotNegativeRange = (400.0, 1800.0)
-
-
-class WorldRanges(Model):
-    """The HDRI's turn, its brightness when it is a dark one, and its tilt over a floor."""
-
-    rotation_deg: Range = (-180.0, 180.0)
-    dark_brightness: FractionRange = (0.10, 0.60)
-    close_tilts_deg: Annotated[tuple[float, ...], Field(min_length=1)] = (0.0, 90.0)
-
-
-class CameraRanges(Model):
-    """The camera's heights, which set the cable's size in pixels. The f-number is ours.
-
-    Above 1.5 m a picture would show the edge of the floor.
-    """
-
-    heights_m: Annotated[tuple[Annotated[float, Field(ge=0.02, le=1.5)], ...], Field(min_length=1)] = (
-        0.09,
-        0.12,
-        0.15,
-        0.16,
-        0.18,
-        0.20,
-        0.22,
-        0.24,
-        0.27,
-        0.30,
-        0.33,
-    )
-    f_number: Annotated[float, Field(ge=0.5, le=128)] = 8.0
+    skin: SkinRanges = SkinRanges()
+    bundle: BundleRanges = BundleRanges()
+    ends: EndRanges = EndRanges()
 
 
 class Ranges(Model):
@@ -173,22 +155,27 @@ class Ranges(Model):
     wind: WindRanges = WindRanges()
     placement: PlacementRanges = PlacementRanges()
     cable: CableRanges = CableRanges()
+    clutter: ClutterRanges = ClutterRanges()
     lamp: LampRanges = LampRanges()
+    studio: StudioRanges = StudioRanges()
     world: WorldRanges = WorldRanges()
+    plate: PlateRanges = PlateRanges()
     camera: CameraRanges = CameraRanges()
+    development: DevelopmentRanges = DevelopmentRanges()
 
     @model_validator(mode="after")
     def _fit_each_other(self) -> Self:
-        diameter = self.cable.diameter_m
-        if self.placement.spacing_m < SPACING_DIAMETERS * diameter:
+        lowest = min(self.camera.heights_m)
+        widest = min(self.cable.diameter_m[1], self.cable.widest_share * seen_width_m(lowest))
+        pile = self.cable.count[1] * widest
+        if lowest < 2 * pile:
             raise ValueError(
-                f"placement.spacing_m {self.placement.spacing_m} is below {SPACING_DIAMETERS} times cable.diameter_m "
-                f"{diameter}: cables would start inside each other"
-            )
-        pile = self.cable.count[1] * diameter
-        if min(self.camera.heights_m) < 2 * pile:
-            raise ValueError(
-                f"camera.heights_m {min(self.camera.heights_m)} is below twice the highest pile, {pile:g} m "
-                "(cable.count times cable.diameter_m): the camera would be among the cables"
+                f"camera.heights_m {lowest} is below twice the highest pile, {pile:g} m "
+                "(cable.count times the thickest cable): the camera would be among the cables"
             )
         return self
+
+
+def seen_width_m(height_m: float) -> float:
+    """Width of the floor that the published lens sees from a height."""
+    return height_m * SENSOR_MM / FOCAL_LENGTH_MM

@@ -4,28 +4,15 @@ Lengths are metres, angles degrees, powers watts, colours 8-bit levels of linear
 otherwise. World axes: x right and y up in the picture, z towards the camera, the floor's surface at z = 0.
 """
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import Field
 
-from farm.model import Model, Vector3
-
-Rgb = tuple[
-    Annotated[int, Field(ge=0, le=255)],
-    Annotated[int, Field(ge=0, le=255)],
-    Annotated[int, Field(ge=0, le=255)],
-]
-
-
-class CableMaterial(Model):
-    """A cable's surface: colour, the dirt's density and pattern, and the second ramp's position."""
-
-    colour: Rgb
-    dirt_colour: Rgb
-    dirt_position: float
-    dirt_mapping: Vector3
-    dirt_offset: float
-    reflection_position: float
+from farm.clutter import Part, Sheet, Stick
+from farm.lights import GreyWorld, HdriWorld, Lamp
+from farm.looks import CableEnd, Look
+from farm.model import Model
+from farm.photograph import Camera, Development
 
 
 class Cable(Model):
@@ -34,8 +21,11 @@ class Cable(Model):
     Attributes:
         rotation_deg: mean bearing of the cable, counted from the x axis.
         bends_per_m: its natural curvature in 1/m at equally spaced points from end to end; all 0 is straight.
+        rise_m: how much higher its end starts than its beginning, so that loops and coils lie on themselves.
         youngs_modulus_pa: bending stiffness over the second moment of area of a full round section.
         density_kg_m3: mass over volume.
+        material: what is seen of it; a bundle has several strands.
+        ends: where it starts and where it stops.
     """
 
     diameter_m: Annotated[float, Field(gt=0)]
@@ -45,9 +35,11 @@ class Cable(Model):
     start_height_m: Annotated[float, Field(ge=0)]
     rotation_deg: float
     bends_per_m: Annotated[tuple[float, ...], Field(min_length=2)]
+    rise_m: float = 0.0
     youngs_modulus_pa: Annotated[float, Field(gt=0)]
     density_kg_m3: Annotated[float, Field(gt=0)]
-    material: CableMaterial
+    material: Look
+    ends: tuple[CableEnd, CableEnd] = (CableEnd(), CableEnd())
 
 
 class Gust(Model):
@@ -83,6 +75,32 @@ class Wind(Model):
     gusts: tuple[Gust, ...]
 
 
+class Wear(Model):
+    """What a floor has been through, beyond what its texture shows.
+
+    Attributes:
+        brightness: its colour's factor, in linear light.
+        tint: factors of red, green and blue beside that.
+        saturation: 1 leaves colours as they are.
+        contrast: of the texture about its mean; 1 leaves it as it is.
+        stains: share of the floor under dried puddles.
+        scratches: of them, a square decimetre.
+        dust: share of the floor under a film of dust.
+        mirrored: whether the texture is turned over.
+        pattern_seed: of stains, scratches and dust.
+    """
+
+    brightness: Annotated[float, Field(gt=0)]
+    tint: tuple[float, float, float]
+    saturation: Annotated[float, Field(ge=0)]
+    contrast: Annotated[float, Field(ge=0)]
+    stains: Annotated[float, Field(ge=0, le=1)]
+    scratches: Annotated[float, Field(ge=0)]
+    dust: Annotated[float, Field(ge=0, le=1)]
+    mirrored: bool
+    pattern_seed: Annotated[int, Field(ge=0, lt=2**63)]
+
+
 class Floor(Model):
     """The floor's texture and how it lies; offsets in tiles."""
 
@@ -91,54 +109,34 @@ class Floor(Model):
     offset_y: float
     rotation_deg: float
     scale: float
+    wear: Wear | None = None
 
 
-class PointLamp(Model):
-    """A point light: a sphere of radius `size_m`."""
-
-    kind: Literal["point"] = "point"
-    bearing_deg: float
-    radius_m: float
-    height_m: float
-    power_w: float
-    size_m: float
-
-
-class AreaLamp(Model):
-    """An area light to the left (x < 0) or right of the cables; its height and size are the template's."""
-
-    kind: Literal["area"] = "area"
-    x_m: float
-    power_w: float
-
-
-class HdriWorld(Model):
-    """The HDRI that lights the scene.
+class Plate(Model):
+    """A photograph of the user's behind the cables.
 
     Attributes:
-        hdri: its name in the dataset's catalogue.
-        rotation_deg: turn about the vertical of the HDRI.
-        tilt_deg: 0: its zenith is above the floor; 90: the camera looks at its horizon, upright.
-        brightness: the second mix factor; 0 leaves the HDRI as it is, 1 doubles it.
+        name: in the dataset's catalogue.
+        x: where the seen square lies between the left (0) and the right (1).
+        y: likewise, between top and bottom.
+        zoom: edge of the seen square over the photograph's shorter side.
+        mirror: whether left and right are swapped.
+        blur_px: radius of the disc by which it is out of focus, in the picture's pixels.
     """
 
-    hdri: str
-    rotation_deg: float
-    tilt_deg: float
-    brightness: Annotated[float, Field(ge=0, le=1)]
-
-
-class Camera(Model):
-    """A camera straight above the origin, focused on the floor."""
-
-    height_m: Annotated[float, Field(gt=0)]
-    f_number: Annotated[float, Field(gt=0)]
+    name: str
+    x: Annotated[float, Field(ge=0, le=1)]
+    y: Annotated[float, Field(ge=0, le=1)]
+    zoom: Annotated[float, Field(ge=0.1, le=1)]
+    mirror: bool
+    blur_px: Annotated[float, Field(ge=0)]
 
 
 class Scene(Model):
     """Everything drawn for one attempt at one job.
 
-    `floor` is None where the floor is hidden from the camera; of `lamp` and `hdri_world` exactly one is given.
+    `floor` is None where the floor is hidden from the camera. There are lamps or an `hdri_world`; `grey_world` is None
+    for the template's own, and so is `development` for its view transform.
     """
 
     attempt: Annotated[int, Field(ge=0)]
@@ -147,7 +145,13 @@ class Scene(Model):
     friction: Friction
     wind: Wind
     floor: Floor | None
-    lamp: Annotated[PointLamp | AreaLamp, Field(discriminator="kind")] | None
+    lamps: tuple[Lamp, ...]
+    grey_world: GreyWorld | None = None
     hdri_world: HdriWorld | None
+    plate: Plate | None = None
+    sticks: tuple[Stick, ...] = ()
+    sheets: tuple[Sheet, ...] = ()
+    parts: tuple[Part, ...] = ()
     camera: Camera
+    development: Development | None = None
     render_seed: Annotated[int, Field(ge=0, lt=2**31)]

@@ -23,6 +23,10 @@ class Stage(IntEnum):
     WORLD = 6
     CAMERA = 7
     RENDER = 8
+    WEAR = 9
+    CLUTTER = 10
+    DEVELOPMENT = 11
+    ENDS = 12
 
 
 def seed_sequence(

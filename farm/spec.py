@@ -17,8 +17,12 @@ from farm.model import Model
 from farm.quality import Preset, Quality, settings_for
 from farm.quotas import split_total
 from farm.ranges import Ranges
+from farm.styles import Style, merge_ranges
 
 Quota = Annotated[int, Field(ge=0, le=10**7)]
+
+
+DEFAULT_STYLE = Style.PUBLISHED
 
 
 class Engine(StrEnum):
@@ -31,7 +35,7 @@ class Engine(StrEnum):
 class DatasetSpec(Model):
     """A dataset: how many images of which category, from which seed, made how.
 
-    `quotas` holds all six categories; `parse_spec` fills it in from a total.
+    `quotas` holds all six categories; `parse_spec` fills it in from a total, and `ranges` from the style.
     """
 
     version: Literal[1] = 1
@@ -41,6 +45,7 @@ class DatasetSpec(Model):
     engine: Engine = Engine.CYCLES
     quality: Quality = Preset.STANDARD
     close_distributed_hdri: str | None = None
+    style: Style = Style.PUBLISHED
     simulator: Simulator = Simulator.ROD
     fall: Fall = Fall()
     ranges: Ranges = Ranges()
@@ -93,6 +98,15 @@ def _resolve_quotas(data: Mapping[str, object]) -> dict[str, object]:
     return resolved if quotas is None else resolved | {"quotas": quotas}
 
 
+def _resolve_ranges(data: Mapping[str, object]) -> dict[str, object]:
+    style, overrides = data.get("style", DEFAULT_STYLE), data.get("ranges", {})
+    if not isinstance(style, str) or style not in set(Style):
+        raise SpecError(f"style: expected one of {', '.join(Style)}, not {style!r}")
+    if not isinstance(overrides, Mapping):
+        raise SpecError(f"ranges: expected a table, not {overrides!r}")
+    return {**data, "style": style, "ranges": merge_ranges(Style(style), overrides)}
+
+
 def parse_spec(data: Mapping[str, object], *, source: str) -> DatasetSpec:
     """Validate a description; a total `images` is split over the categories as published, 2:2:1:1:2:2.
 
@@ -104,7 +118,7 @@ def parse_spec(data: Mapping[str, object], *, source: str) -> DatasetSpec:
         SpecError: with the key, what was wrong with it, and where.
     """
     try:
-        return DatasetSpec.model_validate_json(pydantic_core.to_json(_resolve_quotas(data)))
+        return DatasetSpec.model_validate_json(pydantic_core.to_json(_resolve_ranges(_resolve_quotas(data))))
     except ValidationError as error:
         raise SpecError(f"{source}: {_describe(error)}") from error
     except (SpecError, pydantic_core.PydanticSerializationError) as error:

@@ -23,8 +23,11 @@ from farm.category import Category
 from farm.errors import AssetError, EnvironmentMissingError, RenderError, SceneError
 from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
 from farm.job import Job
+from farm.lights import HdriWorld, PointLamp
+from farm.looks import CableMaterial
 from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
-from farm.scene import Cable, CableMaterial, Camera, Floor, Friction, HdriWorld, PointLamp, Scene, Wind
+from farm.photograph import Camera
+from farm.scene import Cable, Floor, Friction, Scene, Wind
 from farm.seeds import Stage, generator
 from farm.spec import parse_spec
 from worker.command import main
@@ -87,7 +90,7 @@ def stand_in_scene(job: Job) -> Scene:
             bearing_deg=0.0, distance=5.0, height=1.0, tilt_deg=90.0, strength=1.0, flow=0.2, speed_m_s=0.2, gusts=()
         ),
         floor=None if far else Floor(texture="oak", offset_x=0.0, offset_y=0.0, rotation_deg=0.0, scale=1.0),
-        lamp=lamp if lit_by_lamp else None,
+        lamps=(lamp,) if lit_by_lamp else (),
         hdri_world=None if lit_by_lamp else world,
         camera=Camera(height_m=0.2, f_number=8.0),
         render_seed=1,

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
-from farm.scene import Camera
+from farm.photograph import Camera
 
 UPPER_WIDTH_PX = 512
 """Texels around the horizon of light from above: 0.7 degrees each, sharper than any reflection on floors and cables."""

@@ -8,21 +8,12 @@ import numpy as np
 from farm.category import Background, Disposition, Light
 from farm.header import DatasetHeader, HdriRef
 from farm.job import Job
-from farm.ranges import BEND_KNOTS, CableRanges, FloorRanges, LampRanges, PlacementRanges, Ranges, WindRanges
-from farm.scene import (
-    AreaLamp,
-    Cable,
-    CableMaterial,
-    Camera,
-    Floor,
-    Friction,
-    Gust,
-    HdriWorld,
-    PointLamp,
-    Rgb,
-    Scene,
-    Wind,
-)
+from farm.light_ranges import LampRanges
+from farm.lights import AreaLamp, HdriWorld, PointLamp
+from farm.looks import CableMaterial, Rgb
+from farm.photograph import Camera
+from farm.ranges import BEND_KNOTS, CableRanges, FloorRanges, PlacementRanges, Ranges, WindRanges
+from farm.scene import Cable, Floor, Friction, Gust, Scene, Wind
 from farm.seeds import Stage, generator
 
 GUSTS = 3
@@ -67,7 +58,7 @@ def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         cable=_uniform(count_and_mass, ranges.cable.friction_cable),
     )
     substances = [_draw_substance(ranges.cable, count_and_mass) for _ in range(count)]
-    lamp = _draw_lamp(ranges.lamp, streams(Stage.LIGHT)) if traits.light is Light.CONCENTRATED else None
+    lamps = (_draw_lamp(ranges.lamp, streams(Stage.LIGHT)),) if traits.light is Light.CONCENTRATED else ()
     return Scene(
         attempt=attempt,
         cables=_draw_cables(ranges, traits.disposition, substances, streams),
@@ -77,8 +68,8 @@ def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         floor=_draw_floor(ranges.floor, header, streams(Stage.FLOOR))
         if traits.background is Background.FLOOR
         else None,
-        lamp=lamp,
-        hdri_world=None if lamp else _draw_world(header, traits.background, streams(Stage.WORLD)),
+        lamps=lamps,
+        hdri_world=None if lamps else _draw_world(header, traits.background, streams(Stage.WORLD)),
         camera=_draw_camera(ranges, streams(Stage.CAMERA)),
         render_seed=int(streams(Stage.RENDER).integers(2**31)),
     )
@@ -113,8 +104,8 @@ def _draw_cables(
     start, spacing = ranges.placement.drop_height_m, ranges.placement.spacing_m
     return tuple(
         Cable(
-            diameter_m=ranges.cable.diameter_m,
-            length_m=ranges.cable.length_m,
+            diameter_m=ranges.cable.diameter_m[0],
+            length_m=ranges.cable.length_m[0],
             x_m=placement.x_m,
             y_m=placement.y_m,
             start_height_m=start + spacing * level,
@@ -247,4 +238,4 @@ def _fixed_hdri(header: DatasetHeader) -> HdriRef:
 
 def _draw_camera(ranges: Ranges, rng: np.random.Generator) -> Camera:
     heights = ranges.camera.heights_m
-    return Camera(height_m=heights[int(rng.integers(len(heights)))], f_number=ranges.camera.f_number)
+    return Camera(height_m=heights[int(rng.integers(len(heights)))], f_number=ranges.camera.f_number[0])

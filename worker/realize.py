@@ -8,8 +8,10 @@ import numpy as np
 from blend import names
 from farm.category import Background, CategoryTraits
 from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
+from farm.looks import CableMaterial, Rgb
+from farm.photograph import Camera
 from farm.rendering import CableDetail, Economy
-from farm.scene import Cable, CableMaterial, Camera, Rgb, Scene
+from farm.scene import Cable, Scene
 from worker.floor import set_floor, set_unseen_floor
 from worker.images import ImageShelf
 from worker.library import AssetLibrary
@@ -68,7 +70,7 @@ def realize(
         set_unseen_floor(shelf)
     else:
         set_floor(scene.floor, library.surface(scene.floor.texture), shelf, view if economy.texture_window else None)
-    set_lamps(scene.lamp)
+    set_lamps(scene.lamps)
     _set_camera(scene.camera)
     if scene.hdri_world is None:
         set_grey_world()
@@ -94,6 +96,8 @@ def remove_cables() -> None:
 
 def _add_cable(number: int, cable: Cable, curve: Points, detail: CableDetail, view: View | None) -> None:
     """Add a cable; of one that leaves the view, the parts that are seen or may throw a shadow into it."""
+    if not isinstance(cable.material, CableMaterial):
+        raise NotImplementedError  # until skins are drawn
     material = _cable_material(f"{names.CABLE}.{number}", cable.material)
     if view is None:
         parts = [slice(0, len(curve))]

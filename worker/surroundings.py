@@ -9,22 +9,30 @@ from numpy.typing import NDArray
 
 from blend import names
 from blend.world import is_as_built
-from farm.scene import AreaLamp, Camera, HdriWorld, PointLamp
+from farm.lights import AreaLamp, HdriWorld, Lamp, PointLamp
+from farm.photograph import Camera
 from worker.images import ImageShelf
 from worker.library import AssetLibrary
 from worker.panorama import Panorama, backdrop, upper_world
 
 
-def set_lamps(lamp: PointLamp | AreaLamp | None) -> None:
-    """Light the lamp that a scene has, and no other."""
+def set_lamps(lamps: tuple[Lamp, ...]) -> None:
+    """Light the lamps that a scene has, and no other."""
+    bpy.data.objects[names.POINT_LAMP].hide_render = bpy.data.objects[names.AREA_LAMP].hide_render = True
+    for lamp in lamps:
+        _light(lamp)
+
+
+def _light(lamp: Lamp) -> None:
     point, area = bpy.data.objects[names.POINT_LAMP], bpy.data.objects[names.AREA_LAMP]
-    point.hide_render, area.hide_render = not isinstance(lamp, PointLamp), not isinstance(lamp, AreaLamp)
     if isinstance(lamp, PointLamp):
+        point.hide_render = False
         bearing = np.radians(lamp.bearing_deg)
         point.location = (lamp.radius_m * np.cos(bearing), lamp.radius_m * np.sin(bearing), lamp.height_m)
         point.data.energy = lamp.power_w
         point.data.shadow_soft_size = lamp.size_m
     elif isinstance(lamp, AreaLamp):
+        area.hide_render = False
         area.location.x = lamp.x_m
         area.data.energy = lamp.power_w
 

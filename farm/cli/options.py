@@ -16,6 +16,7 @@ from farm.errors import SpecError
 from farm.fall import Simulator
 from farm.quality import read_quality
 from farm.spec import Engine
+from farm.styles import Style
 
 _DATASET = "What to make"
 
@@ -84,6 +85,9 @@ class DatasetOptions:
             rich_help_panel=_DATASET,
         ),
     ] = None
+    style: Annotated[
+        Style | None, typer.Option(help="Which ranges everything is drawn from.", rich_help_panel=_DATASET)
+    ] = None
     simulator: Annotated[Simulator | None, typer.Option(help="What lets cables fall.", rich_help_panel=_DATASET)] = None
     template: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Your own .blend template.", rich_help_panel=_DATASET)
@@ -122,7 +126,7 @@ class DatasetOptions:
             raise SpecError("give either --images or --quota, not both")
         flags: dict[str, object] = {
             name: getattr(self, name)
-            for name in ("images", "seed", "resolution", "engine", "simulator", "close_distributed_hdri")
+            for name in ("images", "seed", "resolution", "engine", "style", "simulator", "close_distributed_hdri")
             if getattr(self, name) is not None
         }
         if self.quality is not None:

@@ -31,12 +31,6 @@ def test_the_defaults_are_the_published_ranges() -> None:
     assert ranges.camera.heights_m == (0.09, 0.12, 0.15, 0.16, 0.18, 0.20, 0.22, 0.24, 0.27, 0.30, 0.33)
 
 
-def test_cables_that_would_start_inside_each_other_are_refused() -> None:
-    """Both keys are named."""
-    with pytest.raises(SpecError, match=r"spacing_m .* cable\.diameter_m"):
-        with_ranges(cable={"diameter_m": 0.01})
-
-
 def test_a_camera_among_the_cables_is_refused() -> None:
     """Both keys are named."""
     with pytest.raises(SpecError, match=r"camera\.heights_m .*cable\.count"):

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from farm.scene import Camera
+from farm.photograph import Camera
 from worker.panorama import UPPER_WIDTH_PX, Panorama, backdrop, upper_world
 
 UPRIGHT = np.eye(3)

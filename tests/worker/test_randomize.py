@@ -7,8 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from farm.category import Background, Category, Light
+from farm.lights import AreaLamp, PointLamp
 from farm.ranges import Ranges
-from farm.scene import AreaLamp, PointLamp, Scene
+from farm.scene import Scene
 from tests.worker.scenes import make_scene
 
 RANGES = Ranges()
@@ -51,8 +52,8 @@ def test_a_category_fixes_floor_lamp_and_hdri(category: Category) -> None:
     traits = category.traits
     for scene in many(category, 10):
         assert (scene.floor is not None) == (traits.background is Background.FLOOR)
-        assert (scene.lamp is not None) == (traits.light is Light.CONCENTRATED)
-        assert (scene.hdri_world is None) == (scene.lamp is not None)
+        assert bool(scene.lamps) == (traits.light is Light.CONCENTRATED)
+        assert (scene.hdri_world is None) == bool(scene.lamps)
 
 
 def test_one_to_eight_cables_are_drawn_and_each_number_occurs() -> None:
@@ -97,7 +98,7 @@ def test_wind_flows_at_a_fifth_of_its_strength() -> None:
 
 def test_both_lamps_occur_and_lie_in_their_ranges() -> None:
     """Half point, half area; the area light to either side."""
-    lamps = [scene.lamp for scene in many(Category.CLOSE_CONCENTRATED, 100)]
+    lamps = [scene.lamps[0] for scene in many(Category.CLOSE_CONCENTRATED, 100)]
     areas = [lamp for lamp in lamps if isinstance(lamp, AreaLamp)]
     points = [lamp for lamp in lamps if isinstance(lamp, PointLamp)]
     assert {area.x_m > 0 for area in areas} == {True, False}

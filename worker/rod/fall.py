@@ -58,7 +58,7 @@ def rods_of(scene: Scene, fall: RodFall) -> list[Rod]:
 
 def surroundings_of(scene: Scene) -> Surroundings:
     """The scene's floor, friction and wind; still air if its speed is 0."""
-    highest = max(cable.start_height_m for cable in scene.cables)
+    highest = max(cable.start_height_m + cable.rise_m for cable in scene.cables)
     return Surroundings(
         friction_floor=scene.friction.floor,
         friction_rods=scene.friction.cable,
@@ -87,7 +87,7 @@ def _rod(cable: Cable, segment_radii: float) -> Rod:
     nodes = np.empty((len(level), 3))
     nodes[:, 0] = cable.x_m + cosine * level[:, 0] - sine * level[:, 1]
     nodes[:, 1] = cable.y_m + sine * level[:, 0] + cosine * level[:, 1]
-    nodes[:, 2] = radius + cable.start_height_m
+    nodes[:, 2] = radius + cable.start_height_m + np.linspace(0.0, cable.rise_m, len(level))
     return Rod(
         nodes_m=nodes,
         radius_m=radius,

@@ -1,0 +1,59 @@
+"""Types of the random parameters' ranges: a low and a high end, each within what makes sense."""
+
+from typing import Annotated
+
+from pydantic import AfterValidator, Field
+
+
+def in_order(bounds: tuple[float, float]) -> tuple[float, float]:
+    """Check that a range's low end is not above its high end.
+
+    Raises:
+        ValueError: if it is.
+    """
+    if bounds[0] > bounds[1]:
+        raise ValueError(f"the low end {bounds[0]} is above the high end {bounds[1]}")
+    return bounds
+
+
+def _counts_in_order(bounds: tuple[int, int]) -> tuple[int, int]:
+    in_order(bounds)
+    return bounds
+
+
+Fraction = Annotated[float, Field(ge=0, le=1)]
+Length = Annotated[float, Field(ge=-10, le=10)]
+Positive = Annotated[float, Field(gt=0, le=1e5)]
+NotNegative = Annotated[float, Field(ge=0, le=1e5)]
+Level = Annotated[int, Field(ge=0, le=255)]
+Modulus = Annotated[float, Field(ge=1e5, le=1e10)]
+Density = Annotated[float, Field(ge=100, le=20_000)]
+FrictionCoefficient = Annotated[float, Field(ge=0, le=2)]
+CableCount = Annotated[int, Field(ge=1, le=8)]
+
+Bend = Annotated[float, Field(ge=-60, le=60)]
+Diameter = Annotated[float, Field(ge=0.0005, le=0.02)]
+CableLength = Annotated[float, Field(ge=0.05, le=2.0)]
+Heights = Annotated[float, Field(ge=0.02, le=1.5)]
+Count = Annotated[int, Field(ge=0, le=20)]
+Temperature = Annotated[float, Field(ge=1000, le=20_000)]
+Elevation = Annotated[float, Field(gt=0, le=90)]
+JpegQuality = Annotated[int, Field(ge=1, le=100)]
+
+Range = Annotated[tuple[float, float], AfterValidator(in_order)]
+FractionRange = Annotated[tuple[Fraction, Fraction], AfterValidator(in_order)]
+LengthRange = Annotated[tuple[Length, Length], AfterValidator(in_order)]
+PositiveRange = Annotated[tuple[Positive, Positive], AfterValidator(in_order)]
+NotNegativeRange = Annotated[tuple[NotNegative, NotNegative], AfterValidator(in_order)]
+ModulusRange = Annotated[tuple[Modulus, Modulus], AfterValidator(in_order)]
+DensityRange = Annotated[tuple[Density, Density], AfterValidator(in_order)]
+FrictionRange = Annotated[tuple[FrictionCoefficient, FrictionCoefficient], AfterValidator(in_order)]
+LevelRange = Annotated[tuple[Level, Level], AfterValidator(_counts_in_order)]
+CableCountRange = Annotated[tuple[CableCount, CableCount], AfterValidator(_counts_in_order)]
+CountRange = Annotated[tuple[Count, Count], AfterValidator(_counts_in_order)]
+JpegQualityRange = Annotated[tuple[JpegQuality, JpegQuality], AfterValidator(_counts_in_order)]
+DiameterRange = Annotated[tuple[Diameter, Diameter], AfterValidator(in_order)]
+CableLengthRange = Annotated[tuple[CableLength, CableLength], AfterValidator(in_order)]
+BendRange = Annotated[tuple[Bend, Bend], AfterValidator(in_order)]
+TemperatureRange = Annotated[tuple[Temperature, Temperature], AfterValidator(in_order)]
+ElevationRange = Annotated[tuple[Elevation, Elevation], AfterValidator(in_order)]
