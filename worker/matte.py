@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from worker.coverage import covered_share
 from worker.panorama import Panorama
-from worker.shapes import Points
+from worker.piece import Piece
 from worker.silhouette import View, silhouettes
 
 _RING_PX = 0.75
@@ -43,17 +43,14 @@ class Backdrop:
     covered: NDArray[np.float32]
 
 
-def covered_by(
-    curves: Sequence[Points], radii_m: NDArray[np.float64], view: View, lens_radius_m: float, sides: int
-) -> NDArray[np.float32]:
-    """How much of each pixel cables cover, seen through a lens in focus on the floor.
+def covered_by(pieces: Sequence[Piece], view: View, lens_radius_m: float, sides: int) -> NDArray[np.float32]:
+    """How much of each pixel cables and what is on them cover, seen through a lens in focus on the floor.
 
     It is the mean over places spread evenly over the lens, each of which sees as a pinhole does; so many of them that
     no edge shows twice.
 
     Args:
-        curves: finely sampled centrelines (N, 3), metres.
-        radii_m: (cables,), radius of each.
+        pieces: all that is rendered.
         view: the camera.
         lens_radius_m: half the width of its aperture.
         sides: corners of the rendered tubes' cross-section.
@@ -61,14 +58,14 @@ def covered_by(
     Returns:
         (H, W), 0 to 1.
     """
-    highest = max(float(curve[:, 2].max() + radius) for curve, radius in zip(curves, radii_m, strict=True))
+    highest = max(piece.top_m for piece in pieces)
     below_m = max(view.height_m - highest, 1e-6)  # a cable that reaches up to the camera has no picture
     blur_px = lens_radius_m * highest / below_m * view.pixels_per_m
     covered = np.zeros((view.resolution, view.resolution), np.float32)
     places = list(_on_disc(min(_MOST_RINGS, round(blur_px / _RING_PX))))
     for x, y in places:
         through = replace(view, pinhole_m=(lens_radius_m * x, lens_radius_m * y))
-        for rows, quads, _ in silhouettes(curves, radii_m, through, sides).bands(through):
+        for rows, quads, _ in silhouettes(pieces, through, sides).bands(through):
             covered[rows] += covered_share(quads, rows.stop - rows.start, view.resolution)
     covered /= np.float32(len(places))
     return covered
