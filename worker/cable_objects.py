@@ -8,7 +8,7 @@ import numpy as np
 
 from blend import names
 from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
-from farm.looks import CableMaterial, Rgb, Skin
+from farm.looks import CableMaterial, Rgb
 from worker.images import ImageShelf
 from worker.piece import Convex, Piece, Plain, Tubular
 from worker.plain import draw_plain
@@ -33,7 +33,7 @@ def remove_cables() -> None:
 
 
 def add_cables(pieces: Sequence[Piece], sides: int, view: View, shelf: ImageShelf, *, whole: bool) -> None:
-    """Add a settled scene's cables; of those that leave the view, the parts that are seen or may throw a shadow into it.
+    """Add a settled scene's cables; of those that leave the view, what is seen or may throw a shadow into it.
 
     Args:
         pieces: of the cables.
@@ -52,7 +52,7 @@ def add_cables(pieces: Sequence[Piece], sides: int, view: View, shelf: ImageShel
         if key not in materials:
             materials[key] = _material(name, piece, view, shelf)
         for place, tube in made:
-            _add_mesh(f"{name}.{place}", tube, materials[key])
+            _add_mesh(f"{name}.{place}", tube, materials[key], smooth=isinstance(piece, Tubular))
 
 
 def _identity(piece: Piece) -> object:
@@ -85,7 +85,7 @@ def _tube(piece: Tubular, part: slice, sides: int) -> Tube:
     return tube
 
 
-def _add_mesh(name: str, tube: Tube, material: Any) -> None:
+def _add_mesh(name: str, tube: Tube, material: Any, *, smooth: bool) -> None:
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(len(tube.vertices_m))
     mesh.vertices.foreach_set("co", tube.vertices_m.ravel())
@@ -94,6 +94,8 @@ def _add_mesh(name: str, tube: Tube, material: Any) -> None:
     mesh.polygons.add(len(tube.face_starts))
     mesh.polygons.foreach_set("loop_start", tube.face_starts)
     mesh.uv_layers.new(name="along").uv.foreach_set("vector", tube.uvs.ravel())
+    if not smooth:
+        mesh.shade_flat()
     mesh.update(calc_edges=True)
     mesh.materials.append(material)
     bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
@@ -102,14 +104,10 @@ def _add_mesh(name: str, tube: Tube, material: Any) -> None:
 def _material(name: str, piece: Piece, view: View, shelf: ImageShelf) -> Any:
     if isinstance(piece.surface, CableMaterial):
         return _published(name, piece.surface)
-    if isinstance(piece.surface, Plain):
+    if isinstance(piece, Convex) or isinstance(piece.surface, Plain):
         return _drawn(name, draw_plain(piece.surface), shelf)
-    assert isinstance(piece, Tubular)
-    return _drawn(name, _skin_images(piece, piece.surface, view), shelf)
-
-
-def _skin_images(piece: Tubular, skin: Skin, view: View) -> SkinImages:
-    return draw_skin(skin, piece.whole_m, 2 * float(np.max(piece.radius_m)), 1.0 / view.pixels_per_m)
+    diameter_m = 2 * float(np.max(piece.radius_m))
+    return _drawn(name, draw_skin(piece.surface, piece.whole_m, diameter_m, 1.0 / view.pixels_per_m), shelf)
 
 
 def _published(name: str, wanted: CableMaterial) -> Any:
