@@ -1,7 +1,7 @@
 """The cable that every rendered cable copies, with the published procedural material; and the one of drawn sheaths.
 
-In the published material a Colour Ramp mixes the cable's colour with dirt, its position sets the dirt's density; Mapping and Noise Texture
-drive its factor; a second Colour Ramp sets Metallic and Roughness.
+In the published material a Colour Ramp mixes the cable's colour with dirt, its position sets the dirt's density;
+Mapping and Noise Texture drive its factor; a second Colour Ramp sets Metallic and Roughness.
 """
 
 import math
