@@ -44,11 +44,16 @@ class HdriRef(Model):
 
 
 class BuiltinSurfaceRef(Model):
-    """A floor surface of our own recipes, baked on each machine from a fixed seed."""
+    """A floor surface of our own recipes, baked on each machine from a fixed seed.
+
+    Attributes:
+        light: it is as bright as a table or a bench; a style may draw more of these.
+    """
 
     kind: Literal["builtin"] = "builtin"
     name: str
     recipe_version: int
+    light: bool = False
 
 
 class FolderSurfaceRef(Model):
@@ -66,6 +71,7 @@ class FolderSurfaceRef(Model):
     size_m: Annotated[float, Field(gt=0)] = 0.4
     flip_green: bool = False
     gloss: bool = False
+    light: bool = False
 
 
 SurfaceRef = Annotated[BuiltinSurfaceRef | FolderSurfaceRef, Field(discriminator="kind")]

@@ -122,6 +122,7 @@ class PlacementRanges(Model):
 class CableRanges(Model):
     """How many cables, how thick (ours: one value), how long (ours), how heavy and stiff, and their surface.
 
+    Of `count_draws` even draws of the count the largest holds: with two, eight cables at most are six on average.
     Diameters are drawn evenly in their logarithm; one wider than `widest_share` of the picture is made so thin.
 
     `vertex_mass` is the published setting of the cloth. Young's modulus (drawn evenly in its logarithm), density and
@@ -130,6 +131,7 @@ class CableRanges(Model):
     """
 
     count: CableCountRange = (1, 8)
+    count_draws: Annotated[int, Field(ge=1, le=10)] = 1
     diameter_m: DiameterRange = (0.002, 0.002)
     widest_share: Fraction = 1.0
     length_m: CableLengthRange = (0.40, 0.40)
