@@ -9,14 +9,14 @@ from farm.spec import parse_spec
 
 
 def bench_header(images: int, seed: int, **keys: object) -> DatasetHeader:
-    """A header that asks for `images` of each category; `keys` are further keys of the spec.
+    """A header that asks for `images` of each category, as published unless `keys`, others of the spec, say otherwise.
 
     Raises:
         SpecError: if a key is wrong.
         AssetError: if the built-in assets are not complete.
     """
     quotas = {str(category): images for category in Category}
-    spec = parse_spec({"seed": seed, "quotas": quotas, **keys}, source="benchmark")
+    spec = parse_spec({"seed": seed, "quotas": quotas, "style": "published", **keys}, source="benchmark")
     return make_header(spec, Inputs(), InstalledAssets())
 
 
