@@ -8,9 +8,6 @@ from numpy.typing import NDArray
 
 from worker.bench.pictures.cable_figures import crossings, median_width_px
 
-LEVELS = 8
-"""Of each channel in a colour histogram."""
-
 _CLEARANCE = 0.02
 """Of the picture's edge: so near to a cable, the background is not looked at, as the cable's own outline is there."""
 
@@ -47,7 +44,7 @@ def measure(picture: NDArray[np.uint8], mask: NDArray[np.uint8], instances: NDAr
         mask: (H, W), 0 or 255.
         instances: (H, W), 0 where no cable is seen, else its number.
     """
-    grey = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY)
+    grey = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY).astype(np.uint8)
     return PictureFigures(
         coverage=float(np.mean(mask > 0)),
         grey_level=float(grey.mean()),
@@ -73,14 +70,3 @@ def background_edges(grey: NDArray[np.uint8], mask: NDArray[np.uint8]) -> float:
     background = cv2.dilate(mask, disc) == 0
     edges = cv2.Canny(cv2.GaussianBlur(grey, (0, 0), 1.0), *_CANNY) > 0
     return float(edges[background].mean()) if background.any() else float("nan")
-
-
-def colour_histogram(picture: NDArray[np.uint8]) -> NDArray[np.float64]:
-    """Share of the pixels (512,) in each of 8 x 8 x 8 boxes of RGB.
-
-    Args:
-        picture: (H, W, 3), RGB.
-    """
-    boxes = (picture // (256 // LEVELS)).astype(np.int64)
-    index = (boxes[..., 0] * LEVELS + boxes[..., 1]) * LEVELS + boxes[..., 2]
-    return np.bincount(index.ravel(), minlength=LEVELS**3) / index.size

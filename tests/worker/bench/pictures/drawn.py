@@ -1,5 +1,7 @@
 """Instance maps drawn by hand."""
 
+from collections.abc import Sequence
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -29,9 +31,9 @@ def empty() -> NDArray[np.uint16]:
     return np.zeros((SIZE, SIZE), np.uint16)
 
 
-def curve(instances: NDArray[np.uint16], number: int, points: list[Point], width_px: int) -> None:
+def curve(instances: NDArray[np.uint16], number: int, points: Sequence[Point], width_px: int) -> None:
     """Draw a bent cable with round ends over what is there."""
     line = np.rint(np.array(points) * 2**_SHIFT).astype(np.int32)
     drawn = np.zeros(instances.shape, np.uint8)
-    cv2.polylines(drawn, [line], isClosed=False, color=1, thickness=width_px, shift=_SHIFT)
+    cv2.polylines(drawn, [line], isClosed=False, color=(1,), thickness=width_px, shift=_SHIFT)
     instances[drawn > 0] = number
