@@ -1,10 +1,11 @@
-"""`python -m worker.bench whole|farm|masks|skips|stress|physics|render|soak|startup --out DIR`."""
+"""`python -m worker.bench whole|farm|pictures|masks|skips|stress|physics|render|soak|startup --out DIR`."""
 
 import argparse
 import sys
 from pathlib import Path
 
 from farm.errors import FarmError
+from worker.bench.pictures.options import add_pictures, styles_of
 from worker.bench.soak.options import add_soak
 from worker.bench.throughput.options import add_farm
 from worker.bench.throughput.splits import SPLITS
@@ -21,6 +22,7 @@ def main(arguments: list[str]) -> int:
     shared.add_argument("--seed", type=int, default=0)
     add_whole(commands, shared)
     add_farm(commands, shared)
+    add_pictures(commands, shared)
     masks = commands.add_parser("masks", parents=[shared], help="masks against fine renders")
     masks.add_argument("--images", type=int, help="images of each category")
     stress = commands.add_parser("stress", parents=[shared], help="the rod solver over the whole range of everything")
@@ -94,6 +96,12 @@ def _run_pictures(options: argparse.Namespace) -> int:
         from worker.bench.throughput.command import run as run_farm  # noqa: PLC0415
 
         return run_farm(options.out, seed=options.seed, images=options.images, splits=options.split or SPLITS)
+    if options.benchmark == "pictures":
+        from worker.bench.pictures.command import run as run_pictures  # noqa: PLC0415
+
+        return run_pictures(
+            options.out, seed=options.seed, images=options.images, styles=styles_of(options), datasets=options.dataset
+        )
     from worker.bench import masks  # noqa: PLC0415
 
     return masks.run(options.out, images=options.images, seed=options.seed)
