@@ -12,10 +12,12 @@ from assets.surfaces.catalogue import SURFACES
 from farm.asset_source import InstalledAssets
 from farm.cli.baking import bake
 from farm.cli.display import console
+from farm.cli.fetching import fetch
 from farm.cli.options import Assets
 from farm.errors import AssetError, SpecError
 
 assets_app = typer.Typer(no_args_is_help=True, help="The built-in surfaces and HDRIs, and checking your own.")
+assets_app.command()(fetch)
 
 
 @assets_app.command("list")
