@@ -128,6 +128,26 @@ class HdriWorld(Model):
     brightness: Annotated[float, Field(ge=0, le=1)]
 
 
+class Plate(Model):
+    """The part of a photograph that stands behind the cables of a far picture: a square, out of focus.
+
+    Attributes:
+        name: the photograph's, in the dataset's catalogue.
+        x: where the square lies between the photograph's left edge, 0, and its right, 1.
+        y: the same from its top, 0, to its bottom, 1.
+        zoom: edge of the square, as a share of the photograph's short side.
+        mirror: left and right are swapped.
+        blur_px: radius of the lens's disc, in pixels of the picture.
+    """
+
+    name: str
+    x: Annotated[float, Field(ge=0, le=1)]
+    y: Annotated[float, Field(ge=0, le=1)]
+    zoom: Annotated[float, Field(ge=0.3, le=1)]
+    mirror: bool
+    blur_px: Annotated[float, Field(ge=0)]
+
+
 class Camera(Model):
     """A camera straight above the origin, focused on the floor."""
 

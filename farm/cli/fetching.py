@@ -13,7 +13,7 @@ from farm.errors import AssetError
 from farm.machine import cache_folder
 
 _MIB = 2**20
-_LABELS = {Kind.HDRI: "HDRIs", Kind.TEXTURE: "textures"}
+_LABELS = {Kind.HDRI: "HDRI", Kind.TEXTURE: "texture"}
 
 
 def fetch(
@@ -41,7 +41,8 @@ def fetch(
         count = sum(asset.kind is kind and _is_there(asset, root) for asset in assets)
         if count:
             folder = root / kind.folder
-            typer.echo(f"{count} {_LABELS[kind]} in {folder}; add them to a dataset with --{kind.folder} {folder}")
+            label = _LABELS[kind] + ("" if count == 1 else "s")
+            typer.echo(f"{count} {label} in {folder}; add to a dataset with --{kind.folder} {folder}")
     if failed:
         raise AssetError(
             f"{len(failed)} of {len(assets)} could not be fetched ({', '.join(failed)}); what is wrong is told above"

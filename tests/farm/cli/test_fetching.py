@@ -51,7 +51,7 @@ def test_an_hdri_is_fetched_to_the_cache(farm: Farm, registry: str, tmp_path: Pa
     folder = tmp_path / "cache" / "cable-farm" / "fetched" / "hdris"
     assert result.stdout.splitlines() == [
         "hall: fetched",
-        f"1 HDRIs in {folder}; add them to a dataset with --hdris {folder}",
+        f"1 HDRI in {folder}; add to a dataset with --hdris {folder}",
     ]
     assert farm("assets", "check", "--hdris", str(folder)).stdout == "HDRI hall: bright\n"
     assert "hall: there already" in farm("assets", "fetch", "hall", "--registry", registry).stdout
