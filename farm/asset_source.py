@@ -1,13 +1,14 @@
-"""The surfaces and HDRIs of this machine, as a dataset's header names them."""
+"""The surfaces, HDRIs and photographs of this machine, as a dataset's header names them."""
 
 from collections.abc import Sequence
 from pathlib import Path
 
 from assets.hdris import registry, scan_hdris
+from assets.plates import scan_plates
 from assets.surfaces.catalogue import SURFACES
 from assets.texture_names import TextureRole
 from assets.textures import TextureSet, scan_textures
-from farm.header import BuiltinSurfaceRef, FileRef, FolderSurfaceRef, HdriRef
+from farm.header import BuiltinSurfaceRef, FileRef, FolderSurfaceRef, HdriRef, PlateRef
 
 
 class InstalledAssets:
@@ -39,6 +40,13 @@ class InstalledAssets:
                 backdrop=hdri.backdrop,
             )
             for hdri in scan_hdris(folder)
+        ]
+
+    def plates_in(self, folder: Path) -> Sequence[PlateRef]:
+        """See `AssetSource.plates_in`."""
+        return [
+            PlateRef(name=plate.name, path=str(plate.path.resolve()), sha256=plate.sha256)
+            for plate in scan_plates(folder)
         ]
 
 

@@ -10,7 +10,7 @@ from typing import Protocol
 
 from farm import __version__
 from farm.errors import AssetError, SpecError, TemplateError
-from farm.header import DatasetHeader, HdriRef, SurfaceRef, TemplateRef
+from farm.header import DatasetHeader, HdriRef, PlateRef, SurfaceRef, TemplateRef
 from farm.quality import settings_for
 from farm.spec import DatasetSpec, Engine
 
@@ -26,6 +26,7 @@ class Inputs:
         template: None for the one that comes with the farm.
         textures: folders of PBR textures.
         hdris: folders of .hdr and .exr files.
+        backgrounds: folders of photographs.
         builtin_textures: whether our own surfaces take part.
         builtin_hdris: whether Blender's own HDRIs take part.
     """
@@ -35,6 +36,7 @@ class Inputs:
     hdris: tuple[Path, ...] = ()
     builtin_textures: bool = True
     builtin_hdris: bool = True
+    backgrounds: tuple[Path, ...] = ()
 
 
 class AssetSource(Protocol):
@@ -56,12 +58,16 @@ class AssetSource(Protocol):
         """The HDRIs of a folder."""
         ...
 
+    def plates_in(self, folder: Path) -> Sequence[PlateRef]:
+        """The photographs of a folder."""
+        ...
+
 
 def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> DatasetHeader:
     """Resolve the inputs; nothing is written.
 
     Raises:
-        AssetError: if a texture or HDRI is unreadable, two have one name, or none is left.
+        AssetError: if a texture, HDRI or photograph is unreadable, two have one name, or no surface or HDRI is left.
         TemplateError: if the template is not readable or no .blend file.
         SpecError: if the description names an HDRI that is not there.
     """
@@ -71,8 +77,10 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
     hdris = list(assets.builtin_hdris()) if inputs.builtin_hdris else []
     for folder in inputs.hdris:
         hdris += assets.hdris_in(folder)
+    plates = [plate for folder in inputs.backgrounds for plate in assets.plates_in(folder)]
     _check_names("surface", "--textures", [surface.name for surface in surfaces])
     _check_names("HDRI", "--hdris", [hdri.name for hdri in hdris])
+    _check_unique("photograph", [plate.name for plate in plates], "rename one of the files")
     wanted = spec.close_distributed_hdri
     if wanted is not None and wanted not in {hdri.name for hdri in hdris}:
         names = ", ".join(hdri.name for hdri in hdris)
@@ -83,6 +91,7 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
         template=template_ref(inputs.template),
         surfaces=tuple(surfaces),
         hdris=tuple(hdris),
+        plates=tuple(plates),
         rendering={category: settings_for(spec.quality, category) for category in spec.quotas}
         if spec.engine is Engine.CYCLES
         else {},
@@ -92,11 +101,13 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
 def _check_names(kind: str, flag: str, names: list[str]) -> None:
     if not names:
         raise AssetError(f"no {kind} is left; name a folder with {flag}, or leave the built-in ones in")
-    name, count = Counter(names).most_common(1)[0]
-    if count > 1:
-        raise AssetError(
-            f"{count} {kind}s are called '{name}'; rename the files of one, or leave the built-in ones out"
-        )
+    _check_unique(kind, names, "rename the files of one, or leave the built-in ones out")
+
+
+def _check_unique(kind: str, names: list[str], advice: str) -> None:
+    for name, count in Counter(names).most_common(1):
+        if count > 1:
+            raise AssetError(f"{count} {kind}s are called '{name}'; {advice}")
 
 
 def template_ref(template: Path | None) -> TemplateRef:

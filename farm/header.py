@@ -43,6 +43,14 @@ class HdriRef(Model):
     backdrop: bool = True
 
 
+class PlateRef(Model):
+    """A photograph of the user's own that may stand behind far cables."""
+
+    name: str
+    path: str
+    sha256: Sha256
+
+
 class BuiltinSurfaceRef(Model):
     """A floor surface of our own recipes, baked on each machine from a fixed seed.
 
@@ -91,6 +99,7 @@ class DatasetHeader(Model):
     template: TemplateRef
     surfaces: Annotated[tuple[SurfaceRef, ...], Field(min_length=1)]
     hdris: Annotated[tuple[HdriRef, ...], Field(min_length=1)]
+    plates: tuple[PlateRef, ...] = ()
     rendering: Mapping[Category, ChosenSettings] = {}
 
     @functools.cached_property  # it takes part in every message

@@ -1,4 +1,4 @@
-"""Where this machine has the surfaces and HDRIs that a dataset's header names, checked against it."""
+"""Where this machine has the surfaces, HDRIs and photographs that a dataset's header names, checked against it."""
 
 import hashlib
 from collections.abc import Mapping
@@ -44,6 +44,7 @@ class AssetLibrary:
         """
         self._surfaces = {surface.name: surface for surface in header.surfaces}
         self._hdris = {hdri.name: hdri for hdri in header.hdris}
+        self._plates = {plate.name: plate for plate in header.plates}
         self._baked_folder = baked_folder or surface_directory()
         self._baked: dict[str, BakedSurface] = {}
         self._builtin_hdris: Mapping[str, Hdri] | None = None
@@ -75,6 +76,15 @@ class AssetLibrary:
                 f"the HDRI '{name}' is not among this Blender's own; install the bpy it was submitted with"
             )
         return builtin.path
+
+    def plate(self, name: str) -> Path:
+        """File of a photograph.
+
+        Raises:
+            AssetError: if it is not on this machine, or differs from the header's.
+        """
+        reference = self._plates[name]
+        return self._once_checked(FileRef(path=reference.path, sha256=reference.sha256))
 
     def _once_checked(self, reference: FileRef) -> Path:
         """A file whose checksum this process reads once, since pictures by the thousand use it."""

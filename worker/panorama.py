@@ -66,8 +66,8 @@ def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, reso
         (resolution, resolution, 3), the top row first.
     """
     pixel = SENSOR_MM / FOCAL_LENGTH_MM / resolution
-    disc = _disc(lens_radius_m(camera) / camera.height_m / pixel)
-    margin = disc.shape[0] // 2
+    lens_disc = disc(lens_radius_m(camera) / camera.height_m / pixel)
+    margin = lens_disc.shape[0] // 2
     fine = _samples_per_pixel(pixel, panorama.shape[1])
     edge = resolution + 2 * margin
     offset = ((np.arange(edge * fine) + 0.5) / fine - edge / 2) * pixel
@@ -76,7 +76,7 @@ def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, reso
     sharp = _look_up(panorama, towards @ turn.T.astype(np.float32))
     if fine > 1:
         sharp = cv2.resize(sharp, (edge, edge), interpolation=cv2.INTER_AREA).astype(np.float32, copy=False)
-    blurred = cv2.filter2D(sharp, -1, disc)
+    blurred = cv2.filter2D(sharp, -1, lens_disc)
     seen: Panorama = blurred[margin : edge - margin, margin : edge - margin].astype(np.float32, copy=False)
     return seen
 
@@ -91,14 +91,14 @@ def _samples_per_pixel(pixel: float, columns: int) -> int:
     return min(8, max(1, math.ceil(pixel / (2 * math.pi / columns))))
 
 
-def _disc(radius_px: float) -> NDArray[np.float32]:
+def disc(radius_px: float) -> NDArray[np.float32]:
     """A disc of unit sum, (N, N) with N odd; the share of each pixel that it covers counts."""
     reach, fine = math.ceil(radius_px), 8
     place = (np.arange((2 * reach + 1) * fine) + 0.5) / fine - (reach + 0.5)
     inside = (place[:, None] ** 2 + place[None, :] ** 2 <= max(radius_px, 0.5) ** 2).astype(np.float32)
     share = cv2.resize(inside, (2 * reach + 1, 2 * reach + 1), interpolation=cv2.INTER_AREA)
-    disc: NDArray[np.float32] = (share / share.sum()).astype(np.float32)
-    return disc
+    weights: NDArray[np.float32] = (share / share.sum()).astype(np.float32)
+    return weights
 
 
 @lru_cache(maxsize=4)

@@ -8,14 +8,17 @@ from rich.table import Table
 
 from assets.baked import load_baked, surface_directory
 from assets.hdris import registry
+from assets.plates import scan_plates
 from assets.surfaces.catalogue import SURFACES
 from farm.asset_source import InstalledAssets
 from farm.cli.baking import bake
 from farm.cli.display import console
+from farm.cli.fetching import fetch
 from farm.cli.options import Assets
 from farm.errors import AssetError, SpecError
 
 assets_app = typer.Typer(no_args_is_help=True, help="The built-in surfaces and HDRIs, and checking your own.")
+assets_app.command()(fetch)
 
 
 @assets_app.command("list")
@@ -50,10 +53,11 @@ def build(assets: Assets = None) -> None:
 def check(
     textures: Annotated[list[Path] | None, typer.Option(metavar="DIR", help="Folder of PBR textures.")] = None,
     hdris: Annotated[list[Path] | None, typer.Option(metavar="DIR", help="Folder of .hdr and .exr files.")] = None,
+    backgrounds: Annotated[list[Path] | None, typer.Option(metavar="DIR", help="Folder of photographs.")] = None,
 ) -> None:
-    """Check your own textures and HDRIs before a dataset uses them."""
-    if not textures and not hdris:
-        raise SpecError("name a folder to check: --textures DIR or --hdris DIR")
+    """Check your own textures, HDRIs and photographs before a dataset uses them."""
+    if not textures and not hdris and not backgrounds:
+        raise SpecError("name a folder to check: --textures DIR, --hdris DIR or --backgrounds DIR")
     source = InstalledAssets()
     for folder in textures or ():
         for surface in source.surfaces_in(folder):
@@ -61,3 +65,6 @@ def check(
     for folder in hdris or ():
         for hdri in source.hdris_in(folder):
             typer.echo(f"HDRI {hdri.name}: {'dark' if hdri.dark else 'bright'}")
+    for folder in backgrounds or ():
+        for plate in scan_plates(folder):
+            typer.echo(f"photograph {plate.name}: {plate.width} x {plate.height}")

@@ -100,6 +100,12 @@ class DatasetOptions:
         list[Path] | None,
         typer.Option(metavar="DIR", help="Folder of .hdr and .exr files to add; repeat it.", rich_help_panel=_DATASET),
     ] = None
+    backgrounds: Annotated[
+        list[Path] | None,
+        typer.Option(
+            metavar="DIR", help="Folder of photographs to stand behind far cables; repeat it.", rich_help_panel=_DATASET
+        ),
+    ] = None
     no_builtin_textures: Annotated[
         bool, typer.Option("--no-builtin-textures", help="Leave our surfaces out.", rich_help_panel=_DATASET)
     ] = False
@@ -140,6 +146,8 @@ class DatasetOptions:
             inputs["textures"] = tuple(self.textures)
         if self.hdris:
             inputs["hdris"] = tuple(self.hdris)
+        if self.backgrounds:
+            inputs["backgrounds"] = tuple(self.backgrounds)
         if self.no_builtin_textures:
             inputs["builtin_textures"] = False
         if self.no_builtin_hdris:
