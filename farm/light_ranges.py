@@ -18,6 +18,7 @@ from farm.range_types import (
     PositiveRange,
     Range,
     TemperatureRange,
+    ZoomRange,
 )
 
 
@@ -79,5 +80,5 @@ class PlateRanges(Model):
     """
 
     share: Fraction = 0.5
-    zoom: FractionRange = (0.4, 1.0)
+    zoom: ZoomRange = (0.4, 1.0)
     blur_px: NotNegativeRange = (0.0, 8.0)

@@ -3,7 +3,7 @@
 Source: Malvido Fresnillo et al., "Generation of realistic synthetic cable images to train deep learning
 segmentation models", Machine Vision and Applications 35(4), 2024, doi 10.1007/s00138-024-01562-y.
 
-Lengths are metres of the picture, in which cables are true to size (2 mm thick); angles are degrees. The wind's
+Lengths are metres of the picture, in which cables are true to size (2.3 mm thick); angles are degrees. The wind's
 numbers are those of a Blender wind field in the fall's own units (ARCHITECTURE.md, "Two scales"). Where the
 publication gives no figure (cable length, drop height, spacing, f-number) the default is ours and marked so.
 """
@@ -131,8 +131,8 @@ class CableRanges(Model):
     """
 
     count: CableCountRange = (1, 8)
-    count_draws: Annotated[int, Field(ge=1, le=10)] = 1
-    diameter_m: DiameterRange = (0.002, 0.002)
+    count_draws: Annotated[int, Field(ge=1, le=10)] = 2
+    diameter_m: DiameterRange = (0.0023, 0.0023)
     widest_share: Fraction = 1.0
     length_m: CableLengthRange = (0.40, 0.40)
     vertex_mass: PositiveRange = (0.3, 0.5)

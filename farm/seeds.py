@@ -27,6 +27,7 @@ class Stage(IntEnum):
     CLUTTER = 10
     DEVELOPMENT = 11
     LOOK = 12
+    PLATE = 13
 
 
 def seed_sequence(

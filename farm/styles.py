@@ -74,13 +74,14 @@ def merge_ranges(style: Style, overrides: Mapping[str, object]) -> dict[str, obj
         style: whose ranges hold where none is given.
         overrides: tables of ranges, nested as in `Ranges`.
     """
-    return _merge(RANGES_OF[style].model_dump(mode="json"), overrides)
+    return merge_tables(RANGES_OF[style].model_dump(mode="json"), overrides)
 
 
-def _merge(base: Mapping[str, object], overrides: Mapping[str, object]) -> dict[str, object]:
+def merge_tables(base: Mapping[str, object], overrides: Mapping[str, object]) -> dict[str, object]:
+    """Lay tables over tables: where both have one under a key they are merged, else the override holds."""
     merged = dict(base)
     for key, value in overrides.items():
         present = merged.get(key)
         both = isinstance(present, Mapping) and isinstance(value, Mapping)
-        merged[key] = _merge(present, value) if both else value  # type: ignore[arg-type]  # both are mappings here
+        merged[key] = merge_tables(present, value) if both else value  # type: ignore[arg-type]  # both are mappings here
     return merged

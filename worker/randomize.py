@@ -13,7 +13,7 @@ from farm.seeds import Stage, generator
 from worker.draws.cables import draw_cables, draw_substances
 from worker.draws.clutter import draw_parts, draw_sheets, draw_sticks
 from worker.draws.photograph import draw_camera, draw_development
-from worker.draws.surroundings import NO_LAMPS, draw_floor, draw_lamps, draw_wind, draw_world
+from worker.draws.surroundings import NO_LAMPS, draw_floor, draw_lamps, draw_plate, draw_wind, draw_world
 from worker.draws.values import chance, level, uniform
 
 
@@ -59,6 +59,7 @@ def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         lamps=lighting.lamps,
         grey_world=lighting.grey_world,
         hdri_world=None if lighting.lamps else draw_world(header, traits.background, streams(Stage.WORLD)),
+        plate=None if is_floor else draw_plate(header, streams(Stage.PLATE)),
         sticks=sticks,
         sheets=draw_sheets(ranges.clutter, _seen_m(camera), clutter_rng) if cluttered else (),
         parts=draw_parts(ranges.clutter, _seen_m(camera), clutter_rng) if cluttered else (),

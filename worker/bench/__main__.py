@@ -1,10 +1,11 @@
-"""`python -m worker.bench whole|farm|pictures|masks|skips|stress|physics|render|soak|startup --out DIR`."""
+"""`python -m worker.bench NAME --out DIR`."""
 
 import argparse
 import sys
 from pathlib import Path
 
 from farm.errors import FarmError
+from worker.bench.examples.options import add_examples
 from worker.bench.pictures.options import add_pictures, styles_of
 from worker.bench.soak.options import add_soak
 from worker.bench.throughput.options import add_farm
@@ -39,6 +40,10 @@ def main(arguments: list[str]) -> int:
     startup = commands.add_parser("startup", parents=[shared], help="from a worker's start to its first picture")
     startup.add_argument("--starts", type=int, help="how often")
     add_soak(commands, shared)
+    add_examples(commands, shared)
+    surfaces = commands.add_parser("surfaces", parents=[shared], help="what each floor surface costs to render")
+    surfaces.add_argument("--scenes", type=int, help="on which each is tried")
+    surfaces.add_argument("--only", action="append", default=[], metavar="NAME", help="this one; repeat it")
     options = parser.parse_args(arguments)
     options.out.mkdir(parents=True, exist_ok=True)
     try:
@@ -96,15 +101,28 @@ def _run_pictures(options: argparse.Namespace) -> int:
         from worker.bench.throughput.command import run as run_farm  # noqa: PLC0415
 
         return run_farm(options.out, seed=options.seed, images=options.images, splits=options.split or SPLITS)
+    if options.benchmark == "masks":
+        from worker.bench import masks  # noqa: PLC0415
+
+        return masks.run(options.out, images=options.images, seed=options.seed)
+    return _run_looks(options)
+
+
+def _run_looks(options: argparse.Namespace) -> int:
+    """Run one that is about what pictures look like."""
     if options.benchmark == "pictures":
         from worker.bench.pictures.command import run as run_pictures  # noqa: PLC0415
 
         return run_pictures(
             options.out, seed=options.seed, images=options.images, styles=styles_of(options), datasets=options.dataset
         )
-    from worker.bench import masks  # noqa: PLC0415
+    if options.benchmark == "examples":
+        from worker.bench.examples.command import run as run_examples  # noqa: PLC0415
 
-    return masks.run(options.out, images=options.images, seed=options.seed)
+        return run_examples(options.out, seed=options.seed, each=options.each, groups=options.group, only=options.only)
+    from worker.bench.surfaces.command import run as run_surfaces  # noqa: PLC0415
+
+    return run_surfaces(options.out, seed=options.seed, scenes=options.scenes, only=options.only)
 
 
 if __name__ == "__main__":

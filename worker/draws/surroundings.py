@@ -9,7 +9,7 @@ from farm.header import DatasetHeader, HdriRef
 from farm.light_ranges import LampRanges, StudioRanges
 from farm.lights import AreaLamp, GreyWorld, HdriWorld, Lamp, PointLamp, StudioLamp
 from farm.ranges import FloorRanges, WearRanges, WindRanges
-from farm.scene import Floor, Gust, Wear, Wind
+from farm.scene import Floor, Gust, Plate, Wear, Wind
 from worker.draws.values import chance, level, log_uniform, pattern_seed, uniform
 
 GUSTS = 3
@@ -124,6 +124,21 @@ def _draw_published(ranges: LampRanges, rng: np.random.Generator) -> PointLamp |
         height_m=uniform(rng, ranges.point_height_m),
         power_w=uniform(rng, ranges.point_power_w),
         size_m=uniform(rng, ranges.point_size_m),
+    )
+
+
+def draw_plate(header: DatasetHeader, rng: np.random.Generator) -> Plate | None:
+    """Draw which of the user's photographs is behind the cables, and what part of it; None where none is."""
+    ranges = header.spec.ranges.plate
+    if not header.plates or not chance(rng, ranges.share):
+        return None
+    return Plate(
+        name=header.plates[int(rng.integers(len(header.plates)))].name,
+        x=float(rng.random()),
+        y=float(rng.random()),
+        zoom=uniform(rng, ranges.zoom),
+        mirror=chance(rng, 0.5),
+        blur_px=uniform(rng, ranges.blur_px) * header.spec.resolution / 512,
     )
 
 

@@ -7,6 +7,8 @@ from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
 from farm.job import Job
 from farm.scene import Cable, Scene
 from farm.spec import parse_spec
+from farm.styles import merge_tables
+from worker.bench.bench_dataset import PUBLISHED
 from worker.randomize import draw_scene
 
 CATEGORIES = (Category.FAR, Category.FAR_ALIGNED)
@@ -66,7 +68,10 @@ def _header(seed: int) -> DatasetHeader:
     nothing = "0" * 64
     return DatasetHeader(
         farm_version=version("cable-farm"),
-        spec=parse_spec({"images": DRAWN_CABLES, "seed": seed, "ranges": MOST_CABLES}, source="benchmark"),
+        spec=parse_spec(
+            merge_tables({**PUBLISHED, "images": DRAWN_CABLES, "seed": seed}, {"ranges": MOST_CABLES}),
+            source="benchmark",
+        ),
         template=TemplateRef(path=None, sha256=nothing),
         surfaces=(BuiltinSurfaceRef(name="none", recipe_version=1),),
         hdris=(HdriRef(name="none", path=None, sha256=nothing, dark=False),),

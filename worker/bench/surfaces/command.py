@@ -5,6 +5,7 @@ import tempfile
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import cv2
@@ -79,16 +80,14 @@ def _header_with_plain(header: DatasetHeader, folder: Path) -> DatasetHeader:
 
 
 def _measure(stage: Stage, settled: Sequence[SettledScene], name: str, plain: str) -> SurfaceCost:
-    cost = SurfaceCost(name, (), (), (), ())
+    cost, settings = SurfaceCost(name, (), (), (), ()), settings_for(Preset.STANDARD, CATEGORY).settings
     for scene in settled:
         render: dict[str, list[float]] = {name: [], plain: []}
         realize: dict[str, list[float]] = {name: [], plain: []}
         for _ in range(_REPEATS):
             for texture in (name, plain):
                 shown = _over(scene, texture)
-                realize[texture].append(
-                    _cpu_s(lambda shown=shown: stage.set(shown, settings_for(Preset.STANDARD, CATEGORY).settings))
-                )
+                realize[texture].append(_cpu_s(partial(stage.set, shown, settings)))
                 render[texture].append(_cpu_s(stage.render))
         cost = replace(
             cost,
