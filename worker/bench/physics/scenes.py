@@ -66,6 +66,7 @@ def crowd(header: DatasetHeader, category: Category, index: int, cables: int) ->
 def _header(seed: int) -> DatasetHeader:
     """One that names a surface and an HDRI which need not be there, since nothing is rendered."""
     nothing = "0" * 64
+    description = {**PUBLISHED, "images": DRAWN_CABLES, "seed": seed}
     return DatasetHeader(
         farm_version=version("cable-farm"),
         spec=parse_spec(

@@ -59,4 +59,5 @@ def test_a_sheet_has_two_examples_a_row() -> None:
     assert 2 * EDGE_PX < sheet.size[1] < 3 * EDGE_PX
     pixel = sheet.getpixel((EDGE_PX // 2, EDGE_PX // 2))
     assert isinstance(pixel, tuple)
-    assert pixel[0] > 230 > 30 > pixel[1]
+    assert pixel[0] > 230
+    assert pixel[1] < 30

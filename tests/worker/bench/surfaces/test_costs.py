@@ -1,5 +1,7 @@
 """What surfaces cost."""
 
+import pytest
+
 from worker.bench.surfaces.costs import SurfaceCost, too_costly
 
 
@@ -17,7 +19,7 @@ def test_a_ratio_is_that_of_all_scenes_together() -> None:
 def test_setting_the_scene_counts_in_the_whole() -> None:
     """And not in the rendering."""
     assert cost("oak", 1.0, realize=0.65).ratio == 1.0
-    assert cost("oak", 1.0, realize=0.65).whole_ratio == 1.5
+    assert cost("oak", 1.0, realize=0.65).whole_ratio == pytest.approx(1.5)
 
 
 def test_what_is_too_costly_is_named_the_costliest_first() -> None:
