@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from assets.surfaces.cells import edge_distance, scatter, voronoi, warp_labels
+from assets.surfaces.cells import edge_distance, scatter, voronoi
 from assets.surfaces.colour import mix, ramp, shade
 from assets.surfaces.grid import Field, Grid
 from assets.surfaces.lettering import stamp, text_patch
@@ -49,37 +49,31 @@ def antistatic_mat_green(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def foam_mat(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Light grey foam: open pores of every size, pressed flat in places, with crumbs in the dents."""
-    height = grid.zeros()
-    pores = grid.zeros()
-    for size, share in ((2.6, 0.5), (1.3, 0.6)):
-        labels = voronoi(scatter(rng, grid, size, 1.0), grid)
-        dx, dy = (0.12 * size * fractal(rng, grid, size, 0.4, gain=0.6) for _ in range(2))
-        inset = edge_distance(warp_labels(labels, dx, dy, grid), grid, 3.0)
-        bowl = smoothstep(0.05 * size, 0.42 * size, inset)
-        keep = smoothstep(1 - share, 1.2 - share, 0.5 + 0.3 * fractal(rng, grid, 2 * size, size, gain=0.6))
-        pores = np.maximum(pores, bowl * keep)
-        height = height - 0.3 * size * bowl * keep
-    press = fractal(rng, grid, 60, 4, gain=0.55)
+    """Grey egg-crate foam: rounded peaks 25 mm apart, open pores, dark valleys with dust in them."""
+    x, y = grid.coordinates()
+    dx, dy = (0.8 * fractal(rng, grid, 60, 12, gain=0.5) for _ in range(2))
+    turn = np.float32(2 * np.pi * 16 / grid.size_mm)
+    wave = 0.5 * (np.cos(turn * (x + dx)) * np.cos(turn * (y + dy)) + 1)
+    peak = np.asarray(np.power(wave, 0.8), np.float32)
+    coarse = fractal(rng, grid, 2.2, 0.7, gain=0.85)
+    fine = fractal(rng, grid, 1.0, 0.0, gain=0.9)
+    pores = smoothstep(0.5, 1.6, coarse + 0.4 * fine)
     cloud = fractal(rng, grid, 100, 2, gain=0.62)
-    colour = ramp(0.55 + 0.13 * cloud - 0.25 * pores, ((0.0, "77797c"), (0.5, "a2a4a6"), (1.0, "bcbdbd")))
-    fine = fractal(rng, grid, 1.2, 0.0, gain=0.9)
-    colour = shade(colour, np.asarray(1 + 0.04 * fine - 0.1 * smoothstep(0.4, 2.0, -press), np.float32))
-    colour = mix(colour, "5e5a52", 0.14 * smoothstep(0.2, 2.2, fractal(rng, grid, 80, 1, gain=0.66)))
-    nicks = scratches(rng, grid, 30, 0.7)
-    colour = shade(colour, 1 - 0.35 * nicks)
-    colour = mix(colour, "d9d5ca", 0.7 * specks(rng, grid, 0.0015, 0.7))
-    relief = height + 0.5 * press + 0.02 * fine - 0.4 * nicks
-    return finish(grid, colour, 0.93, np.asarray(relief, np.float32))
+    tone = 0.12 + 0.78 * smoothstep(0.0, 0.8, peak) + 0.07 * cloud - 0.28 * pores + 0.06 * fine
+    colour = ramp(np.asarray(tone, np.float32), ((0.0, "2b2c2e"), (0.5, "5d5f62"), (1.0, "85878a")))
+    rubbed = smoothstep(0.75, 1.0, peak) * smoothstep(-0.8, 1.4, fractal(rng, grid, 70, 1, gain=0.65))
+    colour = mix(colour, "a3a39f", 0.3 * rubbed)
+    lint = specks(rng, grid, 0.002, 0.7)
+    colour = mix(colour, "c9c4b8", 0.65 * lint)
+    torn = coverage(fractal(rng, grid, 22, 0.9, gain=0.68), 0.004, 0.05)
+    colour = shade(colour, 1 - 0.35 * torn)
+    height = 6.5 * peak + 0.05 * coarse + 0.03 * fine - 0.12 * pores - 0.6 * torn
+    return finish(grid, colour, 0.94, np.asarray(height, np.float32))
 
 
 def honeycomb_mat(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     """Grey plastic honeycomb: six-sided cells 16 mm wide, ribs of 2.4 mm, dust and shade inside."""
-    columns, rows = 25, 28
-    cell = np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), axis=-1).reshape(-1, 2)
-    centres = np.stack([cell[:, 0] + 0.5 * (cell[:, 1] % 2) + 0.25, cell[:, 1] + 0.5], axis=1)
-    labels = voronoi(centres * np.array([grid.size_mm / columns, grid.size_mm / rows]), grid)
-    inset = edge_distance(labels, grid, 12.0) - 1.2
+    inset = _hexagons(grid, 25, 28) - 1.2
     rib = 1 - smoothstep(-0.25, 0.25, inset)
     crown = np.sqrt(np.clip(1 - np.square(np.clip(inset + 1.2, 0, 1.2) / 1.25), 0, 1))
     grainy = fractal(rng, grid, 1.8, 0.3, gain=0.85)
@@ -107,7 +101,7 @@ def _rubber(
     pebble = smoothstep(0.0, 0.45, edge_distance(labels, grid, 2.0))
     cloud = fractal(rng, grid, 130, 1.2, gain=0.62)
     fine = fractal(rng, grid, 1.0, 0.0, gain=0.9)
-    colour = ramp(0.5 + 0.12 * cloud + 0.04 * fine + 0.14 * (pebble - 0.6), stops)
+    colour = ramp(0.5 + 0.12 * cloud + 0.04 * fine + 0.2 * (pebble - 0.6), stops)
     grey = smoothstep(-0.2, 2.2, fractal(rng, grid, 90, 0.8, gain=0.68))
     colour = mix(colour, "7b7a74", 0.16 * grey)
     marks = scratches(rng, grid, 90, 0.25)
@@ -115,14 +109,34 @@ def _rubber(
     colour = mix(mix(colour, pale, 0.45 * marks), dark, 0.35 * knocks)
     flux, rim = stains(rng, grid, 50, 0.02)
     colour = mix(colour, "8a7b52", 0.2 * flux + 0.3 * rim)
-    burn = coverage(fractal(rng, grid, 30, 1.2, gain=0.6), 0.0012, 0.06)
-    colour = mix(colour, "2c241d", 0.8 * burn)
+    heat = fractal(rng, grid, 34, 0.9, gain=0.6)
+    burn = coverage(heat, 0.0004, 0.12)
+    scorch = coverage(heat, 0.0012, 0.5)
+    colour = mix(mix(colour, "6e5a3c", 0.45 * scorch), "30261d", 0.75 * burn)
     solder = coverage(fractal(rng, grid, 26, 0.9, gain=0.65), 0.0006, 0.04)
     colour = mix(colour, "b9babb", 0.9 * solder)
     polished = smoothstep(-0.4, 1.6, fractal(rng, grid, 120, 5, gain=0.55))
     rough = 0.56 - 0.1 * polished + 0.1 * marks - 0.15 * flux + 0.2 * burn
-    height = 0.07 * pebble * (1 - 0.35 * polished) - 0.02 * marks - 0.2 * burn + 0.2 * solder + 0.02 * flux
+    height = 0.1 * pebble * (1 - 0.35 * polished) - 0.02 * marks - 0.2 * burn + 0.2 * solder + 0.02 * flux
     return finish(grid, colour, np.asarray(rough, np.float32), np.asarray(height, np.float32), np.asarray(0.9 * solder))
+
+
+def _hexagons(grid: Grid, columns: int, rows: int) -> Field:
+    """Distance to the border of six-sided cells in staggered rows, in millimetres; an even number of rows."""
+    x, y = grid.coordinates()
+    across, down = grid.size_mm / columns, grid.size_mm / rows
+    nearest = np.full_like(x, np.inf)
+    second = np.full_like(x, np.inf)
+    for row in (-1, 0, 1):
+        own_row = np.floor(y / np.float32(down)) + row
+        u = repeated(x, across, 0.5 * across * np.mod(own_row, 2))
+        v = y - (own_row + 0.5) * np.float32(down)
+        for step in (-across, 0.0, across):
+            distance = np.hypot(u + np.float32(step), v)
+            second = np.minimum(second, np.maximum(nearest, distance))
+            nearest = np.minimum(nearest, distance)
+    # The border is where two centres are equally far: half the difference of the squares, over their distance.
+    return np.asarray((np.square(second) - np.square(nearest)) / (2 * across), np.float32)
 
 
 def _ruling(grid: Grid) -> Field:
