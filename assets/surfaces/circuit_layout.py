@@ -23,6 +23,10 @@ class BodyKind(StrEnum):
     HEADER = "header"
 
 
+LETTERS = {BodyKind.CHIP: "U", BodyKind.RESISTOR: "R", BodyKind.CAPACITOR: "C", BodyKind.HEADER: "J"}
+"""What a component's name begins with."""
+
+
 @dataclass(frozen=True)
 class Pad:
     """An area of bare metal: position of the middle, size, and the drill's diameter or 0, in millimetres."""
@@ -98,19 +102,18 @@ def lay_out(rng: np.random.Generator, size_mm: float) -> Board:
     lattice = _Lattice(round(size_mm / CELL_MM))
     board = Board()
     placed: list[tuple[_Footprint, int, int]] = []
-    wanted = (
-        [_square_chip(12)] * 4 + [_square_chip(8)] * 5 + [_long_chip(k, turn) for k in (4, 7, 8) for turn in (0, 1)] * 4
-    )
-    wanted += [_header(rows, k, turn) for rows in (1, 2) for k in (5, 10) for turn in (0, 1)] * 2
-    wanted += [_passive(kind, turn) for kind in (BodyKind.RESISTOR, BodyKind.CAPACITOR) for turn in (0, 1)] * 75
+    turns = (0, 1)
+    wanted = [_square_chip(12)] * 4 + [_square_chip(8)] * 5
+    wanted += [_long_chip(pins, turn) for pins in (4, 7, 8) for turn in turns] * 4
+    wanted += [_header(lines, pins, turn) for lines in (1, 2) for pins in (5, 10) for turn in turns] * 2
+    wanted += [_passive(kind, turn) for kind in (BodyKind.RESISTOR, BodyKind.CAPACITOR) for turn in turns] * 75
     for number, footprint in enumerate(wanted):
         place = lattice.find_room(rng, footprint.half)
         if place is None:
             continue
         placed.append((footprint, *place))
-        letter = {BodyKind.CHIP: "U", BodyKind.RESISTOR: "R", BodyKind.CAPACITOR: "C", BodyKind.HEADER: "J"}
         x, y = (place[0] + 0.5) * CELL_MM, (place[1] + 0.5) * CELL_MM
-        board.bodies.append(Body(footprint.kind, x, y, *footprint.body, f"{letter[footprint.kind]}{number + 1}"))
+        board.bodies.append(Body(footprint.kind, x, y, *footprint.body, f"{LETTERS[footprint.kind]}{number + 1}"))
     for footprint, column, line in placed:
         for row in footprint.rows:
             _fan_out(rng, lattice, board, row, column, line)
@@ -189,7 +192,7 @@ def _fan_out(rng: np.random.Generator, lattice: _Lattice, board: Board, row: _Ro
         legs = ((row.octant, first + order), (row.octant + turn, slant), (row.octant, last))
         start = (x + reach * across, y + reach * down)
         if lattice.is_free(*start):
-            _draw(board, [(x, y), *lattice.walk(*start, legs)], width, via=True)
+            _draw(board, [(x, y), *lattice.walk(*start, legs)], width)
 
 
 def _bus(rng: np.random.Generator, lattice: _Lattice, board: Board) -> None:
@@ -208,16 +211,15 @@ def _bus(rng: np.random.Generator, lattice: _Lattice, board: Board) -> None:
             corners = lattice.walk(*start, legs)
             if len(corners) > 1:
                 board.vias.append(_mm(*corners[0]))
-                _draw(board, corners, width, via=True)
+                _draw(board, corners, width)
 
 
-def _draw(board: Board, corners: list[tuple[int, int]], width: float, via: bool) -> None:
+def _draw(board: Board, corners: list[tuple[int, int]], width: float) -> None:
     """Add a trace through lattice corners, with a via at its end."""
     if len(corners) < 2:
         return
     board.traces.append(Trace(np.array([_mm(*corner) for corner in corners]), width))
-    if via:
-        board.vias.append(_mm(*corners[-1]))
+    board.vias.append(_mm(*corners[-1]))
 
 
 def _mm(column: int, line: int) -> tuple[float, float]:

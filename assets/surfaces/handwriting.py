@@ -1,5 +1,7 @@
 """Writing and print: lines of handwriting, and pages with text, a table and a diagram."""
 
+from itertools import pairwise
+
 import cv2
 import numpy as np
 import numpy.typing as npt
@@ -8,24 +10,8 @@ from assets.surfaces.grid import Field, Grid
 from assets.surfaces.lettering import text_patch
 from assets.surfaces.strokes import Image, as_field, polylines
 
-SYLLABLES = (
-    "ca",
-    "ble",
-    "ter",
-    "mi",
-    "nal",
-    "con",
-    "nec",
-    "tor",
-    "sig",
-    "vol",
-    "ta",
-    "ge",
-    "pin",
-    "re",
-    "lay",
-    "un",
-    "it",
+SYLLABLES = tuple(
+    ["ca", "ble", "ter", "mi", "nal", "con", "nec", "tor", "sig", "vol", "ta", "ge", "pin", "re", "lay", "un", "it"]
 )
 
 
@@ -133,10 +119,10 @@ def _diagram(rng: np.random.Generator, page: Image, width_mm: float, y_mm: float
     boxes = [(22 + (width_mm - 30) * (i + 0.2) / 4, y_mm + float(rng.uniform(0, high - 22))) for i in range(4)]
     for x, top in boxes:
         corners = [(x, top), (x + 20, top), (x + 20, top + 20), (x, top + 20), (x, top)]
-        for start, end in zip(corners, corners[1:], strict=False):
+        for start, end in pairwise(corners):
             _line(page, start, end, 0.4, grid)
         _paste(page, text_patch(f"K{int(rng.integers(1, 90))}", 2.6, grid), x + 5, top + 8, x + 20, grid)
-    for (x0, y0), (x1, y1) in zip(boxes, boxes[1:], strict=False):
+    for (x0, y0), (x1, y1) in pairwise(boxes):
         for wire in range(3):
             middle = x0 + 20 + (x1 - x0 - 20) * (0.25 + 0.22 * wire)
             start, end = y0 + 4 + 5 * wire, y1 + 4 + 5 * wire

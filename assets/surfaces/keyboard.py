@@ -4,12 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from assets.surfaces.colour import mix, plain, ramp, shade
-from assets.surfaces.grid import Field, Grid
+from assets.surfaces.colour import mix, plain, shade
+from assets.surfaces.grid import Grid
 from assets.surfaces.lettering import text_patch
 from assets.surfaces.maps import SurfaceMaps, finish
 from assets.surfaces.marks import scratches, specks
 from assets.surfaces.noise import coverage, fractal, smoothstep
+from assets.surfaces.pile import Block
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 from assets.surfaces.shapes import box, filled
 from assets.surfaces.strokes import as_field
@@ -18,6 +19,8 @@ UNIT_MM = 19.05
 """Pitch of keys: the usual three quarters of an inch."""
 UNITS = 20
 """Keys across the tile."""
+AROUND_MM = 6.0
+"""How far round a cap its shadow reaches."""
 BLOCK_GAP_MM = (UNITS - 18) * UNIT_MM / 3
 
 # Widths in units; a negative one is a gap. Each row adds up to 20.
@@ -29,8 +32,15 @@ ROWS: tuple[tuple[float, ...], ...] = (
     (2.25, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2.75, -1.5, 1, -1.5, 1),
     (1.25, 1.25, 1.25, 6.25, 1.25, 1.25, 1.25, 1.25, -0.5, 1, 1, 1, -0.5, 1),
 )
-LETTERS = "QWERTYUIOPASDFGHJKLZXCVBNM1234567890"
-NAMES = ("Ctrl", "Alt", "Shift", "Tab", "Enter", "Caps")
+LEGENDS = (
+    "Esc F1 F2 F3 F4 F5 F6 F7 F8 F9 F10 F11 F12 Print Scroll Pause M1",
+    "` 1 2 3 4 5 6 7 8 9 0 - = Back Ins Home PgUp M2",
+    "Tab Q W E R T Y U I O P [ ] Enter Del End PgDn M3",
+    "Caps A S D F G H J K L ; ' Enter M4",
+    "Shift Z X C V B N M , . / Shift ^ M5",
+    "Ctrl Fn Alt _ Alt Fn Menu Ctrl < v > M6",
+)
+"""What stands on the keys of each row, in turn; an underscore for none."""
 
 
 @dataclass(frozen=True)
@@ -58,24 +68,25 @@ class Style:
 
 def keyboard_black(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     """Black keyboard with tall hollowed caps, shiny where fingers strike, dust and crumbs in the gaps."""
-    return _keyboard(rng, grid, Style("3b3c3e", "121213", "d3d4d2", 1.1, 2.9, 5.0, 0.5))
+    return _keyboard(rng, grid, Style("434447", "1a1a1b", "d3d4d2", 1.1, 2.9, 5.0, 0.5))
 
 
 def keyboard_white(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     """White flat keyboard: low caps with grey letters, shadowed gaps, the grey of hands on the keys."""
-    return _keyboard(rng, grid, Style("e4e4e1", "77797a", "66686b", 2.6, 0.9, 1.8, 0.12))
+    return _keyboard(rng, grid, Style("e4e4e1", "a9acad", "66686b", 2.6, 0.9, 1.8, 0.12))
 
 
 def _keyboard(rng: np.random.Generator, grid: Grid, style: Style) -> SurfaceMaps:
     caps = _Caps(grid, style)
     for block in range(3):
         shift = float(rng.integers(UNITS))
-        for number, widths in enumerate(ROWS):
+        for number, (widths, legends) in enumerate(zip(ROWS, LEGENDS, strict=True)):
+            names = iter(legends.split())
             y = (block * 6 + number + 0.5) * UNIT_MM + (block + 0.5) * BLOCK_GAP_MM
             start = shift
             for width in widths:
                 if width > 0:
-                    caps.put(rng, (start + 0.5 * width) * UNIT_MM, y, width)
+                    caps.put(rng, (start + 0.5 * width) * UNIT_MM, y, width, next(names))
                 start += abs(width)
     fine = fractal(rng, grid, 1.0, 0.0, gain=0.9)
     cloud = fractal(rng, grid, 90, 1.5, gain=0.62)
@@ -85,12 +96,12 @@ def _keyboard(rng: np.random.Generator, grid: Grid, style: Style) -> SurfaceMaps
     cap = mix(cap, "8b8880", 0.12 * hands)
     marks = scratches(rng, grid, 40, 0.15)
     cap = mix(cap, "9b9b98", 0.22 * marks * caps.face)
-    plate = ramp(0.5 + 0.15 * cloud + 0.08 * fine, ((0.0, "000000"), (0.5, style.plate), (1.0, "8a8780")))
+    plate = shade(plain(style.plate, fine), 1 + 0.05 * cloud + 0.04 * fine)
     shadow = np.exp(-caps.outside_mm / 2.2)
-    plate = shade(plate, np.asarray(1 - 0.62 * shadow, np.float32))
-    fluff = coverage(fractal(rng, grid, 6, 0.5, gain=0.88) + 0.8 * fractal(rng, grid, 70, 6), 0.1, 0.4)
-    plate = mix(plate, "8d877b", 0.4 * fluff)
-    crumbs = specks(rng, grid, 0.006, 0.7)
+    plate = shade(plate, np.asarray(1 - 0.7 * shadow, np.float32))
+    fluff = coverage(fractal(rng, grid, 6, 0.5, gain=0.88) + 0.8 * fractal(rng, grid, 70, 6), 0.06, 0.4)
+    plate = mix(plate, "8d877b", 0.32 * fluff)
+    crumbs = specks(rng, grid, 0.003, 0.7)
     plate = mix(plate, "b39f7d", 0.6 * crumbs)
     colour = mix(mix(plate, cap, caps.mask), "c9c6bd", 0.5 * specks(rng, grid, 0.001, 0.4))
     rough = 0.8 + caps.mask * (0.46 + 0.03 * fine - 0.14 * caps.polish - 0.8) + 0.1 * hands
@@ -118,11 +129,11 @@ class _Caps:
         self.tint = grid.zeros() + 1
         self.outside_mm = grid.zeros() + np.float32(UNIT_MM)
 
-    def put(self, rng: np.random.Generator, x_mm: float, y_mm: float, units: float) -> None:
+    def put(self, rng: np.random.Generator, x_mm: float, y_mm: float, units: float, name: str) -> None:
         """Set a cap of some width on the plate."""
         style, texel = self._style, self._grid.texel_mm
         wide, high = units * UNIT_MM - style.gap_mm, UNIT_MM - style.gap_mm
-        half_x, half_y = int((0.5 * wide + 6) / texel), int((0.5 * high + 6) / texel)
+        half_x, half_y = int((0.5 * wide + AROUND_MM) / texel), int((0.5 * high + AROUND_MM) / texel)
         column, row = int(x_mm / texel), int(y_mm / texel)
         rows = np.arange(row - half_y, row + half_y + 1)
         columns = np.arange(column - half_x, column + half_x + 1)
@@ -145,16 +156,14 @@ class _Caps:
         self.tint[where] = np.where(foot < texel, np.float32(1 + 0.02 * rng.standard_normal()), self.tint[where])
         struck = float(rng.random()) * np.exp(-np.square(np.hypot(u, back) / 5.5))
         self.polish[where] = np.maximum(self.polish[where], np.asarray(struck, np.float32) * rise)
-        self._letter(rng, where, u.shape, units)
+        if name != "_":
+            self._letter(rng, where, u.shape, name)
 
-    def _letter(self, rng: np.random.Generator, where: tuple[Field, ...], shape: tuple[int, ...], units: float) -> None:
-        """Print a cap's legend towards the back left of its face."""
-        if units > 3:
-            return
-        text = str(rng.choice(list(LETTERS if units == 1 else NAMES)))
-        patch = as_field(text_patch(text, 3.0 if units == 1 else 2.0, self._grid, 0.15))
-        inset = self._style.wall_mm + 0.5 * self._style.gap_mm + 1.2 + 6 - 0.5 * self._style.gap_mm
-        top, left = int((inset - 0.4) / self._grid.texel_mm), int((inset + 0.6) / self._grid.texel_mm)
+    def _letter(self, rng: np.random.Generator, where: Block, shape: tuple[int, ...], name: str) -> None:
+        """Print a cap's legend towards the back left of its face, more or less rubbed off."""
+        patch = as_field(text_patch(name, 3.0 if len(name) == 1 else 1.7, self._grid, 0.15))
+        inset = self._style.wall_mm + AROUND_MM
+        top, left = int((inset + 0.8) / self._grid.texel_mm), int((inset + 1.8) / self._grid.texel_mm)
         sheet = np.zeros(shape, np.float32)
         room = sheet[top : top + patch.shape[0], left : left + patch.shape[1]]
         room[:] = patch[: room.shape[0], : room.shape[1]] * float(rng.uniform(0.65, 1.0))

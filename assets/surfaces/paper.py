@@ -75,7 +75,7 @@ def _lit(rng: np.random.Generator, grid: Grid, colour: Field, height: Field) -> 
 def _sheet(rng: np.random.Generator, grid: Grid, size_mm: tuple[float, float], code: str, kind: str) -> Sprite:
     """One sheet at a random angle, with its print, folds and curl."""
     reach = 0.5 * float(np.hypot(*size_mm)) + 1.0
-    u, v, angle = local_frame(rng, grid, reach)
+    u, v, _ = local_frame(rng, grid, reach)
     inside = filled(box(u, v, *size_mm, 0.4), grid)
     colour = np.broadcast_to(rgb(code), (*u.shape, 3)).copy()
     if kind == "squared":
