@@ -1,6 +1,7 @@
 """Circuit boards: solder mask over copper, pads and vias, white print, and small components."""
 
 import numpy as np
+import numpy.typing as npt
 
 from assets.surfaces.cells import mask_distance
 from assets.surfaces.circuit_layout import VIA_MM, Board, Body, BodyKind, Pad, lay_out
@@ -195,7 +196,7 @@ def _print(board: Board, grid: Grid) -> Field:
     return as_field(image)
 
 
-def _corners(pad: Pad) -> np.ndarray:
+def _corners(pad: Pad) -> npt.NDArray[np.float64]:
     """Corners of a pad in millimetres, shape (4, 2)."""
     half = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * np.array([pad.width, pad.height]) / 2
     return np.asarray(half + np.array([pad.x, pad.y]))

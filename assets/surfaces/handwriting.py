@@ -10,8 +10,9 @@ from assets.surfaces.grid import Field, Grid
 from assets.surfaces.lettering import text_patch
 from assets.surfaces.strokes import Image, as_field, polylines
 
-SYLLABLES = tuple(
-    ["ca", "ble", "ter", "mi", "nal", "con", "nec", "tor", "sig", "vol", "ta", "ge", "pin", "re", "lay", "un", "it"]
+SYLLABLES = (
+    *("ca", "ble", "ter", "mi", "nal", "con", "nec", "tor", "sig"),
+    *("vol", "ta", "ge", "pin", "re", "lay", "un", "it"),
 )
 
 
@@ -125,10 +126,10 @@ def _diagram(rng: np.random.Generator, page: Image, width_mm: float, y_mm: float
     for (x0, y0), (x1, y1) in pairwise(boxes):
         for wire in range(3):
             middle = x0 + 20 + (x1 - x0 - 20) * (0.25 + 0.22 * wire)
-            start, end = y0 + 4 + 5 * wire, y1 + 4 + 5 * wire
-            _line(page, (x0 + 20, start), (middle, start), 0.35, grid)
-            _line(page, (middle, start), (middle, end), 0.35, grid)
-            _line(page, (middle, end), (x1, end), 0.35, grid)
+            leaves, arrives = y0 + 4 + 5 * wire, y1 + 4 + 5 * wire
+            _line(page, (x0 + 20, leaves), (middle, leaves), 0.35, grid)
+            _line(page, (middle, leaves), (middle, arrives), 0.35, grid)
+            _line(page, (middle, arrives), (x1, arrives), 0.35, grid)
     return high
 
 

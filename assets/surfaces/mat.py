@@ -11,7 +11,7 @@ from assets.surfaces.marks import scratches, specks, stains
 from assets.surfaces.noise import coverage, fractal, smoothstep
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 from assets.surfaces.shapes import filled, repeated
-from assets.surfaces.strokes import as_field, polylines
+from assets.surfaces.strokes import Image, as_field, polylines
 
 CUT_BEND_MM = 0.3
 
@@ -152,7 +152,7 @@ def _ruling(grid: Grid) -> Field:
     return ink
 
 
-def _numbers(grid: Grid) -> np.ndarray:
+def _numbers(grid: Grid) -> Image:
     """Centimetres beside the lines that carry ticks, 0 to 255, shape (H, W)."""
     image = np.zeros((grid.pixels, grid.pixels), np.uint8)
     for line in np.arange(0.0, grid.size_mm, 200.0):

@@ -36,7 +36,7 @@ def paper_sheets(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     # Beside the edge of a sheet that lies on top, the one below is in its shade.
     shadow = 0.2 * hollows(pile.height_mm, 1.2, 0.35, grid) + 0.14 * hollows(pile.height_mm, 6.0, 1.6, grid)
     relief = np.tanh(pile.height_mm / 6.0) * 3.0
-    return _lit(rng, grid, shade(pile.colour, 1 - shadow), np.asarray(relief, np.float32))
+    return _lit(rng, grid, shade(pile.colour, np.asarray(1 - shadow, np.float32)), np.asarray(relief, np.float32))
 
 
 def squared_paper(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:

@@ -4,7 +4,7 @@ import numpy as np
 
 from assets.surfaces.cells import edge_distance, scatter, voronoi, warp_labels
 from assets.surfaces.colour import mix, plain, ramp, shade, value_each
-from assets.surfaces.grid import Field, Grid
+from assets.surfaces.grid import Field, Grid, Labels
 from assets.surfaces.maps import SurfaceMaps, finish
 from assets.surfaces.marks import dust, scratches, specks, stains
 from assets.surfaces.noise import coverage, fractal, smoothstep
@@ -120,7 +120,7 @@ def aluminium_profile(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     )
 
 
-def _slot_floor(rng: np.random.Generator, grid: Grid, across: Field, bar: np.ndarray) -> tuple[Field, Field]:
+def _slot_floor(rng: np.random.Generator, grid: Grid, across: Field, bar: Labels) -> tuple[Field, Field]:
     """What shows through the slots: a dim floor between dark undercuts, chips and dust on it, or a cover strip."""
     depth = smoothstep(0.6, 4.1, 4.1 - np.abs(across))
     streak = fractal(rng, grid, 3.0, 0.2, gain=0.8, stretch=(40.0, 1.0))
