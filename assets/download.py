@@ -7,8 +7,8 @@ import time
 import urllib.error
 import urllib.request
 from dataclasses import dataclass
-from email.message import Message
-from http.client import HTTPResponse
+from http import HTTPStatus
+from http.client import HTTPMessage, HTTPResponse
 from io import FileIO
 from pathlib import Path
 from typing import IO
@@ -76,9 +76,11 @@ def _try(url: str, target: Path, size: int, checksum: str, patience: Patience) -
             found = _copy(url, response, file, target, size, patience)
     except urllib.error.HTTPError as error:
         error.close()
-        told = f"{url}: answered {error.code} {error.reason}"
+        told = f"{url}: answered {error.code} {_phrase(error.code)}"
         if error.code in _PASSING:
             raise PassingError(f"{told}; {again}") from error
+        if 300 <= error.code < 400:
+            raise AssetError(f"{told}, which leads nowhere; look for a newer farm, or name a --mirror") from error
         raise AssetError(f"{told}; the file may have moved: look for a newer farm, or name a --mirror") from error
     except urllib.error.URLError as error:
         if isinstance(error.reason, ssl.SSLCertVerificationError):
@@ -86,16 +88,30 @@ def _try(url: str, target: Path, size: int, checksum: str, patience: Patience) -
                 f"{url}: its certificate isn't trusted ({error.reason.verify_message}); if a proxy of yours "
                 "stands between, name its certificates in SSL_CERT_FILE"
             ) from error
-        raise PassingError(f"{url}: can't be reached ({error.reason}); check the connection, or {again}") from error
+        raise PassingError(
+            f"{url}: can't be reached ({_shown(error.reason)}); check the connection, or {again}"
+        ) from error
     except TimeoutError as error:
         raise PassingError(f"{url}: sent nothing for {patience.silence_s:g} s; {again}") from error
     except (OSError, http.client.HTTPException) as error:
-        reason = str(error) or type(error).__name__
+        reason = _shown(error) or type(error).__name__
         raise PassingError(f"{url}: the connection broke ({reason}); {again}") from error
+    except ValueError as error:  # from urllib's parsing of where a redirect leads
+        raise AssetError(f"{url}: leads to what is no address ({_shown(error)}); name a --mirror") from error
     if found != checksum:
         raise AssetError(
             f"{url}: has checksum {found}, not {checksum} as registered; it is another file and was not kept"
         )
+
+
+def _shown(said: object) -> str:
+    """What a server said, without what would steer a terminal."""
+    return "".join(sign if sign.isprintable() else "?" for sign in str(said))[:200]
+
+
+def _phrase(status: int) -> str:
+    """The standard's, not the server's own."""
+    return HTTPStatus(status).phrase if status in set(HTTPStatus) else "with no known status"
 
 
 def _writable(target: Path) -> FileIO:
@@ -110,7 +126,9 @@ def _copy(url: str, response: HTTPResponse, file: FileIO, target: Path, size: in
     """Returns the checksum of what came."""
     told = response.headers.get("Content-Length")
     if told is not None and told != str(size):
-        raise AssetError(f"{url}: is {told} bytes, not {size} as registered; it is another file and was not kept")
+        raise AssetError(
+            f"{url}: is {_shown(told)} bytes, not {size} as registered; it is another file and was not kept"
+        )
     digest, done, end = hashlib.sha256(), 0, time.monotonic() + patience.limit_s(size)
     # read() would wait for a whole piece, however slowly it comes; read1() returns what is there.
     while piece := response.read1(_PIECE):
@@ -145,7 +163,7 @@ class _SafeRedirects(urllib.request.HTTPRedirectHandler):
         self._first = urlsplit(first)
 
     def redirect_request(
-        self, req: urllib.request.Request, fp: IO[bytes], code: int, msg: str, headers: Message, newurl: str
+        self, req: urllib.request.Request, fp: IO[bytes], code: int, msg: str, headers: HTTPMessage, newurl: str
     ) -> urllib.request.Request | None:
         """Refuses the rest."""
         to = urlsplit(newurl)
@@ -153,7 +171,8 @@ class _SafeRedirects(urllib.request.HTTPRedirectHandler):
         if to.scheme != "https" and not same:
             fp.close()
             raise AssetError(
-                f"{self._first.geturl()}: leads to {newurl}, where anybody may change what comes; name a --mirror"
+                f"{self._first.geturl()}: leads to {_shown(newurl)}, where anybody may change what comes; "
+                "name a --mirror"
             )
         return super().redirect_request(req, fp, code, msg, headers, newurl)
 

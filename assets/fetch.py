@@ -181,7 +181,11 @@ def _check_image(kind: Kind, entry: AssetFile, path: Path) -> None:
 
 
 def _check_mirror(mirror: str) -> str:
-    parts = urlsplit(mirror)
-    if parts.scheme not in {"http", "https"} or not parts.hostname or "@" in parts.netloc:
+    try:
+        parts = urlsplit(mirror)
+        sound = parts.scheme in {"http", "https"} and parts.hostname and parts.port != 0 and "@" not in parts.netloc
+    except ValueError:  # no number for a port, or half an address
+        sound = False
+    if not sound:
         raise AssetError(f"--mirror {mirror}: expected http(s)://HOST[:PORT][/PATH], without a password")
     return mirror.rstrip("/")

@@ -34,7 +34,14 @@ def check_url(url: str) -> str:
     parts = urlsplit(url)
     if parts.scheme != "https" and not (parts.scheme == "http" and parts.hostname in LOCAL_HOSTS):
         raise ValueError(f"{url}: must begin with https://")
-    if not parts.hostname or "@" in parts.netloc or parts.fragment or not url.isascii() or not url.isprintable():
+    if (
+        not parts.hostname
+        or parts.port == 0
+        or "@" in parts.netloc
+        or parts.fragment
+        or not url.isascii()
+        or not url.isprintable()
+    ):
         raise ValueError(f"{url}: isn't a plain address of a file")
     return url
 
@@ -202,8 +209,6 @@ def read_registry(path: Path) -> Registry:
         return Registry.model_validate(tomllib.loads(path.read_text("utf-8")))
     except OSError as error:
         raise AssetError(f"{path}: can't be read ({error.strerror}); check the file and its permissions") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise AssetError(f"{path}: isn't TOML ({error}); see the farm's own, {OWN_REGISTRY}") from error
     except ValidationError as error:
         first = error.errors(include_url=False, include_context=False)[0]
         where = ".".join(str(part) for part in first["loc"])
@@ -211,6 +216,8 @@ def read_registry(path: Path) -> Registry:
         raise AssetError(
             f"{path}: {f'{where}: ' if where else ''}{problem}; see the farm's own, {OWN_REGISTRY}"
         ) from error
+    except (ValueError, RecursionError) as error:  # of the TOML; besides its own error, for numbers of 5,000 digits
+        raise AssetError(f"{path}: isn't TOML ({error}); see the farm's own, {OWN_REGISTRY}") from error
 
 
 @cache

@@ -60,7 +60,8 @@ def _fetch(assets: tuple[Asset, ...], registry: Registry, root: Path, mirror: st
     with Fetcher(registry, root, mirror) as fetcher:
         for asset in assets:
             try:
-                outcome = fetcher.fetch(asset)
+                with screen.status(f"fetching {asset.name}"):
+                    outcome = fetcher.fetch(asset)
             except AssetError as error:
                 if len(assets) == 1:
                     raise AssetError(f"{asset.name}: {error}") from error

@@ -1,5 +1,6 @@
 """A web server on this machine for the tests of downloads, and registries of what it holds."""
 
+import ssl
 import threading
 import time
 from collections import Counter
@@ -13,6 +14,7 @@ import numpy as np
 
 from assets.fetchable import Asset, AssetFile, Kind, Registry
 from assets.files import sha256
+from tests.farm.queue.servers import Certificates
 
 Answer = Callable[[BaseHTTPRequestHandler], None]
 
@@ -26,8 +28,8 @@ class ShelfServer:
         released: Set at the end, so that answers which stall don't outlive the test.
     """
 
-    def __init__(self, port: int) -> None:
-        self.url = f"http://127.0.0.1:{port}"
+    def __init__(self, scheme: str, port: int) -> None:
+        self.url = f"{scheme}://127.0.0.1:{port}"
         self.answers: dict[str, Answer] = {}
         self.asked: Counter[str] = Counter()
         self.released = threading.Event()
@@ -56,6 +58,11 @@ def send(request: BaseHTTPRequestHandler, status: int, content: bytes = b"", *, 
     request.wfile.write(content)
 
 
+def missing(request: BaseHTTPRequestHandler) -> None:
+    """What isn't on the shelf."""
+    send(request, 404)
+
+
 def redirect(to: str) -> Answer:
     """Leads elsewhere."""
 
@@ -82,14 +89,14 @@ def drip(content: bytes, *, pause_s: float) -> Answer:
 
 
 @contextmanager
-def shelf_server() -> Iterator[ShelfServer]:
-    """One that lives as long as the block."""
+def shelf_server(certificates: Certificates | None = None) -> Iterator[ShelfServer]:
+    """One that lives as long as the block; with certificates it speaks https."""
 
     class Handler(BaseHTTPRequestHandler):
         def do_GET(self) -> None:
             server.asked[self.path] += 1
             try:
-                server.answers.get(self.path, lambda request: send(request, 404))(self)
+                server.answers.get(self.path, missing)(self)
             except ConnectionError:
                 self.close_connection = True  # the client had enough
 
@@ -97,7 +104,11 @@ def shelf_server() -> Iterator[ShelfServer]:
             """Tests print nothing."""
 
     http = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-    server = ShelfServer(http.server_port)
+    if certificates is not None:
+        context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+        context.load_cert_chain(certificates.certificate, certificates.key)
+        http.socket = context.wrap_socket(http.socket, server_side=True)
+    server = ShelfServer("http" if certificates is None else "https", http.server_port)
     thread = threading.Thread(target=http.serve_forever, kwargs={"poll_interval": 0.02}, daemon=True)
     thread.start()
     try:

@@ -12,6 +12,7 @@ from assets.download import PassingError, Patience, download
 from assets.files import sha256
 from farm.errors import AssetError
 from tests.assets.shelf_server import Answer, ShelfServer, drip, redirect, send, shelf_server
+from tests.farm.queue.servers import Certificates, make_certificates
 
 CONTENT = bytes(range(256)) * 800
 SOON = Patience(silence_s=5.0, pauses_s=(0.0, 0.0))
@@ -161,9 +162,70 @@ def test_redirects_are_followed(server: ShelfServer, tmp_path: Path) -> None:
 def test_redirects_to_elsewhere_are_refused(server: ShelfServer, tmp_path: Path, to: str) -> None:
     """Plain http of another server, files of this machine and FTP are not asked for."""
     server.answers["/a"] = redirect(to)
-    with pytest.raises(AssetError, match=r"/a: (leads to|answered 302 .*not allowed)"):
+    with pytest.raises(AssetError, match=r"/a: (leads to|answered 302 Found, which leads nowhere)"):
         get(f"{server.url}/a", tmp_path)
     assert not list(tmp_path.iterdir())
+
+
+@pytest.fixture(scope="module")
+def certificates(tmp_path_factory: pytest.TempPathFactory) -> Certificates:
+    """Of a server on this machine."""
+    return make_certificates(tmp_path_factory.mktemp("certificates"))
+
+
+def test_https_by_a_trusted_certificate(
+    server: ShelfServer, certificates: Certificates, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The authorities are those of the system, or of SSL_CERT_FILE. From http one may be led to it."""
+    monkeypatch.setenv("SSL_CERT_FILE", str(certificates.authority))
+    with shelf_server(certificates) as safe:
+        server.answers["/a"] = redirect(safe.put("/a", CONTENT))
+        assert get(f"{safe.url}/a", tmp_path) == CONTENT
+        assert get(f"{server.url}/a", tmp_path) == CONTENT
+
+
+def test_https_by_a_strangers_certificate(
+    certificates: Certificates, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Is refused at once, with what to do behind a proxy."""
+    monkeypatch.setenv("no_proxy", "*")
+    monkeypatch.setenv("SSL_CERT_FILE", str(certificates.stranger))
+    with (
+        shelf_server(certificates) as safe,
+        pytest.raises(AssetError, match=r"/a: its certificate isn't trusted \(.*SSL_CERT_FILE"),
+    ):
+        get(safe.put("/a", CONTENT), tmp_path)
+    assert not safe.asked
+
+
+def test_https_never_leads_to_http(
+    server: ShelfServer, certificates: Certificates, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Not even of this machine, where the file is."""
+    monkeypatch.setenv("SSL_CERT_FILE", str(certificates.authority))
+    with shelf_server(certificates) as safe:
+        safe.answers["/a"] = redirect(server.put("/a", CONTENT))
+        with pytest.raises(AssetError, match=rf"/a: leads to {server.url}/a, where anybody may change"):
+            get(f"{safe.url}/a", tmp_path)
+    assert not server.asked
+
+
+def test_a_redirect_to_no_address(server: ShelfServer, tmp_path: Path) -> None:
+    """What can't even be parsed."""
+    server.answers["/a"] = redirect("http://[")
+    with pytest.raises(AssetError, match=r"/a: leads to what is no address"):
+        get(f"{server.url}/a", tmp_path)
+
+
+def test_what_a_server_says_does_not_steer_the_terminal(server: ShelfServer, tmp_path: Path) -> None:
+    """Control characters of its answers are not passed on."""
+
+    def answer(request: BaseHTTPRequestHandler) -> None:
+        request.wfile.write(b"\x1b]0;mine\x07\r\n")
+
+    server.answers["/a"] = answer
+    with pytest.raises(PassingError, match=r"broke \(\?\]0;mine\?+\)"):
+        get(f"{server.url}/a", tmp_path)
 
 
 def test_a_ring_of_redirects(server: ShelfServer, tmp_path: Path) -> None:

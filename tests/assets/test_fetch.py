@@ -179,7 +179,9 @@ def test_a_mirror_is_asked_in_place_of_every_server(server: ShelfServer, tmp_pat
         assert fetcher.fetch(asset) is Outcome.FETCHED
 
 
-@pytest.mark.parametrize("mirror", ["example.org", "ftp://example.org", "https://", "https://me:secret@example.org"])
+@pytest.mark.parametrize(
+    "mirror", ["example.org", "ftp://a.org", "https://", "https://me:secret@a.org", "http://[", "http://a.org:b"]
+)
 def test_what_is_no_mirror(tmp_path: Path, light: bytes, mirror: str) -> None:
     """It has to be http or https, and no place for a password."""
     with pytest.raises(AssetError, match="--mirror"):

@@ -91,6 +91,8 @@ def test_assets_are_found_by_name(tmp_path: Path) -> None:
         ({"asset": [asset(file(url="file:///etc/passwd"))]}, r"must begin with https://"),
         ({"asset": [asset(file(url="https://me:secret@example.org/a"))]}, r"isn't a plain address"),
         ({"asset": [asset(file(url="https:///a"))]}, r"isn't a plain address"),
+        ({"asset": [asset(file(url="https://example.org:none/a"))]}, r"file\.0\.url: "),
+        ({"asset": [asset(file(url="https://[::1/a"))]}, r"file\.0\.url: "),
         ({"asset": [asset(file(archive="kit-1"))]}, r"archive and member go together"),
         ({"asset": [asset(file(archive="kit-2", member="a"))]}, r"there is no archive 'kit-2'"),
         ({"asset": [asset({"file": "hall.hdr", "bytes": 5, "sha256": SHA})]}, r"give a url, or an archive"),
@@ -115,7 +117,7 @@ def test_wrong_entries_are_refused(tmp_path: Path, tables: dict[str, Any], messa
     assert "\n" not in str(told.value)
 
 
-@pytest.mark.parametrize("content", [b"[[asset", b"\xff\xfe", None])
+@pytest.mark.parametrize("content", [b"[[asset", b"\xff\xfe", b"a = " + b"1" * 5000, b"a = " + b"[" * 5000, None])
 def test_what_is_no_registry(tmp_path: Path, content: bytes | None) -> None:
     """No TOML, no text, no file."""
     path = tmp_path / "mine.toml"

@@ -22,7 +22,8 @@ ORIENTATION = 0x0112
 def pixels(width: int = 320, height: int = 260) -> NDArray[np.uint8]:
     """A smooth picture whose four corners differ, so that JPEG keeps it and turns show."""
     across, down = np.meshgrid(np.linspace(0, 200, width), np.linspace(0, 200, height))
-    return np.stack([across, down, np.full_like(across, 40)], axis=-1).astype(np.uint8)
+    levels: NDArray[np.uint8] = np.stack([across, down, np.full_like(across, 40)], axis=-1).astype(np.uint8)
+    return levels
 
 
 def encoded(format_: str, image: Image.Image | None = None, **options: object) -> bytes:
