@@ -69,10 +69,7 @@ def _header(seed: int) -> DatasetHeader:
     description = {**PUBLISHED, "images": DRAWN_CABLES, "seed": seed}
     return DatasetHeader(
         farm_version=version("cable-farm"),
-        spec=parse_spec(
-            merge_tables({**PUBLISHED, "images": DRAWN_CABLES, "seed": seed}, {"ranges": MOST_CABLES}),
-            source="benchmark",
-        ),
+        spec=parse_spec(merge_tables(description, {"ranges": MOST_CABLES}), source="benchmark"),
         template=TemplateRef(path=None, sha256=nothing),
         surfaces=(BuiltinSurfaceRef(name="none", recipe_version=1),),
         hdris=(HdriRef(name="none", path=None, sha256=nothing, dark=False),),
