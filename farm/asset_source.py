@@ -5,18 +5,23 @@ from pathlib import Path
 
 from assets.hdris import registry, scan_hdris
 from assets.plates import scan_plates
-from assets.surfaces.catalogue import SURFACES
+from assets.surfaces.catalogue import FLOORS, LIGHT, SURFACES
 from assets.texture_names import TextureRole
 from assets.textures import TextureSet, scan_textures
 from farm.header import BuiltinSurfaceRef, FileRef, FolderSurfaceRef, HdriRef, PlateRef
+from farm.styles import Style
 
 
 class InstalledAssets:
     """Implements `farm.catalogue.AssetSource` over the `assets` package."""
 
-    def builtin_surfaces(self) -> Sequence[BuiltinSurfaceRef]:
+    def builtin_surfaces(self, style: Style) -> Sequence[BuiltinSurfaceRef]:
         """See `AssetSource.builtin_surfaces`."""
-        return [BuiltinSurfaceRef(name=recipe.name, recipe_version=recipe.version) for recipe in SURFACES.values()]
+        recipes = FLOORS if style is Style.PUBLISHED else SURFACES
+        return [
+            BuiltinSurfaceRef(name=recipe.name, recipe_version=recipe.version, light=recipe.name in LIGHT)
+            for recipe in recipes.values()
+        ]
 
     def surfaces_in(self, folder: Path) -> Sequence[FolderSurfaceRef]:
         """See `AssetSource.surfaces_in`."""

@@ -13,6 +13,7 @@ from farm.errors import AssetError, SpecError, TemplateError
 from farm.header import DatasetHeader, HdriRef, PlateRef, SurfaceRef, TemplateRef
 from farm.quality import settings_for
 from farm.spec import DatasetSpec, Engine
+from farm.styles import Style
 
 # A .blend file is plain, or compressed by Zstandard or (older ones) gzip.
 _BLEND_STARTS = (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b")
@@ -42,8 +43,8 @@ class Inputs:
 class AssetSource(Protocol):
     """Where surfaces and HDRIs come from. Each method may raise AssetError, naming the file."""
 
-    def builtin_surfaces(self) -> Sequence[SurfaceRef]:
-        """Our own surfaces."""
+    def builtin_surfaces(self, style: Style) -> Sequence[SurfaceRef]:
+        """Our own surfaces that a style shows."""
         ...
 
     def surfaces_in(self, folder: Path) -> Sequence[SurfaceRef]:
@@ -71,7 +72,7 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
         TemplateError: if the template is not readable or no .blend file.
         SpecError: if the description names an HDRI that is not there.
     """
-    surfaces = list(assets.builtin_surfaces()) if inputs.builtin_textures else []
+    surfaces = list(assets.builtin_surfaces(spec.style)) if inputs.builtin_textures else []
     for folder in inputs.textures:
         surfaces += assets.surfaces_in(folder)
     hdris = list(assets.builtin_hdris()) if inputs.builtin_hdris else []

@@ -26,7 +26,22 @@ from assets.surfaces.recipe import SurfaceRecipe
 _FLOORS = (wood, tile, stone, concrete, plaster, metal, ground, fabric, sheet)
 _WORKPLACE = (brick, electronics, keyboard, laminate, mat, paper, perforated)
 
-SURFACES: Mapping[str, SurfaceRecipe] = MappingProxyType(
-    {recipe.name: recipe for family in (*_FLOORS, *_WORKPLACE) for recipe in family.RECIPES}
+FLOORS: Mapping[str, SurfaceRecipe] = MappingProxyType(
+    {recipe.name: recipe for family in _FLOORS for recipe in family.RECIPES}
 )
+"""Floors as the published set-up has them: wood, tiles, stone, concrete, plaster, metal, ground, fabric and sheets."""
+
+WORKPLACE: Mapping[str, SurfaceRecipe] = MappingProxyType(
+    {
+        recipe.name: recipe
+        for recipes in (wood.WORKPLACE_RECIPES, *(family.RECIPES for family in _WORKPLACE))
+        for recipe in recipes
+    }
+)
+"""What cables lie on where they are worked with: bench tops, mats, paper, boards, gratings."""
+
+SURFACES: Mapping[str, SurfaceRecipe] = MappingProxyType({**FLOORS, **WORKPLACE})
 """Name to recipe, family by family."""
+
+LIGHT: frozenset[str] = frozenset()
+"""Those that are as bright as tables and benches: their mean level is 165 at least, of 255."""

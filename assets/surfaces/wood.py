@@ -163,11 +163,14 @@ RECIPES = tuple(
         ("pine_boards", pine_boards),
         ("oak_herringbone", oak_herringbone),
         ("walnut_herringbone", walnut_herringbone),
-        ("oak_chevron", oak_chevron),
-        ("maple_bench", maple_bench),
-        ("beech_bench", beech_bench),
         ("grey_laminate", grey_laminate),
         ("birch_veneer", birch_veneer),
         ("weathered_boards", weathered_boards),
     )
 )
+
+WORKPLACE_RECIPES = tuple(
+    SurfaceRecipe(name, SurfaceFamily.WOOD, 0.4, draw)
+    for name, draw in (("oak_chevron", oak_chevron), ("maple_bench", maple_bench), ("beech_bench", beech_bench))
+)
+"""Wood that the published set-up has not."""

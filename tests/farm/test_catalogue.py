@@ -10,6 +10,7 @@ from farm.description import describe
 from farm.errors import AssetError, SpecError, TemplateError
 from farm.header import BuiltinSurfaceRef, HdriRef, PlateRef, SurfaceRef
 from farm.spec import DatasetSpec, parse_spec
+from farm.styles import Style
 
 SHA = "0" * 64
 
@@ -17,7 +18,7 @@ SHA = "0" * 64
 class Shelf:
     """Implements `farm.catalogue.AssetSource` with names instead of files."""
 
-    def builtin_surfaces(self) -> Sequence[SurfaceRef]:
+    def builtin_surfaces(self, _style: Style) -> Sequence[SurfaceRef]:
         """One of our own."""
         return [BuiltinSurfaceRef(name="oak", recipe_version=1)]
 
