@@ -9,8 +9,8 @@ from blend import names
 from farm.scene import Floor
 from worker.images import ImageShelf, TextureFile
 from worker.library import SurfaceFiles
-from worker.silhouette import View
 from worker.texture_window import TextureWindow, tile_coordinates, window_on
+from worker.view import View
 
 UNSEEN_FLOOR = 0.4
 """Albedo and roughness of a floor that only throws light back at the cables."""

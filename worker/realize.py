@@ -7,20 +7,19 @@ import numpy as np
 
 from blend import names
 from farm.category import Background, CategoryTraits
-from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from farm.looks import CableMaterial, Rgb
-from farm.photograph import Camera
 from farm.rendering import CableDetail, Economy
 from farm.scene import Cable, Scene
+from worker.camera import has_round_aperture, set_camera
 from worker.floor import set_floor, set_unseen_floor
 from worker.images import ImageShelf
 from worker.library import AssetLibrary
 from worker.matte import Backdrop, covered_by
 from worker.panorama import lens_radius_m
 from worker.shapes import Points, parts_near, smooth
-from worker.silhouette import View
 from worker.surroundings import backdrop_of, set_grey_world, set_hdri_world, set_lamps
 from worker.tube import Tube, sweep
+from worker.view import View
 
 DIRT_EDGE = 0.05
 """Distance of the two stops of the dirt ramp: how soft the edge of a spot is."""
@@ -62,7 +61,7 @@ def realize(
     if not economy.keep_loaded:
         shelf.forget()
     remove_cables()
-    view = View(height_m=scene.camera.height_m, resolution=resolution)
+    view = View.of(scene.camera, resolution).undistorted()
     curves = [smooth(nodes, detail.points_per_segment) for nodes in nodes_m]
     for number, (cable, curve) in enumerate(zip(scene.cables, curves, strict=True), start=1):
         _add_cable(number, cable, curve, detail, view if economy.cables_in_view else None)
@@ -71,12 +70,12 @@ def realize(
     else:
         set_floor(scene.floor, library.surface(scene.floor.texture), shelf, view if economy.texture_window else None)
     set_lamps(scene.lamps)
-    _set_camera(scene.camera)
+    set_camera(scene.camera)
     if scene.hdri_world is None:
-        set_grey_world()
+        set_grey_world(scene.grey_world)
         return None
     light = None
-    if traits.background is Background.HDRI and economy.backdrop and _has_round_aperture():
+    if traits.background is Background.HDRI and economy.backdrop and has_round_aperture():
         light = backdrop_of(scene.hdri_world, scene.camera, resolution, library, shelf)
     is_seen = traits.background is Background.HDRI and light is None
     set_hdri_world(scene.hdri_world, library, shelf, only_lights=economy.upper_world and not is_seen)
@@ -102,7 +101,7 @@ def _add_cable(number: int, cable: Cable, curve: Points, detail: CableDetail, vi
     if view is None:
         parts = [slice(0, len(curve))]
     else:
-        half_m = 0.5 * view.height_m * SENSOR_MM / FOCAL_LENGTH_MM
+        half_m = float(np.abs(view.floor_corners_m()[:, :2]).max())
         parts = parts_near(curve, half_m + SHADOW_SLOPE * float(curve[:, 2].max()) + cable.diameter_m)
     for part in parts:
         start_m = cable.length_m * part.start / (len(curve) - 1)
@@ -143,24 +142,3 @@ def _linear(colour: Rgb) -> tuple[float, float, float, float]:
     """Levels as shares of linear light, which is how the published set-up reads them: the colours come out pastel."""
     red, green, blue = (level / 255.0 for level in colour)
     return (red, green, blue, 1.0)
-
-
-def _set_camera(camera: Camera) -> None:
-    """Straight down through the published lens, whatever the template's is: the masks take it for granted."""
-    camera_object = bpy.data.objects[names.CAMERA]
-    camera_object.location = (0.0, 0.0, camera.height_m)
-    camera_object.rotation_mode = "XYZ"
-    camera_object.rotation_euler = (0.0, 0.0, 0.0)
-    camera_object.scale = (1.0, 1.0, 1.0)
-    data = camera_object.data
-    data.type = "PERSP"
-    data.lens, data.sensor_width, data.sensor_fit = FOCAL_LENGTH_MM, SENSOR_MM, "HORIZONTAL"
-    data.shift_x = data.shift_y = 0.0
-    data.dof.focus_distance = camera.height_m
-    data.dof.aperture_fstop = camera.f_number
-
-
-def _has_round_aperture() -> bool:
-    """Whether the template's lens blurs with a disc, as the farm's own does."""
-    dof = bpy.data.objects[names.CAMERA].data.dof
-    return bool(dof.use_dof and dof.focus_object is None and dof.aperture_blades < 3 and dof.aperture_ratio == 1.0)

@@ -34,8 +34,8 @@ from worker.randomize import draw_scene
 from worker.realize import realize
 from worker.render import configure_cycles, configure_eevee, configure_picture, render_picture
 from worker.shapes import CableShapes, smooth
-from worker.silhouette import View
 from worker.simulate import let_fall
+from worker.view import View
 
 
 def open_studio(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> "Studio":
@@ -94,7 +94,7 @@ class Studio:
             behind = self._realize(job, spec, chosen.settings, scene, shapes)
             rendering = self._configure(spec, chosen, scene.render_seed)
         with _timed(timings, "render"):
-            image = render_picture(behind)
+            image = render_picture(behind, distortion=scene.camera.distortion, development=scene.development)
         with _timed(timings, "mask"):
             labels = label(scene, shapes, chosen.settings.detail, spec.resolution)
         return MadeImage(
@@ -177,7 +177,7 @@ def _chosen_settings(header: DatasetHeader, category: Category) -> ChosenSetting
 def label(scene: Scene, shapes: CableShapes, detail: CableDetail, resolution: int) -> Labels:
     """Label a settled scene's cables as they are rendered."""
     curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
-    view = View(height_m=scene.camera.height_m, resolution=resolution)
+    view = View.of(scene.camera, resolution)
     return label_cables(curves, shapes.radii_m, view, detail.sides)
 
 

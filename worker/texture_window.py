@@ -12,9 +12,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from farm.scene import Floor
-from worker.silhouette import View
+from worker.view import View
 
 MARGIN = 0.06
 """Of the view's width, on each side: what the pixel filter, blur and a tilt of the floor's normals may reach."""
@@ -95,16 +94,16 @@ def window_on(floor: Floor, size_m: float, view: View, sizes: tuple[tuple[int, i
         sizes: (rows, columns) of each map.
     """
     grid = math.gcd(*(edge for size in sizes for edge in size))
-    seen_m = view.height_m * SENSOR_MM / FOCAL_LENGTH_MM
+    # A pixel is smallest where the floor is nearest.
+    pixel_m = view.depths_m(view.floor_corners_m()).min() / view.focal_length_px
     texel_m = size_m * floor.scale / min(edge for size in sizes for edge in size)
     coarser = 1
-    while TEXELS_PER_PIXEL * 2 * coarser * texel_m <= seen_m / view.resolution and grid % (2 * coarser) == 0:
+    while TEXELS_PER_PIXEL * 2 * coarser * texel_m <= pixel_m and grid % (2 * coarser) == 0:
         coarser *= 2
     lines = grid // coarser
     if lines < FINEST_GRID:
         return TextureWindow.whole()
-    half = (0.5 + MARGIN) * seen_m
-    seen = tile_coordinates(np.array([[-half, -half], [half, -half], [half, half], [-half, half]]), floor, size_m)
+    seen = tile_coordinates(view.floor_corners_m(MARGIN)[:, :2], floor, size_m)
     low = np.floor(seen.min(axis=0) * lines - 1) / lines
     extent = np.minimum(np.ceil(seen.max(axis=0) * lines + 1) / lines - low, 1.0)
     return TextureWindow(float(low[0]), float(low[1]), float(extent[0]), float(extent[1]), coarser)

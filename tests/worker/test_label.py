@@ -8,8 +8,8 @@ from scipy.spatial import Delaunay
 import worker.silhouette
 from worker.label import label_cables
 from worker.shapes import Points
-from worker.silhouette import View
 from worker.tube import sweep
+from worker.view import View
 
 RADIUS = 0.001
 SIDES = 20

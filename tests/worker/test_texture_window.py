@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from farm.scene import Floor
-from worker.silhouette import View
 from worker.texture_window import TextureWindow, tile_coordinates, window_on
+from worker.view import View
 
 SIZE_M = 0.4
 SIZE = (256, 256)

@@ -51,6 +51,7 @@ class Stage:
         self._shelf = ImageShelf()
         self._resolution = resolution
         self._behind: Backdrop | None = None
+        self._scene: Scene | None = None
 
     def set(
         self,
@@ -73,6 +74,7 @@ class Stage:
             share: of the picture's edge that is rendered, about its middle.
         """
         resolution = resolution or self._resolution
+        self._scene = settled.scene
         self._behind = realize(
             settled.scene,
             settled.shapes.nodes_m,
@@ -92,4 +94,7 @@ class Stage:
 
     def render(self) -> NDArray[np.uint8]:
         """The picture (H, W, 3) as set."""
-        return render_picture(self._behind)
+        if self._scene is None:
+            return render_picture(self._behind)
+        camera, development = self._scene.camera, self._scene.development
+        return render_picture(self._behind, distortion=camera.distortion, development=development)
