@@ -10,7 +10,7 @@ from pathlib import Path
 import bpy
 
 from blend import names
-from blend.cable import add_cable
+from blend.cable import add_cable, add_skin
 from blend.fall import add_fall
 from blend.floor import add_floor
 from blend.lights import add_camera, add_lamps
@@ -25,6 +25,7 @@ def build_template(path: Path) -> None:
     picture = bpy.context.scene
     picture.name = names.PICTURE_SCENE
     add_cable(picture)
+    add_skin()
     add_floor(picture)
     add_lamps(picture)
     add_camera(picture)

@@ -1,7 +1,7 @@
-"""The cable that every rendered cable copies, with the published procedural material.
+"""The cable that every rendered cable copies, with the published procedural material; and the one of drawn sheaths.
 
-A Colour Ramp mixes the cable's colour with dirt, its position sets the dirt's density; Mapping and Noise Texture
-drive its factor; a second Colour Ramp sets Metallic and Roughness.
+In the published material a Colour Ramp mixes the cable's colour with dirt, its position sets the dirt's density;
+Mapping and Noise Texture drive its factor; a second Colour Ramp sets Metallic and Roughness.
 """
 
 import math
@@ -67,3 +67,27 @@ def _material() -> Any:
     link(tree, reflection, "Color", surface, "Roughness")
     link(tree, surface, "BSDF", output, "Surface")
     return material
+
+
+def add_skin() -> None:
+    """Add the material of drawn sheaths: images for colour, roughness and relief, under an optional clear coat.
+
+    No object has it, so it has a user of its own. Texture coordinates run from 0 to 1 along the cable and around it.
+    """
+    material = bpy.data.materials.new(names.SKIN)
+    material.use_fake_user = True
+    material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    colour = add_node(tree, "ShaderNodeTexImage", names.SKIN_COLOUR, (-700, 250))
+    roughness = add_node(tree, "ShaderNodeTexImage", names.SKIN_ROUGHNESS, (-700, -50))
+    normal = add_node(tree, "ShaderNodeTexImage", names.SKIN_NORMAL, (-700, -350))
+    relief = add_node(tree, "ShaderNodeNormalMap", "relief", (-400, -350))
+    surface = add_node(tree, "ShaderNodeBsdfPrincipled", names.SKIN_SURFACE, (-100, 0))
+    surface.inputs["Coat IOR"].default_value = 1.5
+    output = add_node(tree, "ShaderNodeOutputMaterial", "output", (200, 0))
+    link(tree, colour, "Color", surface, "Base Color")
+    link(tree, roughness, "Color", surface, "Roughness")
+    link(tree, normal, "Color", relief, "Color")
+    link(tree, relief, "Normal", surface, "Normal")
+    link(tree, surface, "BSDF", output, "Surface")

@@ -11,6 +11,9 @@ FALL_SCENE: Final = "fall"
 CABLE: Final = "cable"
 """The cable that every rendered cable is a copy of, and its material."""
 
+SKIN: Final = "skin"
+"""The material of cables whose sheath is drawn as images, and of what comes out of a sheath."""
+
 FLOOR: Final = "floor"
 """The floor of the picture, and its material."""
 
@@ -29,6 +32,11 @@ CABLE_COLOUR_RAMP: Final = "dirt ramp"
 CABLE_REFLECTION_RAMP: Final = "reflection ramp"
 CABLE_MAPPING: Final = "dirt mapping"
 CABLE_NOISE: Final = "dirt noise"
+
+SKIN_COLOUR: Final = "skin colour"
+SKIN_ROUGHNESS: Final = "skin roughness"
+SKIN_NORMAL: Final = "skin normal"
+SKIN_SURFACE: Final = "skin surface"
 
 FLOOR_COLOUR: Final = "floor colour"
 FLOOR_ROUGHNESS: Final = "floor roughness"

@@ -29,7 +29,7 @@ class _Stretches:
         rows: (N,) scanline, counted from the top.
         starts: (N,) steps from the left edge of the picture.
         ends: (N,) likewise; after the start.
-        numbers: (N,) above 0.
+        numbers: (N,) of the quads, 0 for what only hides.
     """
 
     rows: Ints
@@ -43,13 +43,14 @@ def cover(quads_px: NDArray[np.float64], numbers: Ints, rows: int, width: int) -
 
     Args:
         quads_px: (N, 4, 2) corners x, y of convex quads in order around each; a later quad hides an earlier one.
-        numbers: (N,) number of the thing that each quad is a part of, 1 to 65,535.
+        numbers: (N,) number of the thing that each quad is a part of, 1 to 65,535; or 0 for what hides things and is
+            none itself.
         rows: height of the picture, whose top left corner is (0, 0).
         width: of the picture.
 
     Returns:
-        (rows, width): the number of the thing that covers most of a pixel, 0 where all things together cover less than
-        half. Of two that cover the same, the lower number.
+        (rows, width): the number of the thing that covers most of a pixel, 0 where what is seen of all things together
+        covers less than half. Of two that cover the same, the lower number.
     """
     seen = _uppermost(_scan(quads_px, numbers, rows, width), width)
     pixels, shares, stretch = _by_pixel(seen, width)
@@ -96,7 +97,10 @@ def _scan(quads_px: NDArray[np.float64], numbers: Ints, rows: int, width: int) -
 
 
 def _uppermost(stretches: _Stretches, width: int) -> _Stretches:
-    """What is seen of stretches of which a later one hides an earlier one: stretches that overlap nowhere."""
+    """What is seen of stretches of which a later one hides an earlier one: stretches that overlap nowhere.
+
+    Those of number 0 hide what they lie over and are left out themselves, as if nothing were there.
+    """
     # The scanlines one after the other make one long line; a step between them keeps them apart.
     line = width * STEPS + 1
     offset = stretches.rows * line

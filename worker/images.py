@@ -18,7 +18,7 @@ Pixels = NDArray[np.uint8] | NDArray[np.float32]
 _FLOAT_SUFFIXES = frozenset({".exr", ".hdr"})
 
 _IN_USE = 5
-"""A picture needs five images at most; those stay, however large."""
+"""A picture needs five images of files at most; those stay, however large."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +131,10 @@ class ImageShelf:
     def light(self, name: str, radiance: NDArray[np.float32]) -> Any:
         """A panorama (H, W, 3) of linear light, the top row first, as a Blender image for this picture alone."""
         return self._new(name, radiance, colour=True)
+
+    def made(self, name: str, pixels: NDArray[np.uint8], *, colour: bool) -> Any:
+        """Pixels (H, W) or (H, W, 3), the top row first, as a Blender image for this picture alone."""
+        return self._new(name, pixels, colour=colour)
 
     def constant(self, value: float, *, colour: bool = False) -> Any:
         """An image of one grey value, linear."""

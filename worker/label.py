@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from worker.coverage import cover
-from worker.shapes import Points
+from worker.piece import Piece
 from worker.silhouette import silhouettes
 from worker.view import View
 
@@ -22,20 +22,19 @@ class Labels:
     """Labels of one picture.
 
     Attributes:
-        mask: (H, W) uint8: 255 where cables cover at least half of the pixel, else 0.
-        instances: (H, W) uint16: in the mask, 1 + the number of the cable that covers most of it; else 0.
+        mask: (H, W) uint8: 255 where what is seen of cables covers at least half of the pixel, else 0.
+        instances: (H, W) uint16: in the mask, the instance that covers most of it; else 0.
     """
 
     mask: NDArray[np.uint8]
     instances: NDArray[np.uint16]
 
 
-def label_cables(curves: Sequence[Points], radii_m: NDArray[np.float64], view: View, sides: int) -> Labels:
+def label_cables(pieces: Sequence[Piece], view: View, sides: int) -> Labels:
     """Label a picture.
 
     Args:
-        curves: finely sampled centrelines (N, 3), metres.
-        radii_m: (cables,), radius of each.
+        pieces: of the cables, and what hides them.
         view: the camera.
         sides: corners of the rendered tubes' cross-section, an even number; 20 are up to 0.6 % wider or narrower than
             a circle.
@@ -43,8 +42,8 @@ def label_cables(curves: Sequence[Points], radii_m: NDArray[np.float64], view: V
     Returns:
         The binary mask and the instances.
     """
-    seen = silhouettes(curves, radii_m, view, sides)
-    instances = np.zeros((view.resolution, view.resolution), np.uint16)
-    for rows, quads, cables in seen.bands(view):
-        instances[rows] = cover(quads, cables + 1, rows.stop - rows.start, view.resolution)
-    return Labels(mask=(instances > 0) * np.uint8(255), instances=instances)
+    seen = silhouettes(pieces, view, sides)
+    labels = np.zeros((view.resolution, view.resolution), np.uint16)
+    for rows, quads, instances in seen.bands(view):
+        labels[rows] = cover(quads, instances, rows.stop - rows.start, view.resolution)
+    return Labels(mask=(labels > 0) * np.uint8(255), instances=labels)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from worker.coverage import covered_share
 from worker.panorama import Panorama
-from worker.shapes import Points
+from worker.piece import Piece
 from worker.silhouette import silhouettes
 from worker.view import View
 
@@ -44,17 +44,14 @@ class Backdrop:
     covered: NDArray[np.float32]
 
 
-def covered_by(
-    curves: Sequence[Points], radii_m: NDArray[np.float64], view: View, lens_radius_m: float, sides: int
-) -> NDArray[np.float32]:
-    """How much of each pixel cables cover, seen through a lens.
+def covered_by(pieces: Sequence[Piece], view: View, lens_radius_m: float, sides: int) -> NDArray[np.float32]:
+    """How much of each pixel cables and what is on them cover, seen through a lens.
 
     It is the mean over places spread evenly over the lens, each of which sees as a pinhole does; so many of them that
     no edge shows twice.
 
     Args:
-        curves: finely sampled centrelines (N, 3), metres.
-        radii_m: (cables,), radius of each.
+        pieces: all that is rendered.
         view: the camera.
         lens_radius_m: half the width of its aperture.
         sides: corners of the rendered tubes' cross-section.
@@ -62,12 +59,12 @@ def covered_by(
     Returns:
         (H, W), 0 to 1.
     """
-    highest = max(float(curve[:, 2].max() + radius) for curve, radius in zip(curves, radii_m, strict=True))
+    highest = max(piece.top_m for piece in pieces)
     places = list(_on_disc(min(_MOST_RINGS, round(lens_radius_m * _blur_px_per_m(view, highest) / _RING_PX))))
     covered = np.zeros((view.resolution, view.resolution), np.float32)
     for x, y in places:
         through = replace(view, pinhole_m=(lens_radius_m * x, lens_radius_m * y))
-        for rows, quads, _ in silhouettes(curves, radii_m, through, sides).bands(through):
+        for rows, quads, _ in silhouettes(pieces, through, sides).bands(through):
             covered[rows] += covered_share(quads, rows.stop - rows.start, view.resolution)
     covered /= np.float32(len(places))
     return covered

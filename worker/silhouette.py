@@ -1,11 +1,13 @@
-"""The rendered tubes as a camera sees them: flat quads in order of height. Pure numpy."""
+"""The rendered pieces as a camera sees them: flat quads in order of height. Pure numpy and OpenCV."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from worker.piece import Convex, Piece
 from worker.shapes import Points, tangents
 from worker.view import View
 
@@ -22,45 +24,59 @@ class Silhouettes:
 
     Attributes:
         quads_px: (N, 4, 2) corners in order around each.
-        cables: (N,) the number of the cable, from 0.
+        instances: (N,) of the pieces; `worker.piece.OCCLUDER` for what is no cable.
     """
 
     quads_px: NDArray[np.float64]
-    cables: NDArray[np.int64]
+    instances: NDArray[np.int64]
 
     def bands(self, view: View) -> Iterator[tuple[slice, NDArray[np.float64], NDArray[np.int64]]]:
         """Bands of the picture's rows that bound the memory of large pictures, each with the quads in it.
 
         Yields:
-            The rows; the quads (M, 4, 2), counted from the band's top; their cables (M,).
+            The rows; the quads (M, 4, 2), counted from the band's top; their instances (M,).
         """
         top, bottom = self.quads_px[:, :, 1].min(axis=1), self.quads_px[:, :, 1].max(axis=1)
         band = max(1, _BAND_PIXELS // view.resolution)
         for start in range(0, view.resolution, band):
             end = min(start + band, view.resolution)
             here = (bottom > start) & (top < end)
-            yield slice(start, end), self.quads_px[here] - [0.0, float(start)], self.cables[here]
+            yield slice(start, end), self.quads_px[here] - [0.0, float(start)], self.instances[here]
 
 
-def silhouettes(curves: Sequence[Points], radii_m: NDArray[np.float64], view: View, sides: int) -> Silhouettes:
-    """The silhouettes of the rendered tubes.
+def silhouettes(pieces: Sequence[Piece], view: View, sides: int) -> Silhouettes:
+    """The silhouettes of the rendered pieces.
 
     Args:
-        curves: finely sampled centrelines (N, 3), metres.
-        radii_m: (cables,), radius of each.
+        pieces: of the cables.
         view: the camera.
         sides: corners of the rendered tubes' cross-section, an even number; 20 are up to 0.6 % wider or narrower than
             a circle.
     """
-    pieces = [_silhouette(curve, float(radius), view, sides) for curve, radius in zip(curves, radii_m, strict=True)]
-    heights = np.concatenate([heights for _, heights in pieces])
-    cables = np.repeat(np.arange(len(pieces)), [len(heights) for _, heights in pieces])
+    seen = [
+        _outline(piece, view) if isinstance(piece, Convex) else _silhouette(piece.curve, piece.radius_m, view, sides)
+        for piece in pieces
+    ]
+    heights = np.concatenate([heights for _, heights in seen])
+    instances = np.repeat([piece.instance for piece in pieces], [len(heights) for _, heights in seen])
     order = np.argsort(heights, kind="stable")
-    return Silhouettes(np.concatenate([quads for quads, _ in pieces])[order], cables[order])
+    return Silhouettes(np.concatenate([quads for quads, _ in seen])[order], instances[order])
+
+
+def _outline(solid: Convex, view: View) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The convex hull of a solid's corners as seen, in quads that share a corner, all at the height of the solid."""
+    corners = solid.rings.reshape(-1, 3)
+    if corners[:, 2].max() >= view.position_m[2]:
+        return np.zeros((0, 4, 2)), np.zeros(0)
+    seen = view.project(corners)
+    hull = seen[cv2.convexHull(seen.astype(np.float32), returnPoints=False)[:, 0]]
+    starts = np.arange(1, len(hull) - 1, 2)
+    fan = np.stack([np.zeros_like(starts), starts, starts + 1, np.minimum(starts + 2, len(hull) - 1)], axis=1)
+    return hull[fan], np.full(len(fan), solid.place_m[2])
 
 
 def _silhouette(
-    curve: Points, radius_m: float, view: View, sides: int
+    curve: Points, radius_m: float | NDArray[np.float64], view: View, sides: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The tube between its outermost corners on either side, ring by ring, and its flat ends: quads and their heights.
 
@@ -76,11 +92,11 @@ def _silhouette(
     x, y = np.einsum("ij,ij->i", to_camera, across), np.einsum("ij,ij->i", to_camera, up)
     toward, half = np.arctan2(y, x), np.arccos(np.minimum(radius_m / np.hypot(x, y), 1.0))
     step = 2 * np.pi / sides
-    corner_radius = 2 * radius_m / (1 + np.cos(np.pi / sides))
+    corner_radius = np.broadcast_to(2 * radius_m / (1 + np.cos(np.pi / sides)), len(curve))[:, None]
 
     def corners(angles: NDArray[np.float64], ring: slice) -> Points:
         sideways, upwards = np.cos(angles)[:, None] * across[ring], np.sin(angles)[:, None] * up[ring]
-        place: Points = curve[ring] + corner_radius * (sideways + upwards)
+        place: Points = curve[ring] + corner_radius[ring] * (sideways + upwards)
         return place
 
     touching = [step * np.round((toward + side * half) / step) for side in (1, -1)]

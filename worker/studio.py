@@ -30,6 +30,7 @@ from worker.label import Labels, label_cables
 from worker.library import AssetLibrary, checked
 from worker.made import MadeImage
 from worker.matte import Backdrop
+from worker.pieces import pieces_of
 from worker.randomize import draw_scene
 from worker.realize import realize
 from worker.render import configure_cycles, configure_eevee, configure_picture, render_picture
@@ -178,7 +179,7 @@ def label(scene: Scene, shapes: CableShapes, detail: CableDetail, resolution: in
     """Label a settled scene's cables as they are rendered."""
     curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
     view = View.of(scene.camera, resolution)
-    return label_cables(curves, shapes.radii_m, view, detail.sides)
+    return label_cables(pieces_of(scene, curves), view, detail.sides)
 
 
 @contextmanager

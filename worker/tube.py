@@ -1,4 +1,7 @@
-"""A cable's render geometry: a round tube swept along its smooth centreline, cut flat at the ends. Pure numpy."""
+"""A cable's render geometry: a round tube swept along its smooth centreline, cut flat at the ends. Pure numpy.
+
+And that of small solids between rings of points, as of cable ties.
+"""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -28,12 +31,12 @@ class Tube:
     uvs: NDArray[np.float32]
 
 
-def sweep(curve: Points, radius_m: float, sides: int, *, start_m: float = 0.0) -> Tube:
+def sweep(curve: Points, radius_m: float | NDArray[np.float64], sides: int, *, start_m: float = 0.0) -> Tube:
     """Sweep a circle along a finely sampled curve.
 
     Args:
         curve: (N, 3) metres; nowhere vertical.
-        radius_m: of the cable.
+        radius_m: of the cable, or (N,) at each point; the texture then has the mean circumference.
         sides: of the polygon that stands for the circle. Its corners lie outside the circle by as much as the
             middles of its sides lie inside, so that the silhouette is right on average.
         start_m: how far along the cable the curve starts.
@@ -41,21 +44,36 @@ def sweep(curve: Points, radius_m: float, sides: int, *, start_m: float = 0.0) -
     Returns:
         The tube's mesh.
     """
-    across, up = _frames(curve)
+    across, up = frames(curve)
     angle = 2 * np.pi * np.arange(sides) / sides
-    corner_radius = 2 * radius_m / (1 + np.cos(np.pi / sides))
-    circle = corner_radius * np.stack([np.cos(angle), np.sin(angle)])
-    rings = curve[:, None] + circle[0][:, None] * across[:, None] + circle[1][:, None] * up[:, None]
+    corner_radius = np.reshape(2 * radius_m / (1 + np.cos(np.pi / sides)), (-1, 1, 1))
+    circle = np.stack([np.cos(angle), np.sin(angle)])[..., None]
+    rings = curve[:, None] + corner_radius * circle[0] * across[:, None] + corner_radius * circle[1] * up[:, None]
     vertices = np.concatenate([rings, rings[[0, -1]]]).reshape(-1, 3)
+    mean_radius_m, first_m, last_m = np.mean(radius_m), np.ravel(radius_m)[0], np.ravel(radius_m)[-1]
     corners, face_starts, steps, turns = _topology(len(curve), sides)
     arc = start_m + np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
     uvs = np.empty((len(corners), 2), np.float32)
     uvs[: len(steps), 0] = arc[steps]
-    uvs[: len(steps), 1] = (2 * np.pi * radius_m / sides) * turns
-    end = radius_m * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    uvs[-2 * sides : -sides] = end + np.array([start_m, 0.0])
-    uvs[-sides:] = end[::-1] + np.array([arc[-1], 0.0])
+    uvs[: len(steps), 1] = (2 * np.pi * mean_radius_m / sides) * turns
+    end = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    uvs[-2 * sides : -sides] = first_m * end + np.array([start_m, 0.0])
+    uvs[-sides:] = last_m * end[::-1] + np.array([arc[-1], 0.0])
     return Tube(vertices_m=vertices.astype(np.float32), corners=corners, face_starts=face_starts, uvs=uvs)
+
+
+def loft(rings: NDArray[np.float64]) -> Tube:
+    """The skin between rings of points, and a flat end at the first and the last.
+
+    Args:
+        rings: (rings, points of each, 3) metres.
+    """
+    sides = rings.shape[1]
+    corners, face_starts, steps, turns = _topology(len(rings), sides)
+    uvs = np.zeros((len(corners), 2), np.float32)
+    uvs[: len(steps)] = np.stack([steps, turns / sides], axis=1)
+    vertices = np.concatenate([rings, rings[[0, -1]]]).reshape(-1, 3).astype(np.float32)
+    return Tube(vertices_m=vertices, corners=corners, face_starts=face_starts, uvs=uvs)
 
 
 @lru_cache(maxsize=64)
@@ -80,7 +98,7 @@ def _topology(
     return arrays
 
 
-def _frames(curve: Points) -> tuple[Points, Points]:
+def frames(curve: Points) -> tuple[Points, Points]:
     """Level sideways direction and the one across it and the tangent, at each point; right-handed, without twist."""
     along = tangents(curve)
     across = np.cross(along, [0.0, 0.0, 1.0])

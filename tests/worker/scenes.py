@@ -1,11 +1,14 @@
-"""Headers and scenes for the tests of the worker's stages."""
+"""Headers, scenes and pieces of cables for the tests of the worker's stages."""
 
 from farm.category import Category
 from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
 from farm.job import Job
+from farm.looks import Sheath, Skin
 from farm.scene import Scene
 from farm.spec import parse_spec
+from worker.piece import Tubular
 from worker.randomize import draw_scene
+from worker.shapes import Points
 
 SHA = "0" * 64
 
@@ -30,3 +33,23 @@ def make_header(**keys: object) -> DatasetHeader:
 def make_scene(category: Category = Category.FAR, index: int = 0, attempt: int = 0, **keys: object) -> Scene:
     """The scene of one attempt at one job."""
     return draw_scene(make_header(**keys), Job(category=category, index=index), attempt)
+
+
+def make_skin(**keys: object) -> Skin:
+    """A plain red sheath; `keys` are those of the skin."""
+    plain = Skin(
+        sheath=Sheath.PLAIN,
+        colour=(200, 30, 30),
+        roughness=0.4,
+        stripe=None,
+        marking=None,
+        dirt=0.0,
+        wear=0.0,
+        pattern_seed=0,
+    )
+    return plain.model_copy(update=keys)
+
+
+def tubular(curve: Points, radius_m: float, instance: int = 1) -> Tubular:
+    """A cable's one piece."""
+    return Tubular(instance, curve, radius_m, 0.0, 1.0, 1.0, make_skin())

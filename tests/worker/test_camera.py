@@ -19,6 +19,7 @@ from worker.images import ImageShelf  # noqa: E402
 from worker.library import AssetLibrary  # noqa: E402
 from worker.matte import covered_by  # noqa: E402
 from worker.panorama import lens_radius_m  # noqa: E402
+from worker.pieces import pieces_of
 from worker.realize import realize  # noqa: E402
 from worker.render import configure_cycles, configure_picture  # noqa: E402
 from worker.shapes import CableShapes, smooth  # noqa: E402
@@ -104,8 +105,9 @@ def test_what_is_out_of_focus_covers_as_it_does_in_a_render(settled: tuple[Scene
     coverage = render_white(scene, shapes)
     curves = [smooth(nodes, CableDetail().points_per_segment) for nodes in shapes.nodes_m]
     view = View.of(camera, RESOLUTION)
-    found = covered_by(curves, shapes.radii_m, view, lens_radius_m(camera), CableDetail().sides)
-    sharp = covered_by(curves, shapes.radii_m, view, 0.0, CableDetail().sides)
+    pieces = pieces_of(scene, curves)
+    found = covered_by(pieces, view, lens_radius_m(camera), CableDetail().sides)
+    sharp = covered_by(pieces, view, 0.0, CableDetail().sides)
     error = np.abs(found - coverage).mean()
     assert error < 0.01
     assert error < 0.25 * np.abs(sharp - coverage).mean()

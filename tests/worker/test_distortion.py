@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from tests.worker.scenes import tubular
 from worker.coverage import covered_share
 from worker.distortion import Distortion
 from worker.label import label_cables
@@ -84,12 +85,12 @@ def test_a_mask_agrees_with_its_distorted_picture(amount: float, tilt: float, ro
     along = np.linspace(-0.06, 0.06, 601)
     curve: Points = np.stack([0.012 * np.ones_like(along), along], axis=1) @ across[:2].T
     curve = np.column_stack([curve, np.full(len(curve), 0.001)])
-    radii = np.array([0.001])
-    ideal = covered_by([curve], radii, view.undistorted(), 0.0, 64)
+    tube = [tubular(curve, 0.001)]
+    ideal = covered_by(tube, view.undistorted(), 0.0, 64)
     # A renderer's pixels overlap. Of a step from a pixel to the next, nothing between them can be looked up.
     ideal = cv2.GaussianBlur(ideal, (0, 0), 0.7).astype(np.float32)
     picture = Distortion(amount).distort(np.repeat(ideal[..., None], 3, axis=2))[..., 0]
-    quads = silhouettes([curve], radii, view, 64).quads_px
+    quads = silhouettes(tube, view, 64).quads_px
     mask = covered_share(quads, 256, 256)
     assert mask.sum() > 1000
     columns = np.arange(256) + 0.5
@@ -98,7 +99,7 @@ def test_a_mask_agrees_with_its_distorted_picture(amount: float, tilt: float, ro
     place = (picture @ columns)[inner] / width[0], (mask @ columns)[inner] / width[1]
     assert np.abs(width[0] - width[1]).max() < 0.1
     assert np.abs(place[0] - place[1]).max() < 0.1
-    labels = label_cables([curve], radii, view, 64)
+    labels = label_cables(tube, view, 64)
     assert np.mean((labels.mask > 0) != (picture > 0.5)) < 0.002
 
 

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
 import worker.silhouette
+from tests.worker.scenes import tubular
 from worker.label import label_cables
 from worker.shapes import Points
 from worker.tube import sweep
@@ -25,7 +26,7 @@ def bar(angle_deg: float = 0.0, z: float = RADIUS, shift: float = 0.0, length: f
 
 def label(*curves: Points) -> tuple[NDArray[np.uint8], NDArray[np.uint16]]:
     """Mask and instances of cables of one radius."""
-    labels = label_cables(list(curves), np.full(len(curves), RADIUS), VIEW, SIDES)
+    labels = label_cables([tubular(curve, RADIUS, number) for number, curve in enumerate(curves, 1)], VIEW, SIDES)
     return labels.mask, labels.instances
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tests.worker.scenes import tubular
 from worker.matte import Backdrop, covered_by, lay_over
 from worker.shapes import Points
 from worker.view import View
@@ -21,7 +22,7 @@ def bar(z: float = RADIUS, shift: float = 0.0) -> Points:
 
 def covered(curve: Points, lens_radius_m: float) -> NDArray[np.float32]:
     """Of one cable."""
-    return covered_by([curve], np.array([RADIUS]), VIEW, lens_radius_m, SIDES)
+    return covered_by([tubular(curve, RADIUS)], VIEW, lens_radius_m, SIDES)
 
 
 def profile(curve: Points, lens_radius_m: float) -> NDArray[np.float32]:
@@ -44,7 +45,7 @@ def test_a_lens_blurs_by_its_disc(height: float) -> None:
     Across a straight cable that is the disc's width, 2 sqrt(1 - s^2) at s of its radius.
     """
     lens, radius, view = 0.002, 0.004, View(height_m=0.12, resolution=512)
-    sharp, blurred = (covered_by([bar(height)], np.array([radius]), view, a, SIDES)[256] for a in (0.0, lens))
+    sharp, blurred = (covered_by([tubular(bar(height), radius)], view, a, SIDES)[256] for a in (0.0, lens))
     disc_px = lens * height / (view.height_m - height) * view.pixels_per_m
     reach = int(np.ceil(disc_px))
     # The disc's share in each pixel, from twenty places in it.

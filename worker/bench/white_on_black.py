@@ -7,6 +7,7 @@ from typing import Any
 import bpy
 
 from blend import names
+from worker.piece import OCCLUDER
 
 
 @contextmanager
@@ -14,7 +15,7 @@ def white_on_black() -> Iterator[Any]:
     """Show the cables of the realized scene so inside `with`.
 
     The lens is the picture's, depth of field included. The floor, the lamps and the world are left out. Cables and
-    lamps stay as they are made here: realize the scene again before another picture.
+    lamps stay as they are made here: realize the scene again before another picture. What hides cables is black.
 
     Yields:
         The picture's scene.
@@ -26,9 +27,10 @@ def white_on_black() -> Iterator[Any]:
     world = bpy.data.worlds.new("black")
     world.use_nodes = True
     world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
-    white = _white()
-    for cable in [item for item in scene.objects if item.name.startswith(f"{names.CABLE}.")]:
-        cable.data.materials[0] = white
+    white, black = _emission("white", 1.0), _emission("black", 0.0)
+    for piece in [item for item in scene.objects if item.name.startswith(f"{names.CABLE}.")]:
+        hides = piece.name.startswith(f"{names.CABLE}.{OCCLUDER}.")
+        piece.data.materials[0] = black if hides else white
     for lamp in [item for item in scene.objects if item.type == "LIGHT"]:
         lamp.hide_render = True
     floor.hide_render = True
@@ -43,12 +45,13 @@ def white_on_black() -> Iterator[Any]:
         bpy.data.worlds.remove(world)
 
 
-def _white() -> Any:
-    material = bpy.data.materials.new(f"{names.CABLE}.white")
+def _emission(name: str, strength: float) -> Any:
+    material = bpy.data.materials.new(f"{names.CABLE}.{name}")
     material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()
     emission = tree.nodes.new("ShaderNodeEmission")
+    emission.inputs["Strength"].default_value = strength
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     tree.links.new(emission.outputs["Emission"], output.inputs["Surface"])
     return material

@@ -1,0 +1,152 @@
+"""Cables in the open picture: a mesh for each piece, a material for each surface."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import bpy
+import numpy as np
+
+from blend import names
+from farm.looks import CableMaterial, Rgb, Skin
+from worker.images import ImageShelf
+from worker.piece import Convex, Piece, Plain, Tubular
+from worker.plain import draw_plain
+from worker.shapes import parts_near
+from worker.skin import SkinImages, draw_skin
+from worker.tube import Tube, loft, sweep
+from worker.view import View
+
+DIRT_EDGE = 0.05
+"""Distance of the two stops of the dirt ramp: how soft the edge of a spot is."""
+
+SHADOW_SLOPE = 3.0
+"""How far a shadow reaches, in the height of what throws it: that of the lowest lamp, 15 m away at a height of 5."""
+
+
+def remove_cables() -> None:
+    """Remove the cables of the picture before."""
+    prefix = f"{names.CABLE}."
+    for collection in (bpy.data.objects, bpy.data.meshes, bpy.data.materials):
+        for block in [block for block in collection if block.name.startswith(prefix)]:
+            collection.remove(block)
+
+
+def add_cables(pieces: Sequence[Piece], sides: int, view: View, shelf: ImageShelf, *, whole: bool) -> None:
+    """Add a settled scene's cables; of those that leave the view, what is seen or may throw a shadow into it.
+
+    Args:
+        pieces: of the cables.
+        sides: corners of a tube's cross-section.
+        view: the camera.
+        shelf: takes the images of skins.
+        whole: whether to add them wholly, wherever they go.
+    """
+    materials: dict[object, Any] = {}
+    for number, piece in enumerate(pieces):
+        name = f"{names.CABLE}.{piece.instance}.{number}"
+        made = list(_meshes(piece, sides, None if whole else view))
+        if not made:
+            continue
+        key = _identity(piece)
+        if key not in materials:
+            materials[key] = _material(name, piece, view, shelf)
+        for place, tube in made:
+            _add_mesh(f"{name}.{place}", tube, materials[key])
+
+
+def _identity(piece: Piece) -> object:
+    """What pieces of one material have in common: a sheath has one of its own, so as to be drawn in its own length."""
+    if isinstance(piece.surface, Plain):
+        return piece.surface
+    return piece.instance
+
+
+def _meshes(piece: Piece, sides: int, view: View | None) -> list[tuple[int, Tube]]:
+    """The meshes of a piece, each with where in the piece it starts."""
+    if isinstance(piece, Convex):
+        return [(0, loft(piece.rings))]
+    curve, points = piece.curve, len(piece.curve)
+    if view is None:
+        parts = [slice(0, points)]
+    else:
+        half_m = float(np.abs(view.floor_corners_m()[:, :2]).max())
+        widest_m = 2 * float(np.max(piece.radius_m))
+        parts = parts_near(curve, half_m + SHADOW_SLOPE * float(curve[:, 2].max()) + widest_m)
+    return [(part.start, _tube(piece, part, sides)) for part in parts]
+
+
+def _tube(piece: Tubular, part: slice, sides: int) -> Tube:
+    start_m = piece.start_m + (piece.end_m - piece.start_m) * part.start / (len(piece.curve) - 1)
+    radius_m = piece.radius_m if isinstance(piece.radius_m, float) else piece.radius_m[part]
+    tube = sweep(piece.curve[part], radius_m, sides, start_m=start_m)
+    if not isinstance(piece.surface, CableMaterial):
+        tube.uvs[:] /= (piece.whole_m, 2 * np.pi * float(np.mean(piece.radius_m)))
+    return tube
+
+
+def _add_mesh(name: str, tube: Tube, material: Any) -> None:
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(len(tube.vertices_m))
+    mesh.vertices.foreach_set("co", tube.vertices_m.ravel())
+    mesh.loops.add(len(tube.corners))
+    mesh.loops.foreach_set("vertex_index", tube.corners)
+    mesh.polygons.add(len(tube.face_starts))
+    mesh.polygons.foreach_set("loop_start", tube.face_starts)
+    mesh.uv_layers.new(name="along").uv.foreach_set("vector", tube.uvs.ravel())
+    mesh.update(calc_edges=True)
+    mesh.materials.append(material)
+    bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
+
+
+def _material(name: str, piece: Piece, view: View, shelf: ImageShelf) -> Any:
+    if isinstance(piece.surface, CableMaterial):
+        return _published(name, piece.surface)
+    if isinstance(piece.surface, Plain):
+        return _drawn(name, draw_plain(piece.surface), shelf)
+    if not isinstance(piece, Tubular):
+        raise TypeError(f"{name}: only tubes have sheaths")
+    return _drawn(name, _skin_images(piece, piece.surface, view), shelf)
+
+
+def _skin_images(piece: Tubular, skin: Skin, view: View) -> SkinImages:
+    return draw_skin(skin, piece.whole_m, 2 * float(np.max(piece.radius_m)), 1.0 / view.pixels_per_m)
+
+
+def _published(name: str, wanted: CableMaterial) -> Any:
+    material = bpy.data.materials[names.CABLE].copy()
+    material.name = name
+    nodes = material.node_tree.nodes
+    nodes[names.CABLE_MAPPING].inputs["Location"].default_value = wanted.dirt_mapping
+    nodes[names.CABLE_NOISE].inputs["W"].default_value = wanted.dirt_offset
+    clean, dirty = nodes[names.CABLE_COLOUR_RAMP].color_ramp.elements
+    clean.position = wanted.dirt_position
+    clean.color = _linear(wanted.colour)
+    dirty.position = min(1.0, wanted.dirt_position + DIRT_EDGE)
+    dirty.color = _linear(wanted.dirt_colour)
+    nodes[names.CABLE_REFLECTION_RAMP].color_ramp.elements[1].position = wanted.reflection_position
+    return material
+
+
+def _drawn(name: str, images: SkinImages, shelf: ImageShelf) -> Any:
+    material = bpy.data.materials[names.SKIN].copy()
+    material.name = name
+    tree = material.node_tree
+    tree.nodes[names.SKIN_COLOUR].image = shelf.made(f"{name} colour", images.colour, colour=True)
+    tree.nodes[names.SKIN_ROUGHNESS].image = shelf.made(f"{name} roughness", images.roughness, colour=False)
+    surface = tree.nodes[names.SKIN_SURFACE]
+    if images.normal is None:
+        # Tangents are worked out for every mesh whose material asks for them.
+        for way in list(surface.inputs["Normal"].links):
+            tree.links.remove(way)
+    else:
+        tree.nodes[names.SKIN_NORMAL].image = shelf.made(f"{name} normal", images.normal, colour=False)
+    surface.inputs["Metallic"].default_value = images.metallic
+    surface.inputs["Coat Weight"].default_value = images.coat
+    surface.inputs["Coat Roughness"].default_value = images.coat_roughness
+    return material
+
+
+def _linear(colour: Rgb) -> tuple[float, float, float, float]:
+    """Levels as shares of linear light, which is how the published set-up reads them: the colours come out pastel."""
+    red, green, blue = (level / 255.0 for level in colour)
+    return (red, green, blue, 1.0)

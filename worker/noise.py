@@ -1,0 +1,57 @@
+"""Smooth random fields that close around a cable. Numpy and OpenCV."""
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+Field = NDArray[np.float32]
+
+_MARGIN = 2
+"""Cells beyond the edges that a cubic reaches for."""
+
+_NORMED = 1.35
+"""A cubic through independent values varies less than they do."""
+
+
+def field(rng: np.random.Generator, shape: tuple[int, int], cell: tuple[float, float]) -> Field:
+    """Random values that vary over a cell's size, of mean about 0 and standard deviation about 1.
+
+    Args:
+        rng: is drawn from.
+        shape: rows, around the cable, and columns, along it.
+        cell: rows and columns over which it varies; the rows are taken to the next number that divides the picture's.
+    """
+    rows, columns = shape
+    around = _divisor(rows, rows / max(cell[0], 1.0))
+    down, right = rows // around, max(1, round(cell[1]))
+    cells = -(-columns // right) + 2 * _MARGIN
+    values = rng.standard_normal((around, cells), dtype=np.float32)
+    if down == right == 1:
+        return values[:, _MARGIN : _MARGIN + columns]
+    # Rows wrap around, so that the field closes.
+    closed = values[np.arange(-_MARGIN, around + _MARGIN) % around]
+    large = cv2.resize(closed, (cells * right, len(closed) * down), interpolation=cv2.INTER_CUBIC)
+    inner = large[_MARGIN * down : _MARGIN * down + rows, _MARGIN * right : _MARGIN * right + columns]
+    return inner * np.float32(_NORMED)
+
+
+def fractal(rng: np.random.Generator, shape: tuple[int, int], cell: tuple[float, float], octaves: int = 3) -> Field:
+    """Fields of halving cells and halving weight, of standard deviation about 1."""
+    total = np.zeros(shape, np.float32)
+    for octave in range(octaves):
+        total += field(rng, shape, (cell[0] / 2**octave, cell[1] / 2**octave)) * np.float32(0.55**octave)
+    return total * np.float32(1.0 / np.sqrt(sum(0.55 ** (2 * octave) for octave in range(octaves))))
+
+
+def patches(values: Field, share: float, softness: float) -> Field:
+    """How much, 0 to 1, each place belongs to the `share` of all that is highest; edges are `softness` wide."""
+    if share <= 0.0:
+        return np.zeros_like(values)
+    edge = np.quantile(values[::3, ::3], 1.0 - min(share, 1.0))
+    return np.clip((values - np.float32(edge)) / np.float32(softness) + np.float32(0.5), 0.0, 1.0)
+
+
+def _divisor(rows: int, wanted: float) -> int:
+    """The divisor of `rows` that is nearest to what is wanted, in proportion."""
+    divisors = np.array([k for k in range(1, rows + 1) if rows % k == 0])
+    return int(divisors[np.argmin(np.abs(np.log(divisors / max(wanted, 1.0))))])
