@@ -19,7 +19,7 @@ from worker.images import ImageShelf  # noqa: E402
 from worker.library import AssetLibrary  # noqa: E402
 from worker.matte import covered_by  # noqa: E402
 from worker.panorama import lens_radius_m  # noqa: E402
-from worker.pieces import pieces_of
+from worker.pieces import pieces_of  # noqa: E402
 from worker.realize import realize  # noqa: E402
 from worker.render import configure_cycles, configure_picture  # noqa: E402
 from worker.shapes import CableShapes, smooth  # noqa: E402
