@@ -37,7 +37,7 @@ def written_lines(
     for y in rows_mm:
         x = rng.uniform(0, grid.size_mm)
         slope = rng.normal(0, 0.02)
-        end = x + rng.uniform(17, 50) * height_mm
+        end = x + min(rng.uniform(17, 50) * height_mm, 0.8 * grid.size_mm)
         value = (float(rng.uniform(150, 255)),)
         while x < end:
             word = _word(rng, height_mm)

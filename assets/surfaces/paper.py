@@ -74,14 +74,13 @@ def wiring_plan(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     for number, trace in enumerate(plan.traces):
         polylines(layers[number // 5 % len(inks)], trace.path, 0.36, (225.0,), grid)
     for body in plan.bodies:
-        blank = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]]) * (body.width, body.height)
+        middle, size = np.array([body.x, body.y]), np.array([body.width, body.height])
+        corners = middle + 0.5 * size * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
         for layer in layers:
-            polygon(layer, blank + (body.x, body.y), (0.0,), grid)
-        half = np.array([body.width, body.height]) / 2
-        frame = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]]) * half + (body.x, body.y)
-        polylines(layers[0], frame, 0.45, (235.0,), grid)
-        above = text_patch(body.name, 1.7 if min(body.width, body.height) < 4 else 2.6, grid, 0.12)
-        stamp(layers[0], above, body.x, body.y - half[1] - 1.6, grid)
+            polygon(layer, corners, (0.0,), grid)
+        polylines(layers[0], np.concatenate([corners, corners[:1]]), 0.45, (235.0,), grid)
+        above = text_patch(body.name, 1.7 if size.min() < 4 else 2.6, grid, 0.12)
+        stamp(layers[0], above, body.x, body.y - 0.5 * body.height - 1.6, grid)
     faint = 0.7 + 0.3 * smoothstep(-1.2, 0.8, fractal(rng, grid, 90, 0.5, gain=0.7))
     for ink, layer in zip(inks, layers, strict=True):
         colour = mix(colour, ink, np.asarray(0.8 * faint * as_field(layer), np.float32))
