@@ -94,7 +94,7 @@ def lay_out(rng: np.random.Generator, size_mm: float) -> Board:
 
     Args:
         rng: Source of the randomness.
-        size_mm: Edge of the tile, a whole number of cells.
+        size_mm: Edge of the tile, a whole number of cells (`CELL_MM`); otherwise traces break at its edges.
 
     Returns:
         The board.

@@ -17,7 +17,12 @@ SYLLABLES = (
 
 
 def written_lines(
-    rng: np.random.Generator, image: Image, grid: Grid, rows_mm: npt.NDArray[np.float64], height_mm: float
+    rng: np.random.Generator,
+    image: Image,
+    grid: Grid,
+    rows_mm: npt.NDArray[np.float64],
+    height_mm: float,
+    stroke_mm: float = 0.4,
 ) -> None:
     """Write lines by hand on an image of the tile, in place.
 
@@ -27,17 +32,18 @@ def written_lines(
         grid: The tile.
         rows_mm: Where the lines stand, from the top, shape (n,).
         height_mm: Height of the small letters.
+        stroke_mm: Width of the pen.
     """
     for y in rows_mm:
         x = rng.uniform(0, grid.size_mm)
         slope = rng.normal(0, 0.02)
-        end = x + rng.uniform(50, 150)
+        end = x + min(rng.uniform(17, 50) * height_mm, 0.8 * grid.size_mm)
         value = (float(rng.uniform(150, 255)),)
         while x < end:
             word = _word(rng, height_mm)
             word[:, 1] += y + slope * (x - end)
             word[:, 0] += x
-            polylines(image, word, 0.4, value, grid)
+            polylines(image, word, stroke_mm, value, grid)
             x = float(word[-1, 0]) + 1.1 * height_mm
 
 

@@ -1,9 +1,10 @@
-"""Table tops and board faces of decorative laminate: white and light, plain at a glance, used at a closer look."""
+"""White and light faces of tables and boards: plain at a glance, used at a closer look."""
 
 import numpy as np
 
 from assets.surfaces.colour import mix, ramp
 from assets.surfaces.grid import Field, Grid
+from assets.surfaces.handwriting import written_lines
 from assets.surfaces.maps import SurfaceMaps, finish
 from assets.surfaces.marks import dust, scratches, specks, stains
 from assets.surfaces.noise import coverage, fractal, smoothstep, warp
@@ -47,6 +48,37 @@ def melamine_board(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     maps_colour = mix(maps_colour, "a98b62", 0.8 * np.asarray(chips, np.float32))
     lip = -0.35 * gap - 0.06 * np.asarray(np.exp(-np.square(from_seam / 0.8)), np.float32) - 0.1 * chips
     return _used(rng, grid, maps_colour, orange_peel=0.007, gloss=0.4, relief=np.asarray(lip, np.float32))
+
+
+def whiteboard(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
+    """Glossy whiteboard: lines and words in four colours of marker, half of them wiped to ghosts and grey smears."""
+    colour = ramp(0.5 + 0.2 * fractal(rng, grid, 150, 12, gain=0.55), ((0.0, "e9ebeb"), (1.0, "f0f1f1")))
+    bend = 30 * fractal(rng, grid, 200, 40, gain=0.5)
+    wiped = warp(fractal(rng, grid, 20, 0.5, gain=0.72, stretch=(9.0, 0.8)), 0.3 * bend, bend, grid)
+    streaks = smoothstep(-0.4, 2.0, wiped)
+    colour = mix(colour, "8d93a0", 0.13 * streaks * smoothstep(-0.6, 1.2, fractal(rng, grid, 120, 12)))
+    ink = grid.zeros()
+    rows = rng.permutation(np.arange(22.0, grid.size_mm, 44.0))
+    for number, code in enumerate(("26282c", "2b4a9b", "b3342f", "2f7b4f")):
+        fresh, old = np.zeros((2, grid.pixels, grid.pixels), np.uint8)
+        written_lines(rng, fresh if number < 2 else old, grid, rows[2 * number : 2 * number + 2], 11.0, 1.6)
+        for target, count in ((fresh, 2), (old, 6)):
+            for _ in range(count):
+                start = rng.uniform(0, grid.size_mm, 2)
+                path = curve(rng, start.tolist(), float(rng.uniform(40, 170)), 0.6, 9)
+                polylines(target, path, float(rng.uniform(1.6, 2.6)), (235.0,), grid)
+        # A felt tip leaves streaks along its way and more ink where it rests.
+        felt = 0.72 + 0.28 * smoothstep(-1.0, 1.0, fractal(rng, grid, 4, 0.4, gain=0.75))
+        line = felt * as_field(fresh)
+        ghost = as_field(old) * (0.07 + 0.3 * smoothstep(0.4, 1.8, wiped))
+        colour = mix(colour, code, np.asarray(np.maximum(0.9 * line, ghost), np.float32))
+        ink = np.maximum(ink, line)
+    hair = scratches(rng, grid, 90, 0.16)
+    colour = mix(colour, "9b9da0", 0.3 * hair)
+    colour = mix(colour, "5b5c60", 0.5 * specks(rng, grid, 0.0006, 0.5))
+    rough = 0.14 + 0.14 * streaks + 0.25 * ink + 0.2 * hair
+    height = 0.004 * fractal(rng, grid, 6, 2, gain=0.5) + 0.01 * ink - 0.006 * hair
+    return finish(grid, colour, np.asarray(rough, np.float32), np.asarray(height, np.float32))
 
 
 def _used(
@@ -111,5 +143,6 @@ RECIPES = tuple(
         ("laminate_white", laminate_white),
         ("laminate_grey", laminate_grey),
         ("melamine_board", melamine_board),
+        ("whiteboard", whiteboard),
     )
 )

@@ -59,7 +59,7 @@ def foam_mat(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     fine = fractal(rng, grid, 1.0, 0.0, gain=0.9)
     pores = smoothstep(0.5, 1.6, coarse + 0.4 * fine)
     cloud = fractal(rng, grid, 100, 2, gain=0.62)
-    tone = 0.12 + 0.78 * smoothstep(0.0, 0.8, peak) + 0.07 * cloud - 0.28 * pores + 0.06 * fine
+    tone = 0.12 + 0.78 * smoothstep(0.0, 0.8, peak) + 0.07 * cloud - 0.42 * pores + 0.1 * fine
     colour = ramp(np.asarray(tone, np.float32), ((0.0, "2b2c2e"), (0.5, "5d5f62"), (1.0, "85878a")))
     rubbed = smoothstep(0.75, 1.0, peak) * smoothstep(-0.8, 1.4, fractal(rng, grid, 70, 1, gain=0.65))
     colour = mix(colour, "a3a39f", 0.3 * rubbed)
@@ -67,7 +67,7 @@ def foam_mat(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     colour = mix(colour, "c9c4b8", 0.65 * lint)
     torn = coverage(fractal(rng, grid, 22, 0.9, gain=0.68), 0.004, 0.05)
     colour = shade(colour, 1 - 0.35 * torn)
-    height = 6.5 * peak + 0.05 * coarse + 0.03 * fine - 0.12 * pores - 0.6 * torn
+    height = 6.5 * peak + 0.1 * coarse + 0.05 * fine - 0.25 * pores - 0.6 * torn
     return finish(grid, colour, 0.94, np.asarray(height, np.float32))
 
 

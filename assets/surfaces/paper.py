@@ -2,15 +2,18 @@
 
 import numpy as np
 
+from assets.surfaces.circuit_layout import CELL_MM, lay_out
 from assets.surfaces.colour import mix, rgb, shade
 from assets.surfaces.grid import Field, Grid
 from assets.surfaces.handwriting import printed_page, written_lines
+from assets.surfaces.lettering import stamp, text_patch
 from assets.surfaces.maps import SurfaceMaps, finish, hollows
 from assets.surfaces.marks import specks
 from assets.surfaces.noise import fractal, smoothstep
 from assets.surfaces.pile import Pile, Sprite, local_frame, trimmed
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 from assets.surfaces.shapes import box, filled, repeated
+from assets.surfaces.strokes import as_field, polygon, polylines
 
 A4_MM = (210.0, 297.0)
 A5_MM = (148.0, 210.0)
@@ -34,7 +37,7 @@ def paper_sheets(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
         jitter = rng.uniform(-0.3, 0.3, 2) * step
         pile.lay(sheet, float(x + jitter[0]), float(y + jitter[1]), tint, 1.0)
     # Beside the edge of a sheet that lies on top, the one below is in its shade.
-    shadow = 0.2 * hollows(pile.height_mm, 1.2, 0.35, grid) + 0.14 * hollows(pile.height_mm, 6.0, 1.6, grid)
+    shadow = 0.15 * hollows(pile.height_mm, 1.0, 0.35, grid) + 0.1 * hollows(pile.height_mm, 6.0, 1.6, grid)
     relief = np.tanh(pile.height_mm / 6.0) * 3.0
     return _lit(rng, grid, shade(pile.colour, np.asarray(1 - shadow, np.float32)), np.asarray(relief, np.float32))
 
@@ -60,6 +63,33 @@ def squared_paper(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     crease, relief = _crumple(rng, grid)
     colour = shade(colour, np.asarray(1 - 0.09 * crease, np.float32))
     return _lit(rng, grid, colour, np.asarray(relief - 0.8 * gutter, np.float32))
+
+
+def wiring_plan(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
+    """A large wiring plan on white paper: boxes with names, joined by printed lines in the colours of wires."""
+    plan = lay_out(rng, grid.size_mm)
+    colour = np.broadcast_to(rgb("eeede8"), (grid.pixels, grid.pixels, 3)).copy()
+    inks = ("2b2b2e", "b23a34", "3157a0", "3d7d4c", "7a5435", "2b2b2e")
+    layers = np.zeros((len(inks), grid.pixels, grid.pixels), np.uint8)
+    for number, trace in enumerate(plan.traces):
+        polylines(layers[number // 5 % len(inks)], trace.path, 0.36, (225.0,), grid)
+    for body in plan.bodies:
+        middle, size = np.array([body.x, body.y]), np.array([body.width, body.height])
+        corners = middle + 0.5 * size * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+        for layer in layers:
+            polygon(layer, corners, (0.0,), grid)
+        polylines(layers[0], np.concatenate([corners, corners[:1]]), 0.45, (235.0,), grid)
+        above = text_patch(body.name, 1.7 if size.min() < 4 else 2.6, grid, 0.12)
+        stamp(layers[0], above, body.x, body.y - 0.5 * body.height - 1.6, grid)
+    faint = 0.7 + 0.3 * smoothstep(-1.2, 0.8, fractal(rng, grid, 90, 0.5, gain=0.7))
+    for ink, layer in zip(inks, layers, strict=True):
+        colour = mix(colour, ink, np.asarray(0.8 * faint * as_field(layer), np.float32))
+    fold, relief = _folds(grid)
+    crease, crumpled = _crumple(rng, grid)
+    colour = shade(colour, np.asarray(1 - 0.1 * fold - 0.07 * crease, np.float32))
+    worn = fold * smoothstep(-0.2, 1.4, fractal(rng, grid, 8, 0.5, gain=0.75))
+    colour = mix(colour, "f4f3ef", 0.6 * worn)
+    return _lit(rng, grid, colour, np.asarray(relief + 0.6 * crumpled, np.float32))
 
 
 def _lit(rng: np.random.Generator, grid: Grid, colour: Field, height: Field) -> SurfaceMaps:
@@ -109,6 +139,19 @@ def _squares(u: Field, v: Field, pitch_mm: float, grid: Grid) -> Field:
     return np.maximum(lines[0], lines[1])
 
 
+def _folds(grid: Grid) -> tuple[Field, Field]:
+    """A plan's folds, every 200 mm across and once along, ridge and valley in turn: the lines, and the relief in mm."""
+    x, y = grid.coordinates()
+    along = np.abs(repeated(y, grid.size_mm, 0.2 * grid.size_mm))
+    line = np.exp(-along / 0.35)
+    relief = 1.2 * np.exp(-along / 14.0)
+    for middle, up in ((0.25, 1.0), (0.75, -1.0)):
+        across = np.abs(repeated(x, grid.size_mm, (middle - 0.5) * grid.size_mm))
+        line = np.maximum(line, np.exp(-across / 0.35))
+        relief = relief + up * 1.2 * np.exp(-across / 14.0)
+    return np.asarray(line, np.float32), np.asarray(relief, np.float32)
+
+
 def _crumple(rng: np.random.Generator, grid: Grid) -> tuple[Field, Field]:
     """Soft creases of handled paper: the lines, 0 to 1, and the relief in millimetres."""
     field = fractal(rng, grid, 150, 18, gain=0.5)
@@ -120,10 +163,14 @@ def _crumple(rng: np.random.Generator, grid: Grid) -> tuple[Field, Field]:
     return np.asarray(line, np.float32), np.asarray(relief, np.float32)
 
 
+PLAN_M = 700 * CELL_MM / 1000
+"""Edge of the plan's tile: a whole number of cells of the lattice on which it is laid out."""
+
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.PAPER, 0.4, draw)
-    for name, draw in (
-        ("paper_sheets", paper_sheets),
-        ("squared_paper", squared_paper),
+    SurfaceRecipe(name, SurfaceFamily.PAPER, size_m, draw)
+    for name, size_m, draw in (
+        ("paper_sheets", 0.4, paper_sheets),
+        ("squared_paper", 0.4, squared_paper),
+        ("wiring_plan", PLAN_M, wiring_plan),
     )
 )

@@ -1,4 +1,4 @@
-"""Metal with openings: perforated sheet, slotted cable tray, bar grating and profiles with T-slots, dark inside."""
+"""Surfaces with openings, dark inside: perforated sheet, cable tray, grating, profiles with T-slots, pegboard."""
 
 import numpy as np
 
@@ -79,6 +79,30 @@ def bar_grating(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     height = height + on_bar * 0.7 * crown + (1 - on_bar) * 1.8 * round_rod
     metal = np.asarray(metal * (1 - 0.8 * rust), np.float32)
     return _opened(rng, grid, np.asarray(edge, np.float32), colour, rough + 0.3 * rust, height, metal, deep=26.0)
+
+
+def pegboard_white(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
+    """White pegboard: painted hardboard with 6 mm holes every 25 mm, frayed brown where hooks have hung."""
+    x, y = grid.coordinates()
+    pitch = grid.size_mm / 16
+    edge = np.asarray(np.hypot(repeated(x, pitch), repeated(y, pitch)) - 3.0, np.float32)
+    cloud = fractal(rng, grid, 130, 3, gain=0.6)
+    peel = fractal(rng, grid, 2.6, 0.9, gain=0.6)
+    colour = ramp(0.5 + 0.14 * cloud, ((0.0, "dfded9"), (1.0, "ebeae6")))
+    hooked = smoothstep(-0.4, 1.6, fractal(rng, grid, 60, 8) + 0.5 * fractal(rng, grid, 3, 0.5, gain=0.8))
+    around = np.asarray(np.exp(-np.maximum(edge, 0) / 0.7), np.float32)
+    frayed = smoothstep(0.45, 0.75, around * (0.5 + 0.6 * hooked))
+    colour = mix(colour, "b3ab9c", 0.35 * dust(rng, grid, around))
+    marks = scratches(rng, grid, 90, 0.25)
+    scuffs = scratches(rng, grid, 20, 1.1)
+    colour = mix(mix(colour, "8f8b84", 0.32 * marks), "6a6763", 0.25 * scuffs)
+    chips = coverage(fractal(rng, grid, 26, 0.7, gain=0.7) + 0.6 * around, 0.004, 0.06)
+    colour = mix(colour, "80603f", np.maximum(0.75 * frayed, 0.8 * chips))
+    smear = smoothstep(0.2, 2.4, fractal(rng, grid, 80, 1.0, gain=0.66))
+    colour = mix(colour, "a79e8d", 0.1 * smear)
+    rough = 0.45 + 0.04 * peel + 0.1 * smear + 0.35 * np.maximum(frayed, chips)
+    height = 0.01 * peel - 0.3 * np.exp(-np.maximum(edge, 0) / 0.4) - 0.08 * chips - 0.01 * marks
+    return _opened(rng, grid, edge, colour, np.asarray(rough), np.asarray(height), grid.zeros())
 
 
 def aluminium_profile(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
@@ -195,12 +219,15 @@ def _opened(
     return finish(grid, mix(colour, dark, inside), np.asarray(rough, np.float32), flat, metal)
 
 
-RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.METAL, 0.4, draw)
-    for name, draw in (
-        ("perforated_steel", perforated_steel),
-        ("cable_tray", cable_tray),
-        ("bar_grating", bar_grating),
-        ("aluminium_profile", aluminium_profile),
-    )
+RECIPES = (
+    *(
+        SurfaceRecipe(name, SurfaceFamily.METAL, 0.4, draw)
+        for name, draw in (
+            ("perforated_steel", perforated_steel),
+            ("cable_tray", cable_tray),
+            ("bar_grating", bar_grating),
+            ("aluminium_profile", aluminium_profile),
+        )
+    ),
+    SurfaceRecipe("pegboard_white", SurfaceFamily.SHEET, 0.4, pegboard_white),
 )

@@ -12,7 +12,15 @@ from tests.assets.built import PIXELS, built, steps
 NAMES = list(SURFACES)
 
 
-LIGHT = ("laminate_white", "melamine_board", "paper_sheets", "squared_paper")
+LIGHT = (
+    "laminate_white",
+    "melamine_board",
+    "whiteboard",
+    "pegboard_white",
+    "paper_sheets",
+    "squared_paper",
+    "wiring_plan",
+)
 
 
 def linear(colour: npt.NDArray[np.uint8]) -> npt.NDArray[np.float64]:
