@@ -34,6 +34,7 @@ WIDE = Ranges(
         diameter_m=(0.001, 0.012),
         widest_share=40 / 512,
         length_m=(0.10, 0.55),
+        far_length_m=(0.55, 0.80),
         skin=SkinRanges(
             share=0.85,
             alike_share=0.35,
@@ -55,7 +56,7 @@ WIDE = Ranges(
         f_number=(4.0, 32.0),
         focal_lengths_mm=(24.0, 35.0, 50.0, 85.0),
         tilt_deg=(0.0, 15.0),
-        roll_deg=(-180.0, 180.0),
+        roll_deg=(-12.0, 12.0),
         focus_offset_share=(-0.01, 0.03),
         distortion=(-0.06, 0.03),
     ),

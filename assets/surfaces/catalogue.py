@@ -43,5 +43,11 @@ WORKPLACE: Mapping[str, SurfaceRecipe] = MappingProxyType(
 SURFACES: Mapping[str, SurfaceRecipe] = MappingProxyType({**FLOORS, **WORKPLACE})
 """Name to recipe, family by family."""
 
-LIGHT: frozenset[str] = frozenset()
+LIGHT: frozenset[str] = frozenset(
+    {
+        *("laminate_white", "laminate_grey", "melamine_board", "whiteboard", "pegboard_white"),
+        *("squared_paper", "paper_sheets", "wiring_plan", "maple_bench", "beech_bench"),
+        *("ceramic_white", "marble_white", "plaster_white", "terrazzo_light", "birch_veneer"),
+    }
+)
 """Those that are as bright as tables and benches: their mean level is 165 at least, of 255."""

@@ -54,6 +54,7 @@ def draw_cables(
     camera: Camera,
     streams: Streams,
     *,
+    length_m: tuple[float, float],
     lowest_m: float,
 ) -> tuple[Cable, ...]:
     """Draw cables that start above each other.
@@ -64,6 +65,7 @@ def draw_cables(
         substances: of each cable.
         camera: sets how thick a cable may be.
         streams: of the job.
+        length_m: range of their lengths.
         lowest_m: height at which the first starts.
     """
     placements = _PLACERS[disposition](ranges.placement, len(substances), streams(Stage.PLACEMENT))
@@ -73,7 +75,7 @@ def draw_cables(
     start = lowest_m
     for placement, substance, kind in zip(placements, substances, kinds, strict=True):
         published = _draw_material(ranges.cable, material_rng)
-        length = uniform(look_rng, ranges.cable.length_m)
+        length = uniform(look_rng, length_m)
         course = draw_course(ranges.placement, placement.bends_per_m, length, kind.diameter_m, look_rng)
         cables.append(_cable(placement, substance, kind, published, course, length, start))
         cables[-1] = cables[-1].model_copy(

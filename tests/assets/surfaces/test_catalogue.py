@@ -5,7 +5,8 @@ import numpy.typing as npt
 import pytest
 
 from assets.bake import recipe_generator
-from assets.surfaces.catalogue import SURFACES
+from assets.surfaces.catalogue import FLOORS, SURFACES, WORKPLACE
+from assets.surfaces.catalogue import LIGHT as BRIGHT
 from assets.surfaces.recipe import SurfaceFamily
 from tests.assets.built import PIXELS, built, steps
 
@@ -29,9 +30,9 @@ def linear(colour: npt.NDArray[np.uint8]) -> npt.NDArray[np.float64]:
     return np.asarray(np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4))
 
 
-def test_there_are_at_least_32_surfaces_in_every_family() -> None:
-    """The catalogue is wide: at least 32 surfaces, and no family is empty."""
-    assert len(SURFACES) >= 32
+def test_there_are_at_least_40_surfaces_in_every_family() -> None:
+    """The catalogue is wide, and no family is empty."""
+    assert len(SURFACES) >= 40
     assert {recipe.family for recipe in SURFACES.values()} == set(SurfaceFamily)
 
 
@@ -49,6 +50,18 @@ def test_some_surfaces_are_light_some_dark() -> None:
     assert sum(mean < 95 for mean in means) >= 5
     assert sum(95 <= mean < 160 for mean in means) >= 10
     assert sum(mean >= 160 for mean in means) >= 8
+
+
+@pytest.mark.parametrize("name", sorted(BRIGHT))
+def test_light_surfaces_are_light(name: str) -> None:
+    """As a style that prefers them takes for granted."""
+    assert built(name).colour.mean() > 165
+
+
+def test_the_published_floors_are_apart_from_the_workplace() -> None:
+    """Together they are all there is."""
+    assert not FLOORS.keys() & WORKPLACE.keys()
+    assert dict(SURFACES) == {**FLOORS, **WORKPLACE}
 
 
 @pytest.mark.parametrize("name", NAMES)
