@@ -13,10 +13,14 @@ from numpy.typing import NDArray
 from farm.errors import RenderError
 from farm.photograph import Development
 from worker.distortion import Distortion
+from worker.illuminant import NEUTRAL
 from worker.luminance import REC709_LUMINANCE, luminance
 
 MID_GREY = 0.18
 """Light of the grey that a photographer meters."""
+
+ADAPTED = 0.75
+"""How much of the light's colour a camera takes off, as an exponent; what is left tells a warm lamp from daylight."""
 
 SHOULDER = 0.6
 """Light up to which the curve is sRGB's own; above, it bends and reaches white only at several times 1."""
@@ -47,13 +51,16 @@ Light = NDArray[np.float32]
 Levels = NDArray[np.float32]
 
 
-def develop(light: Light, development: Development, distortion: float = 0.0) -> NDArray[np.uint8]:
+def develop(
+    light: Light, development: Development, *, distortion: float = 0.0, lit_by: NDArray[np.float64] = NEUTRAL
+) -> NDArray[np.uint8]:
     """Develop a picture.
 
     Args:
         light: as rendered through a lens without distortion; not finite or negative is black.
         development: what the camera does with it.
         distortion: of its lens, see `farm.photograph.Camera`.
+        lit_by: colour of the scene's light (3,), which its white balance is after.
 
     Returns:
         (H, H, 3) uint8 sRGB.
@@ -62,7 +69,7 @@ def develop(light: Light, development: Development, distortion: float = 0.0) -> 
         RenderError: if OpenCV can't compress the picture.
     """
     light = expose(clean(light), development.key, development.exposure_ev)
-    light = balance(light, development.white_balance)
+    light = balance(light, development.white_balance, lit_by)
     light = np.minimum(vignette(light, development.vignetting), np.float32(MOST_LIGHT))
     larger = development.chromatic_aberration
     light = Distortion(distortion).distort(light, (1.0 + larger, 1.0, 1.0 - larger))
@@ -92,10 +99,14 @@ def expose(light: Light, key: float, exposure_ev: float) -> Light:
     return light * np.float32(key / mean * 2.0**exposure_ev)
 
 
-def balance(light: Light, white_balance: tuple[float, float]) -> Light:
-    """Multiply red and blue by their gains, and all so that grey keeps its luminance."""
-    gains = np.array([white_balance[0], 1.0, white_balance[1]])
-    return light * (gains / (REC709_LUMINANCE @ gains)).astype(np.float32)
+def balance(light: Light, error: tuple[float, float], lit_by: NDArray[np.float64] = NEUTRAL) -> Light:
+    """Take off most of the colour of the scene's light, and multiply red and blue by the error's gains.
+
+    What is as grey as white paper in that light keeps its luminance.
+    """
+    left = lit_by ** (1.0 - ADAPTED) * [error[0], 1.0, error[1]]
+    gains = left / lit_by * (REC709_LUMINANCE @ lit_by) / (REC709_LUMINANCE @ left)
+    return light * gains.astype(np.float32)
 
 
 def vignette(light: Light, lost: float) -> Light:
