@@ -108,6 +108,14 @@ def test_corners_lose_their_share(lost: float) -> None:
     assert seen[100, 100] == pytest.approx(np.cos(np.arctan(slope)) ** 4, rel=1e-3)
 
 
+def test_a_bright_coloured_light_turns_white() -> None:
+    """A deep red one gains green and blue beyond white alone, so that ten times as much of it is pale."""
+    red = even(1.0) * np.array([1.0, 0.1, 0.02], np.float32)
+    assert (steps.bleed(red) == red).all()
+    paler = steps.bleed(10 * red)[0, 0]
+    assert paler == pytest.approx([10.9, 1.9, 1.1], rel=1e-5)
+
+
 @pytest.mark.parametrize("level", [0.02, 0.2, 0.8])
 def test_noise_has_the_variance_of_shot_and_read_noise(level: float) -> None:
     """Level / full well + (read noise / full well)^2, within 5 %, and a mean that is left alone."""
