@@ -41,7 +41,7 @@ class Development(Model):
         exposure_ev: the exposure's error, in stops.
         contrast: slope of the tone curve at mid-grey over that of the plain sRGB curve.
         saturation: 1 leaves colours as they are.
-        white_balance: error, as gains of red and blue.
+        white_balance: error of the camera's own, as gains of red and blue.
         vignetting: share of the light that is lost in the corners.
         chromatic_aberration: how much larger the red picture is than the green, and the blue smaller, as a share.
         full_well: electrons of a white pixel: fewer make more shot noise; 0 is no noise at all.

@@ -13,16 +13,23 @@ from numpy.typing import NDArray
 from farm.errors import RenderError
 from farm.photograph import Development
 from worker.distortion import Distortion
+from worker.illuminant import NEUTRAL
 from worker.luminance import REC709_LUMINANCE, luminance
 
 MID_GREY = 0.18
 """Light of the grey that a photographer meters."""
+
+ADAPTED = 0.75
+"""How much of the light's colour a camera takes off, as an exponent; what is left tells a warm lamp from daylight."""
 
 SHOULDER = 0.6
 """Light up to which the curve is sRGB's own; above, it bends and reaches white only at several times 1."""
 
 MOST_LIGHT = 4.0
 """Beyond it all is white anyway; a firefly, or a lamp's reflection, brings no more than this to pixels near it."""
+
+OVERLAP = 0.1
+"""Share of what is beyond white in one channel that the others get."""
 
 CORRELATION = 0.3
 """Weight of a pixel's neighbours in noise, as interpolating a Bayer mosaic leaves it."""
@@ -31,6 +38,8 @@ SHARPENED_PX = 1.0
 """Standard deviation of the Gaussian that the unsharp mask takes off."""
 
 NO_COMPRESSION = 100
+
+_FINITE = 1e30
 
 _METERED_STEP = 4
 """Of so many pixels along a row and a column, one is metered."""
@@ -47,13 +56,16 @@ Light = NDArray[np.float32]
 Levels = NDArray[np.float32]
 
 
-def develop(light: Light, development: Development, distortion: float = 0.0) -> NDArray[np.uint8]:
+def develop(
+    light: Light, development: Development, *, distortion: float = 0.0, lit_by: NDArray[np.float64] = NEUTRAL
+) -> NDArray[np.uint8]:
     """Develop a picture.
 
     Args:
         light: as rendered through a lens without distortion; not finite or negative is black.
         development: what the camera does with it.
         distortion: of its lens, see `farm.photograph.Camera`.
+        lit_by: colour of the scene's light (3,), which its white balance is after.
 
     Returns:
         (H, H, 3) uint8 sRGB.
@@ -62,8 +74,8 @@ def develop(light: Light, development: Development, distortion: float = 0.0) -> 
         RenderError: if OpenCV can't compress the picture.
     """
     light = expose(clean(light), development.key, development.exposure_ev)
-    light = balance(light, development.white_balance)
-    light = np.minimum(vignette(light, development.vignetting), np.float32(MOST_LIGHT))
+    light = balance(light, development.white_balance, lit_by)
+    light = np.minimum(bleed(vignette(light, development.vignetting)), np.float32(MOST_LIGHT))
     larger = development.chromatic_aberration
     light = Distortion(distortion).distort(light, (1.0 + larger, 1.0, 1.0 - larger))
     rng = np.random.default_rng(development.seed)
@@ -74,8 +86,8 @@ def develop(light: Light, development: Development, distortion: float = 0.0) -> 
 
 def clean(light: Light) -> Light:
     """Light without negative numbers, infinity or NaN."""
-    finite = np.nan_to_num(light, nan=0.0, posinf=np.finfo(np.float32).max, neginf=0.0)
-    return np.maximum(finite, 0.0, out=finite)
+    positive = np.fmax(light, 0.0)  # takes NaN for missing
+    return np.minimum(positive, np.float32(_FINITE), out=positive)
 
 
 def expose(light: Light, key: float, exposure_ev: float) -> Light:
@@ -92,10 +104,14 @@ def expose(light: Light, key: float, exposure_ev: float) -> Light:
     return light * np.float32(key / mean * 2.0**exposure_ev)
 
 
-def balance(light: Light, white_balance: tuple[float, float]) -> Light:
-    """Multiply red and blue by their gains, and all so that grey keeps its luminance."""
-    gains = np.array([white_balance[0], 1.0, white_balance[1]])
-    return light * (gains / (REC709_LUMINANCE @ gains)).astype(np.float32)
+def balance(light: Light, error: tuple[float, float], lit_by: NDArray[np.float64] = NEUTRAL) -> Light:
+    """Take off most of the colour of the scene's light, and multiply red and blue by the error's gains.
+
+    What is as grey as white paper in that light keeps its luminance.
+    """
+    left = lit_by ** (1.0 - ADAPTED) * [error[0], 1.0, error[1]]
+    gains = left / lit_by * (REC709_LUMINANCE @ lit_by) / (REC709_LUMINANCE @ left)
+    return light * gains.astype(np.float32)
 
 
 def vignette(light: Light, lost: float) -> Light:
@@ -114,6 +130,15 @@ def vignette(light: Light, lost: float) -> Light:
     return light * left[:, :, None]
 
 
+def bleed(light: Light) -> Light:
+    """Let the colours of what is brighter than white run into each other, as dyes of a sensor's filters overlap.
+
+    A strongly coloured light then comes out paler the brighter it is, and white at last.
+    """
+    over = np.maximum(cv2.max(cv2.max(light[..., 0], light[..., 1]), light[..., 2]) - 1.0, 0.0)
+    return light + np.float32(OVERLAP) * over[:, :, None]
+
+
 def add_noise(light: Light, full_well: float, read_noise: float, rng: np.random.Generator) -> Light:
     """Add shot and read noise: of light x the variance is x / full_well + (read_noise / full_well)^2.
 
@@ -128,8 +153,11 @@ def add_noise(light: Light, full_well: float, read_noise: float, rng: np.random.
     grains = rng.standard_normal(light.shape, np.float32)
     kernel = np.array([CORRELATION, 1.0, CORRELATION]) / math.sqrt(1.0 + 2 * CORRELATION**2)
     grains = cv2.sepFilter2D(grains, -1, kernel, kernel, borderType=cv2.BORDER_REFLECT_101)
-    deviation = np.sqrt(light * np.float32(1 / full_well) + np.float32((read_noise / full_well) ** 2))
-    noisy: Light = np.maximum(light + deviation * grains, 0.0)
+    variance = light * np.float32(1 / full_well)
+    variance += np.float32((read_noise / full_well) ** 2)
+    grains *= np.sqrt(variance, out=variance)
+    grains += light
+    noisy: Light = np.maximum(grains, 0.0, out=grains)
     return noisy
 
 
@@ -181,7 +209,9 @@ def sharpen(levels: Levels, amount: float) -> Levels:
 
 def quantize(levels: Levels) -> NDArray[np.uint8]:
     """Levels of 0 to 1 in 8 bits, clipped."""
-    eight: NDArray[np.uint8] = np.rint(255.0 * np.clip(levels, 0.0, 1.0)).astype(np.uint8)
+    scaled = np.clip(levels, 0.0, 1.0)
+    scaled *= np.float32(255.0)
+    eight: NDArray[np.uint8] = np.rint(scaled, out=scaled).astype(np.uint8)
     return eight
 
 

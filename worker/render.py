@@ -13,9 +13,11 @@ from blend import names
 from farm.errors import RenderError
 from farm.photograph import Development
 from farm.rendering import CyclesSettings, Denoiser, Pattern, PictureSettings
+from farm.scene import Scene
 from worker.develop import develop
 from worker.distortion import Distortion
 from worker.eevee import light_with_a_spot
+from worker.illuminant import NEUTRAL, illuminant
 from worker.matte import Backdrop, lay_over
 from worker.panorama import Panorama
 
@@ -109,7 +111,11 @@ def _find_bright_parts(world: Any, map_px: int) -> None:
 
 
 def render_picture(
-    behind: Backdrop | None = None, *, distortion: float = 0.0, development: Development | None = None
+    behind: Backdrop | None = None,
+    *,
+    distortion: float = 0.0,
+    development: Development | None = None,
+    lit_by: NDArray[np.float64] = NEUTRAL,
 ) -> NDArray[np.uint8]:
     """Render the picture's scene as configured.
 
@@ -117,6 +123,7 @@ def render_picture(
         behind: what is behind all that is rendered; None if the scene has it all.
         distortion: of the lens, which Blender's has none of; see `farm.photograph.Camera`.
         development: what the camera makes of the light; None for the scene's view transform.
+        lit_by: colour of the scene's light, (3,), for the development.
 
     Returns:
         (H, W, 3) uint8 sRGB.
@@ -132,8 +139,18 @@ def render_picture(
             return _read(target)
         light = _render_light(scene, behind, Path(folder))
         if development is not None:
-            return develop(light, development, distortion)
+            return develop(light, development, distortion=distortion, lit_by=lit_by)
         return _view(scene, Distortion(distortion).distort(light), Path(folder))
+
+
+def render_scene(drawn: Scene, behind: Backdrop | None) -> NDArray[np.uint8]:
+    """Render a realized scene as its own camera takes it; see `render_picture`."""
+    return render_picture(
+        behind,
+        distortion=drawn.camera.distortion,
+        development=drawn.development,
+        lit_by=illuminant(drawn.lamps, drawn.grey_world),
+    )
 
 
 def _render_into(scene: Any, target: Path) -> None:

@@ -33,7 +33,7 @@ from worker.matte import Backdrop
 from worker.pieces import pieces_of
 from worker.randomize import draw_scene
 from worker.realize import realize
-from worker.render import configure_cycles, configure_eevee, configure_picture, render_picture
+from worker.render import configure_cycles, configure_eevee, configure_picture, render_scene
 from worker.shapes import CableShapes, smooth
 from worker.simulate import let_fall
 from worker.view import View
@@ -95,7 +95,7 @@ class Studio:
             behind = self._realize(job, spec, chosen.settings, scene, shapes)
             rendering = self._configure(spec, chosen, scene.render_seed)
         with _timed(timings, "render"):
-            image = render_picture(behind, distortion=scene.camera.distortion, development=scene.development)
+            image = render_scene(scene, behind)
         with _timed(timings, "mask"):
             labels = label(scene, shapes, chosen.settings.detail, spec.resolution)
         return MadeImage(

@@ -90,6 +90,14 @@ def test_the_white_balance_keeps_a_greys_luminance() -> None:
     assert seen[0, 0] / seen[0, 0, 1] == pytest.approx([1.2, 1.0, 0.9])
 
 
+def test_the_white_balance_takes_off_most_of_a_lamps_colour() -> None:
+    """White paper under a warm lamp keeps its luminance and the fourth root of its colour."""
+    lamp = np.array([1.6, 0.9, 0.3])
+    seen = steps.balance(even(0.5) * lamp.astype(np.float32), (1.0, 1.0), lamp)[0, 0]
+    assert luminance(seen) == pytest.approx(luminance((0.5 * lamp).astype(np.float32)))
+    assert seen / seen[1] == pytest.approx((lamp / lamp[1]) ** 0.25)
+
+
 @pytest.mark.parametrize("lost", [0.1, 0.35, 1.0])
 def test_corners_lose_their_share(lost: float) -> None:
     """Of the light of the middle; along a radius it falls as cos^4."""
@@ -98,6 +106,14 @@ def test_corners_lose_their_share(lost: float) -> None:
     assert seen[0, 0] == pytest.approx(1.0 - lost, abs=0.01)
     slope = np.sqrt(1 / np.sqrt(max(1 - lost, 1e-4)) - 1) * np.hypot(100, 100) / np.hypot(200.5, 200.5)
     assert seen[100, 100] == pytest.approx(np.cos(np.arctan(slope)) ** 4, rel=1e-3)
+
+
+def test_a_bright_coloured_light_turns_white() -> None:
+    """A deep red one gains green and blue beyond white alone, so that ten times as much of it is pale."""
+    red = even(1.0) * np.array([1.0, 0.1, 0.02], np.float32)
+    assert (steps.bleed(red) == red).all()
+    paler = steps.bleed(10 * red)[0, 0]
+    assert paler == pytest.approx([10.9, 1.9, 1.1], rel=1e-5)
 
 
 @pytest.mark.parametrize("level", [0.02, 0.2, 0.8])
@@ -189,4 +205,4 @@ def test_a_distorted_picture_is_filled() -> None:
     """No border is black or stretched, with colours apart as well."""
     fringed = PLAIN.model_copy(update={"chromatic_aberration": 0.002})
     for distortion in (-0.2, 0.2):
-        assert (develop(even(0.7), fringed, distortion) == 118).all()
+        assert (develop(even(0.7), fringed, distortion=distortion) == 118).all()

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from blend.build import TEMPLATE
 from blend.contract import open_template
 from farm.category import Category
+from farm.errors import RenderError
 from farm.header import DatasetHeader
 from farm.job import Job
 from farm.rendering import PictureSettings
@@ -18,7 +19,7 @@ from worker.library import AssetLibrary
 from worker.matte import Backdrop
 from worker.randomize import draw_scene
 from worker.realize import realize
-from worker.render import configure_cycles, configure_picture, render_picture
+from worker.render import configure_cycles, configure_picture, render_scene
 from worker.shapes import CableShapes
 from worker.simulate import let_fall
 
@@ -95,6 +96,5 @@ class Stage:
     def render(self) -> NDArray[np.uint8]:
         """The picture (H, W, 3) as set."""
         if self._scene is None:
-            return render_picture(self._behind)
-        camera, development = self._scene.camera, self._scene.development
-        return render_picture(self._behind, distortion=camera.distortion, development=development)
+            raise RenderError("nothing is set to be rendered")
+        return render_scene(self._scene, self._behind)
