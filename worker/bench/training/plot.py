@@ -31,11 +31,11 @@ def write_plot(path: Path, lessons: Sequence[Lesson], tests: Mapping[str, Exampl
     """
     columns = len(tests) * (2 + len(lessons))
     figure = plt.figure(figsize=(1.6 * columns, 4.2 + 1.75 * _SHOWN), layout="constrained")
-    figures, pictures = np.ravel(figure.subfigures(2, 1, height_ratios=(4.2, 1.75 * _SHOWN)))
+    figures, pictures = figure.subfigures(2, 1, squeeze=False, height_ratios=(4.2, 1.75 * _SHOWN))[:, 0]
     left, right = figures.subplots(1, 2, width_ratios=(1.6, 1))
     _draw_scores(left, lessons, tests)
     _draw_losses(right, lessons)
-    for part, (name, examples) in zip(np.ravel(pictures.subfigures(1, len(tests))), tests.items(), strict=True):
+    for part, (name, examples) in zip(pictures.subfigures(1, len(tests), squeeze=False)[0], tests.items(), strict=True):
         _draw_pictures(part, name, examples, lessons)
     figure.savefig(path, dpi=90)
     plt.close(figure)
