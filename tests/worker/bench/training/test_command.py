@@ -116,15 +116,19 @@ def noise(tmp_path: Path) -> Dataset:
 
 
 def test_a_run_writes_every_score(noise: Dataset, tmp_path: Path) -> None:
-    """Two networks on two test sets."""
+    """Two networks on two test sets and on photographs; both learned the same, so both score the same."""
     pytest.importorskip("torch")
+    for part, image in (("images", np.full((300, 400, 3), 90, np.uint8)), ("masks", np.zeros((300, 400), np.uint8))):
+        (tmp_path / "mine" / part).mkdir(parents=True)
+        Image.fromarray(image).save(tmp_path / "mine" / part / "one.png")
     named = tuple(NamedDataset(name, noise.storage.location) for name in ("one", "two"))
-    plan = Plan(seed=0, images=1, test_images=1, epochs=1, train=named, test=named)
+    plan = Plan(seed=0, images=1, test_images=1, epochs=1, train=named, test=named, photographs=tmp_path / "mine")
     assert run(tmp_path, plan) == 0
     content = json.loads((tmp_path / "training.json").read_text())
     first, second = content["networks"]
     assert (first["trained_on"], second["trained_on"]) == ("one", "two")
-    assert list(first["tested_on"]) == ["one", "two"]
+    assert list(first["tested_on"]) == ["one", "two", PHOTOGRAPHS]
+    assert first["tested_on"][PHOTOGRAPHS]["pictures"] == 1
     assert first["tested_on"] == second["tested_on"]
     assert 0 <= first["tested_on"]["one"]["mean_iou"] <= first["tested_on"]["one"]["mean_dice"] <= 1
     assert Image.open(tmp_path / "training.png").size[0] > 500
