@@ -10,6 +10,7 @@ from worker.bench.pictures.options import add_pictures, styles_of
 from worker.bench.soak.options import add_soak
 from worker.bench.throughput.options import add_farm
 from worker.bench.throughput.splits import SPLITS
+from worker.bench.training.options import add_training, training_plan_of
 from worker.bench.whole.options import add_whole, plan_of
 from worker.leave import leave
 
@@ -24,6 +25,7 @@ def main(arguments: list[str]) -> int:
     add_whole(commands, shared)
     add_farm(commands, shared)
     add_pictures(commands, shared)
+    add_training(commands, shared)
     masks = commands.add_parser("masks", parents=[shared], help="masks against fine renders")
     masks.add_argument("--images", type=int, help="images of each category")
     stress = commands.add_parser("stress", parents=[shared], help="the rod solver over the whole range of everything")
@@ -80,7 +82,22 @@ def _run(options: argparse.Namespace) -> int:
             quality=options.quality,
             resolution=options.resolution,
         )
+    if options.benchmark in {"pictures", "training"}:
+        return _run_styles(options)
     return _run_pictures(options)
+
+
+def _run_styles(options: argparse.Namespace) -> int:
+    """Run one that compares the styles, which are made by other processes: Blender stays out of this one."""
+    if options.benchmark == "training":
+        from worker.bench.training.command import run as run_training  # noqa: PLC0415
+
+        return run_training(options.out, training_plan_of(options))
+    from worker.bench.pictures.command import run as run_pictures  # noqa: PLC0415
+
+    return run_pictures(
+        options.out, seed=options.seed, images=options.images, styles=styles_of(options), datasets=options.dataset
+    )
 
 
 def _run_pictures(options: argparse.Namespace) -> int:
@@ -110,12 +127,6 @@ def _run_pictures(options: argparse.Namespace) -> int:
 
 def _run_looks(options: argparse.Namespace) -> int:
     """Run one that is about what pictures look like."""
-    if options.benchmark == "pictures":
-        from worker.bench.pictures.command import run as run_pictures  # noqa: PLC0415
-
-        return run_pictures(
-            options.out, seed=options.seed, images=options.images, styles=styles_of(options), datasets=options.dataset
-        )
     if options.benchmark == "examples":
         from worker.bench.examples.command import run as run_examples  # noqa: PLC0415
 
