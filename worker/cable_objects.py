@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from blend import names
-from farm.looks import CableMaterial, Rgb, Skin
+from farm.looks import CableMaterial, Rgb
 from worker.images import ImageShelf
 from worker.piece import Convex, Piece, Plain, Tubular
 from worker.plain import draw_plain
@@ -51,7 +51,7 @@ def add_cables(pieces: Sequence[Piece], sides: int, view: View, shelf: ImageShel
         if key not in materials:
             materials[key] = _material(name, piece, view, shelf)
         for place, tube in made:
-            _add_mesh(f"{name}.{place}", tube, materials[key])
+            _add_mesh(f"{name}.{place}", tube, materials[key], smooth=isinstance(piece, Tubular))
 
 
 def _identity(piece: Piece) -> object:
@@ -84,7 +84,7 @@ def _tube(piece: Tubular, part: slice, sides: int) -> Tube:
     return tube
 
 
-def _add_mesh(name: str, tube: Tube, material: Any) -> None:
+def _add_mesh(name: str, tube: Tube, material: Any, *, smooth: bool) -> None:
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(len(tube.vertices_m))
     mesh.vertices.foreach_set("co", tube.vertices_m.ravel())
@@ -93,6 +93,8 @@ def _add_mesh(name: str, tube: Tube, material: Any) -> None:
     mesh.polygons.add(len(tube.face_starts))
     mesh.polygons.foreach_set("loop_start", tube.face_starts)
     mesh.uv_layers.new(name="along").uv.foreach_set("vector", tube.uvs.ravel())
+    if not smooth:
+        mesh.shade_flat()
     mesh.update(calc_edges=True)
     mesh.materials.append(material)
     bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
@@ -101,15 +103,10 @@ def _add_mesh(name: str, tube: Tube, material: Any) -> None:
 def _material(name: str, piece: Piece, view: View, shelf: ImageShelf) -> Any:
     if isinstance(piece.surface, CableMaterial):
         return _published(name, piece.surface)
-    if isinstance(piece.surface, Plain):
+    if isinstance(piece, Convex) or isinstance(piece.surface, Plain):
         return _drawn(name, draw_plain(piece.surface), shelf)
-    if not isinstance(piece, Tubular):
-        raise TypeError(f"{name}: only tubes have sheaths")
-    return _drawn(name, _skin_images(piece, piece.surface, view), shelf)
-
-
-def _skin_images(piece: Tubular, skin: Skin, view: View) -> SkinImages:
-    return draw_skin(skin, piece.whole_m, 2 * float(np.max(piece.radius_m)), 1.0 / view.pixels_per_m)
+    diameter_m = 2 * float(np.max(piece.radius_m))
+    return _drawn(name, draw_skin(piece.surface, piece.whole_m, diameter_m, 1.0 / view.pixels_per_m), shelf)
 
 
 def _published(name: str, wanted: CableMaterial) -> Any:

@@ -23,16 +23,24 @@ def field(rng: np.random.Generator, shape: tuple[int, int], cell: tuple[float, f
     """
     rows, columns = shape
     around = _divisor(rows, rows / max(cell[0], 1.0))
-    down, right = rows // around, max(1, round(cell[1]))
+    down, (fine_down, fine_right) = rows // around, _steps(rows // around, max(1, round(cell[1])))
+    right = fine_right * max(1, round(cell[1] / fine_right))
     cells = -(-columns // right) + 2 * _MARGIN
     values = rng.standard_normal((around, cells), dtype=np.float32)
     if down == right == 1:
         return values[:, _MARGIN : _MARGIN + columns]
     # Rows wrap around, so that the field closes.
     closed = values[np.arange(-_MARGIN, around + _MARGIN) % around]
-    large = cv2.resize(closed, (cells * right, len(closed) * down), interpolation=cv2.INTER_CUBIC)
+    # A cubic through the cells, then straight lines through its points, which takes a fifth of the time.
+    finer = cv2.resize(closed, (cells * fine_right, len(closed) * fine_down), interpolation=cv2.INTER_CUBIC)
+    large = cv2.resize(finer, (cells * right, len(closed) * down), interpolation=cv2.INTER_LINEAR)
     inner = large[_MARGIN * down : _MARGIN * down + rows, _MARGIN * right : _MARGIN * right + columns]
     return inner * np.float32(_NORMED)
+
+
+def _steps(down: int, right: int) -> tuple[int, int]:
+    """Points that a cubic puts in a cell: at most four each way, and down a number that divides the cell's rows."""
+    return max(step for step in (1, 2, 3, 4) if down % step == 0), min(4, right)
 
 
 def fractal(rng: np.random.Generator, shape: tuple[int, int], cell: tuple[float, float], octaves: int = 3) -> Field:

@@ -33,7 +33,7 @@ def paint_stripe(canvas: Canvas, stripe: Stripe, rng: np.random.Generator) -> No
     if stripe.share >= 1.0:
         inside[:] = 1.0
     mottle = 1.0 + 0.02 * field(rng, canvas.shape, canvas.cells(0.002, 0.006))
-    canvas.blend(inside, pigment(stripe.colour) * mottle[..., None])
+    canvas.blend(inside, pigment(stripe.colour) * mottle)
     canvas.roughness += 0.04 * inside
 
 

@@ -15,14 +15,15 @@ def draw_plain(surface: Plain) -> SkinImages:
     rng = np.random.default_rng(sum(level << 8 * place for place, level in enumerate(surface.colour)))
     mottle = fractal(rng, _SHAPE, (8, 8), 3)
     if surface.substance is Substance.PLASTIC:
-        colour = pigment(surface.colour) * (1.0 + 0.03 * mottle)[..., None]
+        colour = pigment(surface.colour) * (1.0 + 0.03 * mottle)
         roughness, metallic = 0.42 + 0.04 * mottle, 0.0
     else:
         streaks = field(rng, _SHAPE, (1, 32))
-        colour = np.array(surface.colour, np.float32) / 255.0 * (1.0 + 0.07 * mottle + 0.05 * streaks)[..., None]
+        metal = np.array(surface.colour, np.float32).reshape(3, 1, 1) / 255.0
+        colour = metal * (1.0 + 0.07 * mottle + 0.05 * streaks)
         roughness, metallic = 0.30 + 0.05 * mottle + 0.04 * streaks, 1.0
     return SkinImages(
-        colour=np.clip(255 * colour + 0.5, 0, 255).astype(np.uint8),
+        colour=np.clip(255 * np.moveaxis(colour, 0, 2) + 0.5, 0, 255).astype(np.uint8),
         roughness=np.clip(255 * roughness + 0.5, 0, 255).astype(np.uint8),
         normal=None,
         metallic=metallic,

@@ -3,14 +3,14 @@
 import numpy as np
 
 from farm.looks import Skin
-from worker.canvas import Canvas, pigment
+from worker.canvas import Canvas, pigment, tone
 from worker.noise import Field, field, fractal
 
 _STRAND_M = 0.00035
 """Of a conductor's fine strands, as wide as the clear plastic makes them look."""
 
-_COPPER = (0.86, 0.53, 0.34)
-_COPPER_SHADE = (0.30, 0.14, 0.07)
+_COPPER = tone(0.90, 0.56, 0.36)
+_COPPER_SHADE = tone(0.20, 0.09, 0.05)
 
 _CARRIER_M = 0.0008
 """Width of a braid's carriers: the flat strands that cross."""
@@ -25,10 +25,9 @@ _METAL_TINT = 40
 def draw_plain(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:
     """Extruded plastic: faintly mottled, with streaks along it; a gloss that is not quite even."""
     shape = canvas.shape
-    canvas.colour[:] = pigment(skin.colour)
     mottle = fractal(rng, shape, canvas.cells(0.004, 0.007), 2)
     streaks = field(rng, shape, canvas.cells(0.0006, 0.05))
-    canvas.colour *= (1.0 + 0.018 * mottle + 0.014 * streaks)[..., None]
+    canvas.colour[:] = pigment(skin.colour) * (1.0 + 0.018 * mottle + 0.014 * streaks)
     canvas.roughness[:] = np.clip(skin.roughness * (1.0 + 0.08 * mottle + 0.10 * streaks), 0.08, 1.0)
     canvas.height_m = _unevenness(canvas, rng)
 
@@ -43,10 +42,9 @@ def draw_translucent(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> No
     strand = np.floor(place).astype(np.int32) % count
     across = 2.0 * (place - np.floor(place)) - 1.0
     bulge = np.sqrt(np.maximum(1.0 - 0.92 * across * across, 0.0)).astype(np.float32)
-    tone = (1.0 + 0.09 * rng.standard_normal(count)).astype(np.float32)[strand]
-    tone *= 1.0 + 0.05 * field(rng, canvas.shape, canvas.cells(0.0008, 0.006))
-    bright, dark = np.array(_COPPER, np.float32), np.array(_COPPER_SHADE, np.float32)
-    canvas.colour[:] = dark + (bulge * tone)[..., None] * (bright - dark)
+    shine = (1.0 + 0.09 * rng.standard_normal(count)).astype(np.float32)[strand]
+    shine *= 1.0 + 0.05 * field(rng, canvas.shape, canvas.cells(0.0008, 0.006))
+    canvas.colour[:] = _COPPER_SHADE + bulge * shine * (_COPPER - _COPPER_SHADE)
     milk = 0.16 + 0.05 * fractal(rng, canvas.shape, canvas.cells(0.003, 0.02), 2)
     canvas.blend(np.clip(milk, 0.0, 0.4), pigment(skin.colour))
     canvas.roughness[:] = 0.34
@@ -75,10 +73,11 @@ def draw_braid(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:
     crown = np.sqrt(np.maximum(1.0 - 3.4 * across * across, 0.0)).astype(np.float32)
     dip = (1.0 - 1.1 * lengthwise * lengthwise).astype(np.float32)
     height = crown * dip
-    tones = _carrier_tones(skin, count, rng)[carrier]
+    tones = _carrier_tones(skin, count, rng)
     grain = fractal(rng, canvas.shape, canvas.cells(0.0003, 0.0004), 2)
     shade = (0.42 + 0.58 * height) * (1.0 + 0.06 * grain)
-    canvas.colour[:] = tones * shade[..., None]
+    for plane, of_carrier in zip(canvas.colour, tones.T, strict=True):
+        np.multiply(of_carrier[carrier], shade, out=plane)
     canvas.height_m = np.float32(0.28 * canvas.around_m / count) * height
     metal = skin.roughness < _METAL_ROUGHNESS and max(skin.colour) - min(skin.colour) < _METAL_TINT
     canvas.metallic = 0.9 if metal else 0.0
@@ -88,7 +87,7 @@ def draw_braid(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:
 
 def _carrier_tones(skin: Skin, count: int, rng: np.random.Generator) -> Field:
     """(2 * count, 3): the colours of the carriers that wind right, then left."""
-    base = pigment(skin.colour)
+    base = pigment(skin.colour).reshape(1, 3)
     tones = base * (1.0 + 0.07 * rng.standard_normal((2 * count, 1))).astype(np.float32)
     second = rng.random() < 0.5
     if skin.stripe is None and second:
@@ -99,7 +98,7 @@ def _carrier_tones(skin: Skin, count: int, rng: np.random.Generator) -> Field:
         tracers = round(skin.stripe.share * count)
         for start in (0, count):
             which = start + (np.arange(tracers) * count // max(tracers, 1)) % count
-            tones[which] = pigment(skin.stripe.colour)
+            tones[which] = pigment(skin.stripe.colour).reshape(1, 3)
     return np.clip(tones, 0.02, 1.0).astype(np.float32)
 
 

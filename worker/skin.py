@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,7 +13,7 @@ from worker.paint import paint_stripe, print_marking
 from worker.sheath import draw_braid, draw_plain, draw_translucent
 from worker.soiling import soil, wear_down
 
-_TEXELS_A_PIXEL = 1.4
+_TEXELS_A_PIXEL = 1.2
 """Around a cable's middle, where it faces the camera."""
 
 _FINEST_M = 0.00005
@@ -74,7 +75,7 @@ def draw_skin(skin: Skin, length_m: float, diameter_m: float, pixel_m: float) ->
     if skin.sheath is Sheath.PLAIN and skin.roughness > _UNEVEN_SHOWS:
         canvas.height_m = None
     return SkinImages(
-        colour=_bytes(canvas.colour),
+        colour=cv2.merge([_bytes(plane) for plane in canvas.colour]),
         roughness=_bytes(canvas.roughness),
         normal=None if canvas.height_m is None else _normals(canvas.height_m, canvas.texel_m),
         metallic=canvas.metallic,
@@ -90,19 +91,18 @@ def _blank(length_m: float, around_m: float, texel_m: float) -> Canvas:
     return Canvas(
         length_m=length_m,
         around_m=around_m,
-        colour=np.empty((rows, columns, 3), np.float32),
+        colour=np.empty((3, rows, columns), np.float32),
         roughness=np.empty((rows, columns), np.float32),
     )
 
 
 def _bytes(values: Field) -> NDArray[np.uint8]:
-    return np.clip(values * np.float32(255) + np.float32(0.5), 0, 255).astype(np.uint8)
+    return cv2.multiply(values, 255.0, dtype=cv2.CV_8U)  # rounds, and stops at 0 and 255
 
 
 def _normals(height_m: Field, texel_m: tuple[float, float]) -> NDArray[np.uint8]:
     """Of a relief that closes around its rows, which run from the top of the image down."""
     along = np.gradient(height_m, axis=1) / np.float32(texel_m[1])
     around = (np.roll(height_m, 1, axis=0) - np.roll(height_m, -1, axis=0)) / np.float32(2 * texel_m[0])
-    normal = np.stack([-along, -around, np.ones_like(along)], axis=-1)
-    normal /= np.sqrt(np.einsum("ijk,ijk->ij", normal, normal))[..., None]
-    return _bytes(0.5 + 0.5 * normal)
+    up = np.float32(0.5) / np.sqrt(1.0 + along * along + around * around)
+    return cv2.merge([_bytes(0.5 - along * up), _bytes(0.5 - around * up), _bytes(0.5 + up)])

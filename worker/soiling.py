@@ -3,11 +3,11 @@
 import cv2
 import numpy as np
 
-from worker.canvas import Canvas
-from worker.noise import field, fractal, patches
+from worker.canvas import Canvas, tone
+from worker.noise import Field, field, fractal, patches
 
-_GRIME = (0.15, 0.125, 0.10)
-_DUST = (0.60, 0.56, 0.50)
+_GRIME = tone(0.15, 0.125, 0.10)
+_DUST = tone(0.60, 0.56, 0.50)
 
 _SCUFFS_PER_M = 700.0
 """Of a cable that is rubbed all over, times the square root of the share that is rubbed."""
@@ -23,12 +23,12 @@ def soil(canvas: Canvas, share: float, rng: np.random.Generator) -> None:
     # Dirt gathers: some stretches have much of it, others hardly any.
     crowd = field(rng, shape, canvas.cells(canvas.around_m, 0.035))
     where = np.maximum(spots, smears) + 0.6 * crowd
-    grime = patches(where, share, 0.45)
-    density = np.clip(0.74 + 0.16 * field(rng, shape, canvas.cells(0.0012, 0.0016)), 0.3, 0.95)
-    tint = np.array(_GRIME, np.float32) * np.float32(rng.uniform(0.5, 1.5))
+    grime = patches(where, share, rng.uniform(0.4, 1.2))
+    density = np.clip(0.70 + 0.20 * field(rng, shape, canvas.cells(0.0012, 0.0020)), 0.25, 0.95)
+    tint = _GRIME * np.float32(rng.uniform(0.5, 1.5))
     dust = np.clip(0.5 + 0.5 * fractal(rng, shape, canvas.cells(0.004, 0.012), 3), 0.0, 1.5)
     film = dust * np.float32(0.22 * min(1.0, 3.0 * share))
-    canvas.blend(film, np.array(_DUST, np.float32))
+    canvas.blend(film, _DUST)
     canvas.blend_roughness(np.minimum(2.0 * film, 1.0), 0.85)
     canvas.blend(grime * density, tint)
     canvas.blend_roughness(grime * 0.9, 0.78)
@@ -42,17 +42,15 @@ def wear_down(canvas: Canvas, share: float, rng: np.random.Generator) -> None:
     where = fractal(rng, shape, canvas.cells(0.0018, 0.018), 4)
     where += 0.8 * field(rng, shape, canvas.cells(canvas.around_m / 3, 0.06))
     rubbed = patches(where, share, 0.7) * np.clip(0.6 + 0.3 * field(rng, shape, canvas.cells(0.0004, 0.003)), 0, 1)
-    paler = 0.62 * canvas.colour + 0.38 * np.float32(0.72)
-    canvas.blend(0.75 * rubbed, paler)
+    paler = 0.5 * canvas.colour + 0.5 * np.float32(0.74)
+    canvas.blend(0.85 * rubbed, paler)
     canvas.blend_roughness(rubbed, 0.7)
     scuffs = _scuffs(canvas, share, rng)
-    canvas.blend(0.5 * scuffs, 0.45 * canvas.colour + 0.55 * np.float32(0.78))
+    canvas.blend(0.6 * scuffs, 0.4 * canvas.colour + 0.6 * np.float32(0.80))
     canvas.blend_roughness(0.8 * scuffs, 0.65)
 
 
-def _scuffs(
-    canvas: Canvas, share: float, rng: np.random.Generator
-) -> "np.ndarray[tuple[int, ...], np.dtype[np.float32]]":
+def _scuffs(canvas: Canvas, share: float, rng: np.random.Generator) -> Field:
     """Short thin scratches, mostly along the cable; they go on around it."""
     rows, columns = canvas.shape
     count = rng.poisson(_SCUFFS_PER_M * canvas.length_m * np.sqrt(share) * min(1.0, canvas.around_m / 0.006) * 0.3)
@@ -60,9 +58,7 @@ def _scuffs(
     lengths = rng.gamma(2.0, 0.0012, count)
     slopes = rng.normal(0.0, 0.35, count)
     starts = rng.uniform(0.0, 1.0, (count, 2)) * [columns, rows] + [0, rows]
-    runs = np.stack(
-        [lengths * np.cos(slopes) / canvas.texel_m[1], lengths * np.sin(slopes) / canvas.texel_m[0]], axis=1
-    )
+    runs = lengths[:, None] * np.stack([np.cos(slopes), np.sin(slopes)], axis=1) / canvas.texel_m[::-1]
     runs[:, 1] = np.clip(runs[:, 1], -0.9 * rows, 0.9 * rows)
     levels = rng.integers(70, 220, count)
     for start, run, level in zip(starts, runs, levels, strict=True):

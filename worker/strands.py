@@ -49,10 +49,14 @@ def strand_radius(strands: int, wanted_m: float, envelope_m: float, lay_m: float
     if not lay_m:
         return packed_m
     # From a point of one helix to its neighbour: least over how far along the neighbour one looks.
-    turn = np.linspace(-np.pi, np.pi, 721)
-    across = 2 * distance**2 * (1 - np.cos(2 * np.pi / ring + turn))
-    along = (turn / (2 * np.pi) * lay_m / packed_m) ** 2
-    return packed_m * min(1.0, 0.5 * math.sqrt(float((across + along).min())))
+    turn, step = np.zeros(1), np.pi
+    squares = np.zeros(1)
+    for _ in range(4):
+        turn = turn[squares.argmin()] + np.linspace(-step, step, 41)
+        across = 2 * distance**2 * (1 - np.cos(2 * np.pi / ring + turn))
+        squares = across + (turn / (2 * np.pi) * lay_m / packed_m) ** 2
+        step /= 20
+    return packed_m * min(1.0, 0.5 * math.sqrt(float(squares.min())))
 
 
 def turning(

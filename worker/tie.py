@@ -87,16 +87,15 @@ def _head(
         stacked = np.array(rings)
         return Convex(OCCLUDER, stacked, stacked.mean(axis=(0, 1)), surface)
 
-    high, long, wide = 0.95 * width_m, 0.75 * width_m, 0.8 * width_m
+    high, long, wide = 0.85 * width_m, 0.66 * width_m, 0.68 * width_m
     head = block(
         [
             ring(0.0, long, wide),
-            ring(0.75 * high, long, wide),
-            ring(0.93 * high, 0.92 * long, 0.93 * wide),
-            ring(high, 0.78 * long, 0.8 * wide),
+            ring(0.88 * high, long, wide),
+            ring(high, 0.88 * long, 0.88 * wide),
         ]
     )
-    stub_m = high + 0.5 * width_m
+    stub_m = high + 0.35 * width_m
     tail = block([ring(out, 0.4 * width_m, 0.5 * _THICKNESS_M, 0.3 * wide) for out in (0.5 * high, stub_m)])
     return [head, tail]
 

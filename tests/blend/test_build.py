@@ -54,11 +54,19 @@ def test_a_template_without_an_object_is_refused_by_its_name(tmp_path: Path, nam
         open_template(tmp_path / "less.blend")
 
 
-@pytest.mark.parametrize("node", [names.CABLE_COLOUR_RAMP, names.CABLE_NOISE])
-def test_a_cable_material_without_a_node_is_refused(tmp_path: Path, node: str) -> None:
-    """The material's nodes are part of the contract."""
+@pytest.mark.parametrize(
+    ("material", "node"),
+    [
+        (names.CABLE, names.CABLE_COLOUR_RAMP),
+        (names.CABLE, names.CABLE_NOISE),
+        (names.SKIN, names.SKIN_COLOUR),
+        (names.SKIN, names.SKIN_SURFACE),
+    ],
+)
+def test_a_material_without_a_node_is_refused(tmp_path: Path, material: str, node: str) -> None:
+    """The materials' nodes are part of the contract."""
     open_template(TEMPLATE)
-    nodes = bpy.data.materials[names.CABLE].node_tree.nodes
+    nodes = bpy.data.materials[material].node_tree.nodes
     nodes.remove(nodes[node])
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "less.blend"), copy=True)
     with pytest.raises(TemplateError, match=node):

@@ -94,6 +94,13 @@ def test_parts_of_one_thing_count_together() -> None:
     assert (covered(*quads, numbers=(1, 2, 1))[:, 2] == 1).all()
 
 
+def test_number_0_hides_and_does_not_count() -> None:
+    """Of a column that a thing covers wholly, 60 % hidden leave less than half; 40 % leave it the thing's."""
+    whole = box(2.0, 0.0, 3.0, 8.0)
+    assert not covered(whole, box(2.0, 0.0, 2.6, 8.0), numbers=(1, 0)).any()
+    assert (covered(whole, box(2.0, 0.0, 2.4, 8.0), numbers=(1, 0))[:, 2] == 1).all()
+
+
 def test_no_quads_cover_nothing() -> None:
     """An empty picture."""
     assert not cover(np.zeros((0, 4, 2)), np.zeros(0, np.int64), 4, 4).any()

@@ -8,6 +8,7 @@ from scipy.spatial import Delaunay
 import worker.silhouette
 from tests.worker.scenes import tubular
 from worker.label import label_cables
+from worker.piece import OCCLUDER, Convex, Plain, Substance
 from worker.shapes import Points
 from worker.tube import sweep
 from worker.view import View
@@ -76,6 +77,27 @@ def test_an_end_in_the_picture_is_cut_flat() -> None:
     columns = np.flatnonzero(mask.any(axis=0))
     expected = VIEW.resolution * 50 / 36 * 0.02 / (VIEW.height_m - RADIUS)
     assert columns.max() - columns.min() + 1 == pytest.approx(expected, abs=1.0)
+
+
+def test_what_hides_a_cable_is_background() -> None:
+    """An occluder that crosses above cuts the mask in two; one that lies below changes nothing."""
+    lower, occluder = tubular(bar(z=RADIUS), RADIUS, 1), tubular(bar(90.0, z=3 * RADIUS), RADIUS, OCCLUDER)
+    hidden = label_cables([lower, occluder], VIEW, SIDES)
+    assert not hidden.mask[:, 126:130].any()
+    assert set(np.unique(hidden.instances)) == {0, 1}
+    upper, below = tubular(bar(z=3 * RADIUS), RADIUS, 1), tubular(bar(90.0, z=RADIUS), RADIUS, OCCLUDER)
+    assert (label_cables([upper, below], VIEW, SIDES).mask == label_cables([upper], VIEW, SIDES).mask).all()
+
+
+def test_a_solid_covers_the_hull_of_its_corners() -> None:
+    """A box of 20 by 10 mm just above the floor, as an occluder on a wide cable, leaves a hole of its size."""
+    x, y = np.array([-0.01, 0.01, 0.01, -0.01]), np.array([-0.005, -0.005, 0.005, 0.005])
+    rings = np.stack([np.stack([x, y, np.full(4, z)], axis=1) for z in (0.0101, 0.0102)])
+    box = Convex(OCCLUDER, rings, np.array([0.0, 0.0, 0.0102]), Plain(Substance.PLASTIC, (0, 0, 0)))
+    wide = tubular(bar(z=0.005), 0.01)
+    open_px, left_px = (np.count_nonzero(label_cables(them, VIEW, SIDES).mask) for them in ([wide], [wide, box]))
+    expected = 0.02 * 0.01 * (VIEW.resolution * 50 / 36 / (VIEW.height_m - 0.0102)) ** 2
+    assert open_px - left_px == pytest.approx(expected, rel=0.03)
 
 
 def test_cables_outside_the_view_leave_nothing() -> None:
