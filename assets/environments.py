@@ -1,4 +1,4 @@
-"""Environments of our own: panoramas of rooms and yards, rendered once on each machine. Here: which, and where they lie."""
+"""Environments of our own, panoramas of rooms and yards rendered once on each machine: which, and where they lie."""
 
 import zlib
 from collections.abc import Mapping

@@ -28,6 +28,7 @@ class Inputs:
         hdris: folders of .hdr and .exr files.
         builtin_textures: whether our own surfaces take part.
         builtin_hdris: whether Blender's own HDRIs take part.
+        environments: whether our own environments take part.
     """
 
     template: Path | None = None
@@ -35,6 +36,7 @@ class Inputs:
     hdris: tuple[Path, ...] = ()
     builtin_textures: bool = True
     builtin_hdris: bool = True
+    environments: bool = False
 
 
 class AssetSource(Protocol):
@@ -50,6 +52,10 @@ class AssetSource(Protocol):
 
     def builtin_hdris(self) -> Sequence[HdriRef]:
         """Blender's own HDRIs."""
+        ...
+
+    def environments(self) -> Sequence[HdriRef]:
+        """Our own environments."""
         ...
 
     def hdris_in(self, folder: Path) -> Sequence[HdriRef]:
@@ -69,6 +75,8 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
     for folder in inputs.textures:
         surfaces += assets.surfaces_in(folder)
     hdris = list(assets.builtin_hdris()) if inputs.builtin_hdris else []
+    if inputs.environments:
+        hdris += assets.environments()
     for folder in inputs.hdris:
         hdris += assets.hdris_in(folder)
     _check_names("surface", "--textures", [surface.name for surface in surfaces])

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -29,8 +30,17 @@ from blend.environments.build import build_environment
 from farm.errors import AssetError, RenderError
 from worker.devices import choose_device
 
-SAMPLES = 3
-"""Of each pixel. Four times as many pixels as a far picture shows, and a denoiser led by sharp guides, make up for it."""
+SAMPLES = 4
+"""Of each pixel; a denoiser led by the sharp colours and normals of what is seen does the rest."""
+
+BAND_DEG = 30.0
+"""How far above and below the horizon a panorama is rendered in full: a far picture shows 20 degrees of it."""
+
+COARSER = 4
+"""By how much the rest is coarser: it only lights, and a lit cable is far from a mirror."""
+
+FADE_DEG = 2.0
+"""Over how much of the band's edges the two are mixed."""
 
 RENDER_SEED = 0
 
@@ -65,7 +75,7 @@ def render_environments(
 
 
 def render_panorama(recipe: EnvironmentRecipe, pixels: int, device: str, threads: int) -> NDArray[np.float32]:
-    """Build a recipe and render it.
+    """Build a recipe and render it: the band about the horizon, which pictures show, in full; the rest coarser.
 
     Returns:
         (pixels / 2, pixels, 3) linear light, red first, the zenith first; its scale is arbitrary.
@@ -75,24 +85,51 @@ def render_panorama(recipe: EnvironmentRecipe, pixels: int, device: str, threads
         RenderError: Blender gives no picture.
     """
     scene = build_environment(recipe).scene
-    configure(scene, pixels, choose_device(device), threads)
+    configure(scene, choose_device(device), threads)
+    rows = pixels // 2
+    if pixels < COARSER * SMALLEST_WIDTH:
+        return _render(scene, pixels, 0, rows)
+    above = round(rows * (0.5 - BAND_DEG / 180))
+    whole = _render(scene, pixels // COARSER, 0, pixels // COARSER // 2)
+    light = cv2.resize(whole, (pixels, rows), interpolation=cv2.INTER_LINEAR).astype(np.float32, copy=False)
+    band = _render(scene, pixels, above, rows - above)
+    # Near its edges it gives way to the coarse one little by little.
+    inside = np.arange(len(band)) + 0.5
+    share = np.clip(np.minimum(inside, len(band) - inside) / (FADE_DEG / 180 * rows), 0.0, 1.0).astype(np.float32)
+    part = light[above : rows - above]
+    part += (band - part) * share[:, None, None]
+    return light
+
+
+def _render(scene: Any, pixels: int, first: int, last: int) -> NDArray[np.float32]:
+    """Render rows `first` to `last` of a panorama that is `pixels` wide, (last - first, pixels, 3)."""
+    render, rows = scene.render, pixels // 2
+    render.resolution_x, render.resolution_y, render.resolution_percentage = pixels, rows, 100
+    render.use_border = render.use_crop_to_border = last - first < rows
+    render.border_min_x, render.border_max_x = 0.0, 1.0
+    # Blender's rows go up.
+    render.border_min_y, render.border_max_y = 1 - last / rows, 1 - first / rows
     with tempfile.TemporaryDirectory(prefix="cable-farm-") as made:
-        target = Path(made) / "panorama.exr"
-        scene.render.filepath = str(target)
+        target = Path(made) / PANORAMA_NAME
+        render.filepath = str(target)
         try:
             bpy.ops.render.render(write_still=True, scene=scene.name)
         except RuntimeError as error:
-            raise RenderError(f"Blender failed to render {recipe.name}: {' '.join(str(error).split())}") from error
+            raise RenderError(f"Blender failed to render a panorama: {' '.join(str(error).split())}") from error
         if not target.is_file():
-            raise RenderError(f"Blender ended a render of {recipe.name} without writing a picture; see the worker's log")
-        return decode_exr(target, read_bounded(target))
+            raise RenderError("Blender ended a render without writing a panorama; see the worker's log")
+        light = decode_exr(target, read_bounded(target))
+    if light.shape != (last - first, pixels, 3):
+        raise RenderError(
+            f"Blender rendered {light.shape[1]} x {light.shape[0]} pixels of a panorama; install bpy 4.5 afresh"
+        )
+    return light
 
 
-def configure(scene: Any, pixels: int, device: str, threads: int) -> None:
+def configure(scene: Any, device: str, threads: int) -> None:
     """Set how a panorama renders: few samples and bounces, light from all around in their place, and a denoiser."""
     render, cycles = scene.render, scene.cycles
     render.engine = "CYCLES"
-    render.resolution_x, render.resolution_y, render.resolution_percentage = pixels, pixels // 2, 100
     render.use_compositing = render.use_sequencer = False
     render.threads_mode = "FIXED" if threads else "AUTO"
     if threads:
@@ -103,7 +140,7 @@ def configure(scene: Any, pixels: int, device: str, threads: int) -> None:
     cycles.transmission_bounces, cycles.transparent_max_bounces, cycles.volume_bounces = 2, 6, 0
     cycles.caustics_reflective = cycles.caustics_refractive = False
     cycles.sample_clamp_direct, cycles.sample_clamp_indirect = 0.0, 6.0
-    cycles.use_light_tree = True
+    cycles.use_light_tree, cycles.use_auto_tile = True, False
     cycles.use_fast_gi, cycles.fast_gi_method, cycles.ao_bounces_render = True, "REPLACE", 1
     cycles.use_denoising, cycles.denoiser, cycles.denoising_use_gpu = True, "OPENIMAGEDENOISE", False
     cycles.denoising_input_passes, cycles.denoising_prefilter = "RGB_ALBEDO_NORMAL", "FAST"

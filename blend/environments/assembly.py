@@ -152,7 +152,7 @@ class Assembly:
         flat = np.array(outline, np.float64)
         count = len(flat)
         left = np.column_stack([np.full(count, x - 0.5 * width), flat])
-        points = np.vstack([left, left + [width, 0, 0]])
+        points = np.vstack([left, left + np.array([width, 0.0, 0.0])])
         ring = np.arange(count)
         after = (ring + 1) % count
         sides = np.column_stack([ring, after, after + count, ring + count])

@@ -1,5 +1,7 @@
 """Factory halls: machines in rows, columns, trusses, a crane, pipes and high windows."""
 
+import itertools
+
 import numpy as np
 
 from blend.environments import furniture, lamps, machines, services
@@ -23,8 +25,12 @@ def crane(a: Assembly, rng: Rng, span: float, z: float) -> None:
         a.box((1.0, 0, z + 0.6), (1.0, 1.5, 0.4), "paint", DARK_GREY, bevel=0.03)
         a.cylinder((1.0, 0, z - 1.6), 0.015, 2.2, "metal", STEEL)
         a.box((1.0, 0, z - 1.95), (0.3, 0.2, 0.4), "paint", tint, bevel=0.05)
-        a.tube([(1.0, 0, z - 1.95), (1.0, 0, z - 2.1), (1.1, 0, z - 2.2), (1.0, 0, z - 2.3), (0.92, 0, z - 2.2)], 0.03,
-               "metal", DARK_GREY)
+        a.tube(
+            [(1.0, 0, z - 1.95), (1.0, 0, z - 2.1), (1.1, 0, z - 2.2), (1.0, 0, z - 2.3), (0.92, 0, z - 2.2)],
+            0.03,
+            "metal",
+            DARK_GREY,
+        )
         a.tube(hanging((-3.0, 0.7, z), (1.0, 0.7, z), 0.5, 15), 0.02, "rubber", DARK_GREY)
         a.tube([(-1.5, 0.6, z), (-1.5, 0.6, 1.5)], 0.012, "rubber", DARK_GREY)
         a.box((-1.5, 0.6, 1.2), (0.08, 0.08, 0.3), "plastic", YELLOW, bevel=0.01)
@@ -39,7 +45,7 @@ def platform(a: Assembly, rng: Rng) -> None:
     a.box((0, 1.1, 2.2), (3.5, 2.1, 0.12), "metal", STEEL)
     for z in (2.8, 3.3):
         points = [(1.7, 0.1, z), (-1.7, 0.1, z), (-1.7, 2.1, z), (1.7, 2.1, z)]
-        for start, end in zip(points, points[1:], strict=False):
+        for start, end in itertools.pairwise(points):
             a.tube([start, end], 0.022, "paint", tint)
     for x in np.linspace(-1.7, 1.7, 5):
         for y in (0.1, 2.1):
@@ -53,8 +59,12 @@ def platform(a: Assembly, rng: Rng) -> None:
         machines.tank(a, rng)
     with a.at(0.7, 0.2, 0.0):
         machines.compressor(a, rng)
-    a.tube([(0.5, 0.4, 0.7), (0.5, 0.4, 2.0), (-0.6, 0.4, 2.0), (-0.6, 1.0, 2.0), (-0.6, 1.0, 2.6)], 0.06, "paint",
-           pick(rng, services.PIPES))
+    a.tube(
+        [(0.5, 0.4, 0.7), (0.5, 0.4, 2.0), (-0.6, 0.4, 2.0), (-0.6, 1.0, 2.0), (-0.6, 1.0, 2.6)],
+        0.06,
+        "paint",
+        pick(rng, services.PIPES),
+    )
 
 
 def fenced_robot(a: Assembly, rng: Rng) -> None:
@@ -104,7 +114,12 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
         panes=(6, 7) if old else (4, 1),
     )
     room = Room(
-        west=-13.0, east=14.0, south=-8.0, north=8.5, height=8.0, style=style,
+        west=-13.0,
+        east=14.0,
+        south=-8.0,
+        north=8.5,
+        height=8.0,
+        style=style,
         openings={
             Wall.NORTH: windows(6, 26.0, 3.0, 2.0 if old else 5.4, 4.2 if old else 1.3),
             Wall.SOUTH: windows(6, 26.0, 3.0, 2.4 if old else 5.4, 3.8 if old else 1.3),
@@ -171,7 +186,7 @@ def _structure(a: Assembly, rng: Rng, room: Room, *, old: bool) -> None:
             services.girder(a, 26.5, 5.6, steel, 0.5)
     with a.at(-2.4, 0.1):
         crane(a, rng, 10.2, 6.0)
-    for x, y in lamps.rows(a, (-10.0, 11.0, 6), (-6.5, 6.8, 4)):
+    for x, y in lamps.rows((-10.0, 11.0, 6), (-6.5, 6.8, 4)):
         with a.at(x, y):
             lamps.bell(a, room.height - 0.9, lamps.WARM if old else lamps.COOL, 0.32, 0.5)
     for y, z in ((-4.2, 4.4), (4.4, 4.7)):

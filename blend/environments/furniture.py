@@ -58,8 +58,13 @@ def drawers(
     a.box((x, 0.5 * deep, low), (width, deep, high), "paint", tint, bevel=0.006)
     for n in range(count):
         z = low + n * high / count
-        a.box((x, deep + 0.006, z + 0.008), (width - 0.03, 0.014, high / count - 0.016), "paint", vary(rng, tint, 0.05),
-              bevel=0.004)
+        a.box(
+            (x, deep + 0.006, z + 0.008),
+            (width - 0.03, 0.014, high / count - 0.016),
+            "paint",
+            vary(rng, tint, 0.05),
+            bevel=0.004,
+        )
         a.box((x, deep + 0.026, z + 0.7 * high / count), (0.6 * width, 0.025, 0.016), "metal", ALUMINIUM, bevel=0.004)
 
 
@@ -69,8 +74,13 @@ def steel_cupboard(a: Assembly, rng: Rng) -> None:
     a.box((0, 0.22, 0.06), (width, 0.42, high - 0.06), "paint", tint, bevel=0.008)
     a.box((0, 0.2, 0), (width - 0.06, 0.36, 0.06), "paint", BLACK)
     for side in (-1, 1):
-        a.box((side * 0.25 * width, 0.44, 0.08), (0.5 * width - 0.008, 0.018, high - 0.11), "paint",
-              vary(rng, tint, 0.04), bevel=0.005)
+        a.box(
+            (side * 0.25 * width, 0.44, 0.08),
+            (0.5 * width - 0.008, 0.018, high - 0.11),
+            "paint",
+            vary(rng, tint, 0.04),
+            bevel=0.005,
+        )
         for n in range(4):
             a.box((side * 0.25 * width, 0.45, high - 0.2 - 0.03 * n), (0.2, 0.004, 0.01), "rubber", BLACK)
     a.box((0.03, 0.46, 1.0), (0.02, 0.03, 0.14), "chrome", STEEL, bevel=0.006)
@@ -136,14 +146,18 @@ def pallet_rack(
             a.box((x, y + 0.038, 0.4), (0.03, 0.002, high - 0.6), "rubber", BLACK)
         for n in range(int(high / 0.6)):
             ends = [(x, 0.05, 0.2 + 0.6 * n), (x, deep - 0.05, 0.6 + 0.6 * n)]
-            a.tube(ends if n % 2 else [(x, 0.05, 0.6 + 0.6 * n), (x, deep - 0.05, 0.2 + 0.6 * n)], 0.014, "paint", upright)
+            a.tube(
+                ends if n % 2 else [(x, 0.05, 0.6 + 0.6 * n), (x, deep - 0.05, 0.2 + 0.6 * n)], 0.014, "paint", upright
+            )
         a.box((x, deep + 0.06, 0), (0.14, 0.1, 0.4), "paint", (0.75, 0.5, 0.02), bevel=0.02)
     for level in range(levels):
         z = 0.08 + gap * level
         for y in (0.05, deep - 0.05):
             a.box((0, y, z), (width - 0.09, 0.05, 0.11), "paint", vary(rng, ORANGE, 0.06), bevel=0.006)
         a.box((0, 0.5 * deep, z + 0.1), (width - 0.1, deep - 0.1, 0.02), "surface:particle_board", (1, 1, 1))
-        a.picture((rng.uniform(-1, 1) * 0.3 * width, deep - 0.023, z + 0.02), (0.14, 0.07), any_of(rng, PrintKind.LABEL))
+        a.picture(
+            (rng.uniform(-1, 1) * 0.3 * width, deep - 0.023, z + 0.02), (0.14, 0.07), any_of(rng, PrintKind.LABEL)
+        )
         with a.at(0, 0.04, z + 0.12):
             _loaded(a, rng, pieces, width - 0.2, gap - 0.3)
 
@@ -217,7 +231,9 @@ def monitor(a: Assembly, rng: Rng) -> None:
     a.box((0, 0.05, 0.14), (width, 0.035, high), "plastic", BLACK, bevel=0.006)
     if rng.random() < 0.8:
         tone = rng.uniform(0.8, 1.6)
-        a.picture((0, 0.0685, 0.155), (width - 0.025, high - 0.03), any_of(rng, PrintKind.SCREEN), "screen", (tone,) * 3)
+        a.picture(
+            (0, 0.0685, 0.155), (width - 0.025, high - 0.03), any_of(rng, PrintKind.SCREEN), "screen", (tone,) * 3
+        )
     else:
         a.box((0, 0.068, 0.155), (width - 0.025, 0.001, high - 0.03), "dark glass", (0.008, 0.009, 0.01))
 
@@ -254,8 +270,12 @@ def stool(a: Assembly, rng: Rng) -> None:
     a.cylinder((0, 0.2, 0.6), 0.17, 0.05, "wood" if rng.random() < 0.5 else "rubber", pick(rng, WOODS))
     for n in range(4):
         t = np.pi / 4 + np.pi / 2 * n
-        a.tube([(0.1 * np.cos(t), 0.2 + 0.1 * np.sin(t), 0.6), (0.2 * np.cos(t), 0.2 + 0.2 * np.sin(t), 0)], 0.013,
-               "metal", STEEL)
+        a.tube(
+            [(0.1 * np.cos(t), 0.2 + 0.1 * np.sin(t), 0.6), (0.2 * np.cos(t), 0.2 + 0.2 * np.sin(t), 0)],
+            0.013,
+            "metal",
+            STEEL,
+        )
     ring = np.linspace(0, 2 * np.pi, 17)
     a.tube(np.column_stack([0.17 * np.cos(ring), 0.2 + 0.17 * np.sin(ring), np.full(17, 0.22)]), 0.009, "metal", STEEL)
 
@@ -268,7 +288,9 @@ def plant(a: Assembly, rng: Rng, size: float = 1.0) -> None:
     out = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(count)])
     side = np.column_stack([-np.sin(angle), np.cos(angle), np.zeros(count)])
     root = np.array([0, 0.15 * size, 0.24 * size]) + [0, 0, 0.5 * size] * lift[:, None]
-    tip = root + size * (out * rng.uniform(0.15, 0.34, (count, 1)) + np.array([0, 0, 1]) * rng.uniform(-0.1, 0.2, (count, 1)))
+    tip = root + size * (
+        out * rng.uniform(0.15, 0.34, (count, 1)) + np.array([0, 0, 1]) * rng.uniform(-0.1, 0.2, (count, 1))
+    )
     middle, half = 0.5 * (root + tip) + [0, 0, 0.04 * size], side * 0.035 * size
     tints = np.array([0.05, 0.16, 0.04]) * rng.uniform(0.5, 1.6, (count, 1))
     a.quads(np.stack([root, middle + half, tip, middle - half], axis=1), "leaf", tints)

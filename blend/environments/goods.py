@@ -107,8 +107,12 @@ def case(a: Assembly, rng: Rng) -> None:
     for x in (-0.5, 0.5):
         for z in (0.0, high - 0.04):
             a.box((x * (width - 0.03), 0.335, z), (0.045, 0.04, 0.045), "metal", ALUMINIUM, bevel=0.01)
-    a.tube([(-0.07, 0.35, 0.4 * high), (-0.05, 0.39, 0.4 * high), (0.05, 0.39, 0.4 * high), (0.07, 0.35, 0.4 * high)],
-           0.01, "rubber", BLACK)
+    a.tube(
+        [(-0.07, 0.35, 0.4 * high), (-0.05, 0.39, 0.4 * high), (0.05, 0.39, 0.4 * high), (0.07, 0.35, 0.4 * high)],
+        0.01,
+        "rubber",
+        BLACK,
+    )
     a.picture((0.0, 0.352, 0.68 * high), (0.1, 0.06), any_of(rng, PrintKind.LABEL))
 
 
@@ -185,7 +189,9 @@ def mug(a: Assembly, rng: Rng) -> None:
     """A mug."""
     tint = vary(rng, pick(rng, PLASTICS))
     a.lathe((0, 0.05, 0), [(0.036, 0), (0.04, 0.095), (0.034, 0.095), (0.03, 0.02)], "plastic", tint, sides=14)
-    a.tube([(0.036, 0.05, 0.075), (0.06, 0.05, 0.065), (0.06, 0.05, 0.035), (0.036, 0.05, 0.025)], 0.005, "plastic", tint)
+    a.tube(
+        [(0.036, 0.05, 0.075), (0.06, 0.05, 0.065), (0.06, 0.05, 0.035), (0.036, 0.05, 0.025)], 0.005, "plastic", tint
+    )
 
 
 def reel(a: Assembly, rng: Rng) -> None:
@@ -300,4 +306,9 @@ BENCH = (
     Piece(small_carton, 0.26, 0.24),
     Piece(reel, 0.3, 0.36),
 )
-SHELVED = (Piece(binders, 0.4, 0.32), Piece(books, 0.38, 0.25), Piece(small_carton, 0.26, 0.24), Piece(bottle, 0.1, 0.1))
+SHELVED = (
+    Piece(binders, 0.4, 0.32),
+    Piece(books, 0.38, 0.25),
+    Piece(small_carton, 0.26, 0.24),
+    Piece(bottle, 0.1, 0.1),
+)

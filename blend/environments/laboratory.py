@@ -13,7 +13,6 @@ from blend.environments.palette import (
     DARK_GREY,
     GREY,
     LIGHT_GREY,
-    MACHINES,
     PLASTICS,
     STEEL,
     WHITE,
@@ -44,7 +43,9 @@ def brown_bottle(a: Assembly, rng: Rng) -> None:
     r, h = rng.uniform(0.035, 0.055), rng.uniform(0.15, 0.24)
     brown = rng.random() < 0.6
     tint = (0.1, 0.03, 0.008) if brown else vary(rng, (0.7, 0.75, 0.75))
-    a.lathe((0, 0.07, 0), [(r, 0), (r, 0.66 * h), (0.45 * r, 0.8 * h), (0.45 * r, 0.9 * h)], "dark glass", tint, sides=14)
+    a.lathe(
+        (0, 0.07, 0), [(r, 0), (r, 0.66 * h), (0.45 * r, 0.8 * h), (0.45 * r, 0.9 * h)], "dark glass", tint, sides=14
+    )
     a.cylinder((0, 0.07, 0.88 * h), 0.52 * r, 0.12 * h, "plastic", pick(rng, PLASTICS), sides=12)
     a.cylinder((0, 0.07, 0.18 * h), r * 1.01, 0.34 * h, "card", vary(rng, WHITE), sides=14)
 
@@ -64,7 +65,11 @@ def rack(a: Assembly, rng: Rng) -> None:
 
 def instrument(a: Assembly, rng: Rng) -> None:
     """A bench instrument with a screen, knobs and sockets."""
-    width, high, tint = rng.uniform(0.32, 0.46), rng.uniform(0.16, 0.3), vary(rng, pick(rng, (WHITE, LIGHT_GREY, GREY, DARK_GREY)))
+    width, high, tint = (
+        rng.uniform(0.32, 0.46),
+        rng.uniform(0.16, 0.3),
+        vary(rng, pick(rng, (WHITE, LIGHT_GREY, GREY, DARK_GREY))),
+    )
     a.box((0, 0.2, 0.012), (width, 0.36, high), "paint", tint, bevel=0.012)
     a.box((0, 0.384, 0.025), (width - 0.02, 0.01, high - 0.025), "plastic", vary(rng, DARK_GREY), bevel=0.004)
     tone = rng.uniform(0.8, 1.5)
@@ -150,7 +155,9 @@ def lab_bench(a: Assembly, rng: Rng) -> None:
             for z in (0.12, 0.36, 0.6):
                 a.box((x, 0.66, z), (0.44, 0.018, 0.23), "wood", vary(rng, front, 0.04), bevel=0.004)
                 a.box((x, 0.68, z + 0.16), (0.16, 0.03, 0.014), "metal", STEEL)
-    a.box((0, 0.5 * deep, 0.86), (width, deep, 0.035), "plastic", pick(rng, (WHITE, DARK_GREY, LIGHT_GREY)), bevel=0.008)
+    a.box(
+        (0, 0.5 * deep, 0.86), (width, deep, 0.035), "plastic", pick(rng, (WHITE, DARK_GREY, LIGHT_GREY)), bevel=0.008
+    )
     for x in (-0.86, 0.0, 0.86):
         a.box((x, 0.06, 0.895), (0.04, 0.05, 0.95), "metal", ALUMINIUM)
     for z in (1.4, 1.75):
@@ -188,7 +195,14 @@ def fume_hood(a: Assembly, rng: Rng) -> None:
     for side in (-1, 1):
         a.box((side * (0.5 * width - 0.06), 0.4, 0.88), (0.12, 0.8, 1.5), "paint", tint, bevel=0.01)
         for n in range(3):
-            a.cylinder((side * (0.5 * width - 0.06), 0.8, 1.0 + 0.12 * n), 0.022, 0.05, "plastic", pick(rng, PLASTICS), axis="y")
+            a.cylinder(
+                (side * (0.5 * width - 0.06), 0.8, 1.0 + 0.12 * n),
+                0.022,
+                0.05,
+                "plastic",
+                pick(rng, PLASTICS),
+                axis="y",
+            )
     a.box((0, 0.02, 0.88), (width, 0.04, 1.5), "plastic", LIGHT_GREY)
     a.box((0, 0.4, 2.1), (width, 0.8, 0.5), "paint", tint, bevel=0.01)
     a.box((0, 0.4, 2.09), (1.0, 0.2, 0.008), "glow", (9.0, 9.5, 10.0))
@@ -237,7 +251,12 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
         panes=(2, 1),
     )
     room = Room(
-        west=-4.6, east=4.6, south=-3.1, north=3.4, height=2.9, style=style,
+        west=-4.6,
+        east=4.6,
+        south=-3.1,
+        north=3.4,
+        height=2.9,
+        style=style,
         openings={
             Wall.NORTH: windows(3, 8.4, 1.9, 1.0, 1.5),
             Wall.WEST: (door(2.2),),
@@ -274,7 +293,7 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
     ):
         with room.along(a, wall, u, z=z):
             thing(a, rng)
-    for x, y in lamps.rows(a, (-3.3, 3.3, 4), (-1.8, 2.1, 3)):
+    for x, y in lamps.rows((-3.3, 3.3, 4), (-1.8, 2.1, 3)):
         with a.at(x, y):
             lamps.panel(a, room.height, lamps.NEUTRAL if bright else lamps.COOL, (1.15, 0.28))
     with a.at(0, -2.2):
@@ -289,5 +308,3 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
         ambient=(0.3, 0.31, 0.32),
         reach_m=1.5,
     )
-
-

@@ -31,7 +31,12 @@ def tube(a: Assembly, z: float, light: Colour = COOL, length: float = 1.5, drop:
 def bell(a: Assembly, z: float, light: Colour = WARM, radius: float = 0.24, drop: float = 0.8) -> None:
     """A bell-shaped lamp for high halls, hung by a cable."""
     low = z - drop - radius
-    profile = [(radius, 0.0), (radius * 0.85, radius * 0.35), (radius * 0.4, radius * 0.8), (radius * 0.3, radius * 1.1)]
+    profile = [
+        (radius, 0.0),
+        (radius * 0.85, radius * 0.35),
+        (radius * 0.4, radius * 0.8),
+        (radius * 0.3, radius * 1.1),
+    ]
     a.lathe((0, 0, low), profile, "metal", ALUMINIUM)
     a.lathe((0, 0, low + 0.01), [(radius * 0.86, 0.0), (radius * 0.8, 0.02)], "glow", light)
     a.cylinder((0, 0, low + radius), 0.006, drop, "rubber", DARK_GREY, sides=6)
@@ -55,9 +60,7 @@ def desk_lamp(a: Assembly, rng: np.random.Generator) -> None:
     a.cylinder((0, 0.28, 0.425), 0.05, 0.01, "glow", WARM)
 
 
-def rows(
-    a: Assembly, xs: tuple[float, float, int], ys: tuple[float, float, int]
-) -> list[tuple[float, float]]:
+def rows(xs: tuple[float, float, int], ys: tuple[float, float, int]) -> list[tuple[float, float]]:
     """Places of lamps: from, to and how many along x and along y."""
     return [(float(x), float(y)) for x in np.linspace(*xs) for y in np.linspace(*ys)]
 

@@ -29,7 +29,9 @@ def wheel(a: Assembly, place: tuple[float, float, float], radius: float) -> None
     """A hand wheel that faces +y."""
     x, y, z = place
     ring = np.linspace(0, 2 * np.pi, 21)
-    a.tube(np.column_stack([x + radius * np.cos(ring), np.full(21, y), z + radius * np.sin(ring)]), 0.011, "chrome", STEEL)
+    a.tube(
+        np.column_stack([x + radius * np.cos(ring), np.full(21, y), z + radius * np.sin(ring)]), 0.011, "chrome", STEEL
+    )
     for t in (0.3, 2.4, 4.5):
         a.tube([(x, y, z), (x + radius * np.cos(t), y, z + radius * np.sin(t))], 0.009, "chrome", STEEL)
     a.cylinder((x + 0.8 * radius, y, z), 0.012, 0.07, "plastic", BLACK, axis="y")
@@ -167,8 +169,12 @@ def tank(a: Assembly, rng: Rng) -> None:
     a.lathe((0, 0.7, 0), profile, material, tint, sides=28)
     for z in (0.9, 0.6 * high):
         a.cylinder((0, 0.7, z), radius * 1.012, 0.05, "metal", STEEL, sides=28)
-    a.tube([(0, 0.7, high + 0.2), (0, 0.7, high + 0.5), (0.5, 0.5, high + 0.5), (0.5, 0.1, high + 0.5), (0.5, 0.1, 0)],
-           0.05, "metal", STEEL)
+    a.tube(
+        [(0, 0.7, high + 0.2), (0, 0.7, high + 0.5), (0.5, 0.5, high + 0.5), (0.5, 0.1, high + 0.5), (0.5, 0.1, 0)],
+        0.05,
+        "metal",
+        STEEL,
+    )
     a.cylinder((-0.2, 1.25, 1.4), 0.11, 0.1, "metal", STEEL, axis="y", sides=20)
     a.picture((-0.2, 1.352, 1.31), (0.18, 0.18), any_of(rng, PrintKind.DIAL))
     a.picture((0.2, 1.345, 1.2), (0.3, 0.22), any_of(rng, PrintKind.LABEL))
@@ -203,8 +209,14 @@ def conveyor(a: Assembly, rng: Rng) -> None:
         if rng.random() < 0.8:
             place = (float(x), 0.4, 0.79)
             card = rng.random() < 0.6
-            a.box(place, (0.34, 0.3, rng.uniform(0.12, 0.3)), "card" if card else "plastic",
-                  (0.42, 0.27, 0.12) if card else pick(rng, MACHINES), bevel=0.008, turn=rng.normal(0, 6))
+            a.box(
+                place,
+                (0.34, 0.3, rng.uniform(0.12, 0.3)),
+                "card" if card else "plastic",
+                (0.42, 0.27, 0.12) if card else pick(rng, MACHINES),
+                bevel=0.008,
+                turn=rng.normal(0, 6),
+            )
     a.cylinder((1.0, 0.7, 0.55), 0.09, 0.25, "paint", (0.02, 0.12, 0.4), axis="y")
     with a.at(-1.1, 0.68, 0.95):
         control_box(a, rng, 0.26, 0.34)

@@ -17,6 +17,9 @@ SURFACE_PREFIX = "surface:"
 SURFACE_PIXELS = 1024
 """Texels along an edge of a surface's tile: a tile of 0.5 m has 0.5 mm, far finer than a panorama shows."""
 
+_SHAPELESS = ("concrete", "asphalt")
+"""Surfaces without courses, that may be shown at any scale."""
+
 
 class Shader:
     """A material's tree while it is built."""
@@ -155,7 +158,13 @@ def _surface(shader: Shader, name: str) -> None:
     maps = recipe.build(recipe_generator(recipe), SURFACE_PIXELS)
     scale = 1.0 / recipe.size_m
     stains = shader.span(shader.noise(0.45, detail=4.0), 0.72, 1.14)
-    tinted = shader.times(shader.image(new_image(name, maps.colour), scale), shader.tint.outputs["Color"])
+    image = new_image(name, maps.colour)
+    colour = shader.image(image, scale)
+    if name.startswith(_SHAPELESS):
+        # A second look at another scale, in patches, so that no spot comes again and again.
+        patches = shader.span(shader.noise(0.8, detail=2.0), 0.0, 1.0, 0.44, 0.56)
+        colour = shader.mixed(patches, colour, shader.image(image, 0.37 * scale))
+    tinted = shader.times(colour, shader.tint.outputs["Color"])
     shader.colour(shader.times(tinted, stains))
     shader.roughness(shader.image(new_image(f"{name} roughness", maps.roughness, colour=False), scale))
     if isinstance(maps.metallic, float):

@@ -33,7 +33,9 @@ def printer(a: Assembly, rng: Rng) -> None:
     tint = vary(rng, LIGHT_GREY)
     a.box((0, 0.35, 0.05), (0.62, 0.62, 0.75), "plastic", tint, bevel=0.015)
     for z in (0.08, 0.26, 0.44):
-        a.box((0, 0.668, z), (0.58, 0.016, 0.165), "plastic", vary(rng, DARK_GREY if z > 0.4 else tint, 0.05), bevel=0.006)
+        a.box(
+            (0, 0.668, z), (0.58, 0.016, 0.165), "plastic", vary(rng, DARK_GREY if z > 0.4 else tint, 0.05), bevel=0.006
+        )
         a.box((0, 0.68, z + 0.11), (0.16, 0.012, 0.025), "plastic", DARK_GREY)
     a.box((0, 0.33, 0.86), (0.64, 0.6, 0.14), "plastic", tint, bevel=0.02)
     a.box((-0.1, 0.33, 0.8), (0.4, 0.5, 0.06), "rubber", BLACK)
@@ -117,14 +119,22 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
     warm = variant % 2 == 0
     tint = vary(rng, pick(rng, WALLS), 0.04)
     style = Style(
-        wall="wall", upper=tint, lower=tint,
+        wall="wall",
+        upper=tint,
+        lower=tint,
         floor="surface:oak_planks" if warm else "surface:carpet_loop",
         floor_tint=(1.0, 0.95, 0.9) if warm else (0.8, 0.85, 0.95),
         ceiling="wall" if warm else "tiles",
-        frames=WOODS[3] if warm else WHITE, panes=(2, 1) if warm else (3, 1),
+        frames=WOODS[3] if warm else WHITE,
+        panes=(2, 1) if warm else (3, 1),
     )
     room = Room(
-        west=-4.2, east=4.4, south=-3.3, north=3.3, height=2.85, style=style,
+        west=-4.2,
+        east=4.4,
+        south=-3.3,
+        north=3.3,
+        height=2.85,
+        style=style,
         openings={
             Wall.NORTH: windows(3, 8.0, 1.7 if warm else 2.3, 0.85, 1.55),
             Wall.SOUTH: (door(-2.9),),
@@ -134,8 +144,12 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
     room.build(a)
     for wall in (Wall.EAST, Wall.WEST):
         with room.along(a, wall):
-            a.box((0, 0.004, 0.09), (room.length(wall) if wall is Wall.EAST else 0.01, 0.006, room.height - 0.09), "wall",
-                  pick(rng, ACCENTS) if not warm else vary(rng, tint, 0.05))
+            a.box(
+                (0, 0.004, 0.09),
+                (room.length(wall) if wall is Wall.EAST else 0.01, 0.006, room.height - 0.09),
+                "wall",
+                pick(rng, ACCENTS) if not warm else vary(rng, tint, 0.05),
+            )
             line_up(a, rng, PIECES, -3.0, 3.0 if wall is Wall.EAST else -0.9)
     with room.along(a, Wall.SOUTH):
         line_up(a, rng, PIECES, -2.1, 4.2, 0.15)
@@ -164,7 +178,7 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
     ):
         with room.along(a, wall, u, z=z):
             thing(a, rng)
-    for x, y in lamps.rows(a, (-2.7, 2.7, 3), (-1.7, 1.7, 2)):
+    for x, y in lamps.rows((-2.7, 2.7, 3), (-1.7, 1.7, 2)):
         with a.at(x, y):
             if warm:
                 lamps.globe(a, room.height, lamps.WARM)
@@ -174,6 +188,13 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
         with a.at(x, y, turn=rng.uniform(0, 360)):
             (CARTONS[3].build if rng.random() < 0.5 else furniture.office_chair)(a, rng)
     return Light(
-        camera_m=(0.0, 0.0, 1.35), sky=5.0, overcast=0.2 if warm else 0.7, daylight=6.0,
-        sun=7.0 if warm else 0.0, sun_bearing_deg=125.0, sun_height_deg=28.0, ambient=(0.22, 0.22, 0.22), reach_m=1.6,
+        camera_m=(0.0, 0.0, 1.35),
+        sky=5.0,
+        overcast=0.2 if warm else 0.7,
+        daylight=6.0,
+        sun=7.0 if warm else 0.0,
+        sun_bearing_deg=125.0,
+        sun_height_deg=28.0,
+        ambient=(0.22, 0.22, 0.22),
+        reach_m=1.6,
     )

@@ -39,7 +39,13 @@ def house(a: Assembly, rng: Rng, width: float = 9.0, floors: int = 3, deep: floa
     a.box((0, -0.5 * deep, high), (width + 0.5, deep + 0.5, 0.18), "paint", vary(rng, LIGHT_GREY))
     if rng.random() < 0.6:
         roof = [(0.4, high + 0.15), (-0.5 * deep, high + 2.4), (-deep - 0.4, high + 0.15)]
-        a.prism(roof, 0.0, width + 0.4, "ribbed" if rng.random() < 0.4 else "ground", pick(rng, palette("7a3a28 4a4a4c 5c4438")))
+        a.prism(
+            roof,
+            0.0,
+            width + 0.4,
+            "ribbed" if rng.random() < 0.4 else "ground",
+            pick(rng, palette("7a3a28 4a4a4c 5c4438")),
+        )
         a.box((0.25 * width, -0.4 * deep, high + 1.0), (0.6, 0.6, 2.0), "brick", (0.4, 0.2, 0.14))
     count = int(width / 1.9)
     for level in range(floors):
@@ -104,24 +110,54 @@ def car(a: Assembly, rng: Rng, *, van: bool = False) -> None:
     if van:
         body = [(-half, 0.35), (half, 0.35), (half + 0.1, 0.9), (half - 0.5, 1.15), (half - 1.1, 1.95), (-half, 2.0)]
     else:
-        body = [(-half, 0.3), (half, 0.3), (half + 0.06, 0.62), (half - 0.15, 0.82), (half - 1.1, 0.94), (-half + 0.3, 1.0),
-                (-half - 0.04, 0.85)]
+        body = [
+            (-half, 0.3),
+            (half, 0.3),
+            (half + 0.06, 0.62),
+            (half - 0.15, 0.82),
+            (half - 1.1, 0.94),
+            (-half + 0.3, 1.0),
+            (-half - 0.04, 0.85),
+        ]
     a.prism(body, 0.0, 1.74, "plastic", tint)
     cabin = [(half - 1.2, 0.92), (half - 1.85, 1.42), (-half + 1.1, 1.47), (-half + 0.25, 0.98)]
     if not van:
         a.prism(cabin, 0.0, 1.5, "dark glass", PANES)
-        a.prism([(half - 1.8, 1.4), (half - 1.9, 1.45), (-half + 1.1, 1.5), (-half + 0.95, 1.42)], 0.0, 1.44, "plastic", tint)
+        a.prism(
+            [(half - 1.8, 1.4), (half - 1.9, 1.45), (-half + 1.1, 1.5), (-half + 0.95, 1.42)],
+            0.0,
+            1.44,
+            "plastic",
+            tint,
+        )
         for x in (-0.74, 0.74):
-            a.tube([(x, half - 1.2, 0.93), (x * 0.97, half - 1.85, 1.43), (x * 0.97, -half + 1.1, 1.47), (x, -half + 0.25, 0.98)],
-                   0.035, "plastic", tint)
+            a.tube(
+                [
+                    (x, half - 1.2, 0.93),
+                    (x * 0.97, half - 1.85, 1.43),
+                    (x * 0.97, -half + 1.1, 1.47),
+                    (x, -half + 0.25, 0.98),
+                ],
+                0.035,
+                "plastic",
+                tint,
+            )
             a.box((x, -0.15, 0.93), (0.05, 0.1, 0.52), "plastic", tint)
     else:
-        a.prism([(half - 0.55, 1.16), (half - 1.1, 1.85), (half - 1.9, 1.85), (half - 1.9, 1.16)], 0.0, 1.76, "dark glass", PANES)
+        a.prism(
+            [(half - 0.55, 1.16), (half - 1.1, 1.85), (half - 1.9, 1.85), (half - 1.9, 1.16)],
+            0.0,
+            1.76,
+            "dark glass",
+            PANES,
+        )
     for x in (-1.0, 1.0):
         for y in (-half + 0.8, half - 0.82):
             start = 0.66 if x > 0 else -0.88
             a.cylinder((start, y, 0.31), 0.32, 0.22, "rubber", BLACK, axis="x", sides=22)
-            a.cylinder((start - 0.01 if x < 0 else start + 0.03, y, 0.31), 0.2, 0.2, "metal", ALUMINIUM, axis="x", sides=18)
+            a.cylinder(
+                (start - 0.01 if x < 0 else start + 0.03, y, 0.31), 0.2, 0.2, "metal", ALUMINIUM, axis="x", sides=18
+            )
         a.box((0.62 * x, half + 0.02, 0.6), (0.36, 0.1, 0.14), "chrome", WHITE, bevel=0.02)
         a.box((0.7 * x, -half - 0.02, 0.7), (0.26, 0.06, 0.16), "plastic", RED, bevel=0.02)
         a.box((0.87 * x, 0.1, 0.78), (0.02, 0.16, 0.025), "chrome", STEEL)
@@ -232,5 +268,11 @@ def wires(a: Assembly, rng: Rng, start: tuple[float, float, float], end: tuple[f
     """Overhead lines between two places."""
     for n in range(3):
         shift = 0.25 * n
-        a.tube(hanging((start[0], start[1] + shift, start[2]), (end[0], end[1] + shift, end[2]), rng.uniform(0.3, 0.6), 15),
-               0.012, "rubber", BLACK)
+        a.tube(
+            hanging(
+                (start[0], start[1] + shift, start[2]), (end[0], end[1] + shift, end[2]), rng.uniform(0.3, 0.6), 15
+            ),
+            0.012,
+            "rubber",
+            BLACK,
+        )

@@ -15,9 +15,28 @@ Image = NDArray[np.uint8]
 CELL_PX, CELLS = 256, 8
 """Edge of a picture in texels, and how many there are of each kind."""
 
-_WORDS = (
-    "SAFETY PUMP VALVE FRAGILE ORDER MOTOR LINE PLAN CABLE STOCK MAIN CHECK UNIT TEST POWER AIR WATER ZONE PART SHIFT"
-).split()
+_WORDS = [
+    "SAFETY",
+    "PUMP",
+    "VALVE",
+    "FRAGILE",
+    "ORDER",
+    "MOTOR",
+    "LINE",
+    "PLAN",
+    "CABLE",
+    "STOCK",
+    "MAIN",
+    "CHECK",
+    "UNIT",
+    "TEST",
+    "POWER",
+    "AIR",
+    "WATER",
+    "ZONE",
+    "PART",
+    "SHIFT",
+]
 _INKS = ((25, 25, 30), (150, 30, 25), (25, 60, 130), (30, 100, 50), (90, 90, 95), (200, 110, 20))
 _FONT = cv2.FONT_HERSHEY_SIMPLEX
 
@@ -100,7 +119,9 @@ def _screen(rng: np.random.Generator) -> Image:
     else:
         for _ in range(9):
             x, y = int(rng.integers(54, 190)), int(rng.integers(24, 200))
-            cv2.rectangle(image, (x, y), (x + int(rng.integers(20, 60)), y + int(rng.integers(12, 50))), _colour(rng), -1)
+            cv2.rectangle(
+                image, (x, y), (x + int(rng.integers(20, 60)), y + int(rng.integers(12, 50))), _colour(rng), -1
+            )
         _rows_of_text(image, rng, (56, 190, 246, 250), ink)
     return image
 
@@ -197,7 +218,9 @@ def _panel(rng: np.random.Generator) -> Image:
                 cv2.circle(image, centre, 11, (20, 20, 20), -1, cv2.LINE_AA)
                 cv2.circle(image, centre, 8, _colour(rng), -1, cv2.LINE_AA)
             else:
-                cv2.rectangle(image, (centre[0] - 10, centre[1] - 10), (centre[0] + 10, centre[1] + 10), (30, 30, 32), -1)
+                cv2.rectangle(
+                    image, (centre[0] - 10, centre[1] - 10), (centre[0] + 10, centre[1] + 10), (30, 30, 32), -1
+                )
     cv2.circle(image, (204, 56), 30, (228, 190, 20), -1, cv2.LINE_AA)
     cv2.circle(image, (204, 56), 20, (190, 20, 20), -1, cv2.LINE_AA)
     return image

@@ -172,9 +172,10 @@ def _door(a: Assembly, opening: Opening, _style: Style) -> None:
     a.box((0.0, -0.024, 0.06), (width - 0.1, 0.006, 0.2), "metal", ALUMINIUM)
     a.cylinder((0.4 * width, -0.02, 1.03), 0.012, 0.06, "metal", ALUMINIUM, axis="y")
     a.box((0.4 * width - 0.05, 0.035, 1.02), (0.13, 0.02, 0.022), "metal", ALUMINIUM, bevel=0.005)
-    a.picture((-0.1, -0.022, 1.5), (0.26, 0.26), any_of(rng, PrintKind.SIGN))
     if rng.random() < 0.5:
         a.box((0.0, -0.03, 1.25), (0.3, 0.02, 0.6), "dark glass", (0.05, 0.06, 0.07))
+    else:
+        a.picture((-0.1, -0.022, 1.5), (0.26, 0.26), any_of(rng, PrintKind.SIGN))
 
 
 def _gate(a: Assembly, opening: Opening, _style: Style) -> None:

@@ -203,7 +203,9 @@ def column(a: Assembly, high: float, tint: Colour, width: float = 0.3) -> None:
         a.box((0, 0, 0.2 * n), (width + 0.06, width + 0.06, 0.2), "paint", tone)
 
 
-def floor_line(a: Assembly, start: tuple[float, float], end: tuple[float, float], tint: Colour, width: float = 0.1) -> None:
+def floor_line(
+    a: Assembly, start: tuple[float, float], end: tuple[float, float], tint: Colour, width: float = 0.1
+) -> None:
     """A painted line on the floor along x or y."""
     middle = (0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1]), 0.0)
     size = (abs(end[0] - start[0]) + width, abs(end[1] - start[1]) + width, 0.003)

@@ -6,7 +6,19 @@ from blend.environments import furniture, lamps, machines, services
 from blend.environments.assembly import Assembly
 from blend.environments.goods import CARTONS, STORED
 from blend.environments.layout import Piece, line_up
-from blend.environments.palette import BLACK, DARK_GREY, LIGHT_GREY, ORANGE, RED, STEEL, WHITE, YELLOW, palette, pick, vary
+from blend.environments.palette import (
+    BLACK,
+    DARK_GREY,
+    LIGHT_GREY,
+    ORANGE,
+    RED,
+    STEEL,
+    WHITE,
+    YELLOW,
+    palette,
+    pick,
+    vary,
+)
 from blend.environments.room import Room, Style, Wall, door, gate, windows
 from blend.environments.scene import Light
 
@@ -45,8 +57,12 @@ def pallet_truck(a: Assembly, rng: Rng) -> None:
         a.box((x, 0.75, 0.06), (0.15, 1.15, 0.05), "paint", tint, bevel=0.01)
     a.box((0, 0.12, 0.06), (0.45, 0.16, 0.3), "paint", tint, bevel=0.03)
     a.tube([(0, 0.05, 0.3), (0, -0.25, 1.15)], 0.022, "paint", BLACK)
-    a.tube([(-0.12, -0.25, 1.12), (-0.1, -0.31, 1.28), (0.1, -0.31, 1.28), (0.12, -0.25, 1.12), (-0.12, -0.25, 1.12)], 0.016,
-           "rubber", BLACK)
+    a.tube(
+        [(-0.12, -0.25, 1.12), (-0.1, -0.31, 1.28), (0.1, -0.31, 1.28), (0.12, -0.25, 1.12), (-0.12, -0.25, 1.12)],
+        0.016,
+        "rubber",
+        BLACK,
+    )
     for x in (-0.06, 0.03):
         a.cylinder((x, 0.08, 0.09), 0.09, 0.05, "rubber", BLACK, axis="x")
 
@@ -77,11 +93,22 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
 
 def _warehouse(a: Assembly, rng: Rng) -> Light:
     style = Style(
-        wall="ribbed", upper=(0.55, 0.58, 0.6), lower=(0.3, 0.36, 0.45), dado=1.5,
-        floor="surface:concrete_smooth", floor_tint=(0.85, 0.83, 0.78), ceiling="ribbed", ceiling_tint=(0.6, 0.62, 0.62),
+        wall="ribbed",
+        upper=(0.55, 0.58, 0.6),
+        lower=(0.3, 0.36, 0.45),
+        dado=1.5,
+        floor="surface:concrete_smooth",
+        floor_tint=(0.85, 0.83, 0.78),
+        ceiling="ribbed",
+        ceiling_tint=(0.6, 0.62, 0.62),
     )
     room = Room(
-        west=-11.0, east=12.0, south=-7.0, north=7.0, height=6.4, style=style,
+        west=-11.0,
+        east=12.0,
+        south=-7.0,
+        north=7.0,
+        height=6.4,
+        style=style,
         openings={
             Wall.EAST: (gate(1.5, 3.6, 3.8), gate(-3.5, 3.6, 3.8)),
             Wall.WEST: (gate(-2.0, 3.4, 3.6), door(3.8)),
@@ -113,7 +140,7 @@ def _warehouse(a: Assembly, rng: Rng) -> Light:
     for x in np.arange(-9.0, 12.0, 4.2):
         with a.at(float(x), 0.0, turn=90):
             services.truss(a, 14.0, room.height - 0.95, vary(rng, LIGHT_GREY), 0.75)
-    for x, y in lamps.rows(a, (-8.0, 9.0, 5), (-4.4, 5.3, 3)):
+    for x, y in lamps.rows((-8.0, 9.0, 5), (-4.4, 5.3, 3)):
         with a.at(x, y):
             lamps.bell(a, room.height, lamps.NEUTRAL, 0.3, 1.0)
     with a.at(0, 0.2):
@@ -125,11 +152,22 @@ def _warehouse(a: Assembly, rng: Rng) -> Light:
 
 def _storeroom(a: Assembly, rng: Rng) -> Light:
     style = Style(
-        wall="blocks", upper=(0.66, 0.63, 0.55), lower=(0.5, 0.47, 0.4), dado=1.1,
-        floor="surface:concrete_rough", floor_tint=(0.75, 0.7, 0.65), ceiling="wall", ceiling_tint=(0.6, 0.58, 0.55),
+        wall="blocks",
+        upper=(0.66, 0.63, 0.55),
+        lower=(0.5, 0.47, 0.4),
+        dado=1.1,
+        floor="surface:concrete_rough",
+        floor_tint=(0.75, 0.7, 0.65),
+        ceiling="wall",
+        ceiling_tint=(0.6, 0.58, 0.55),
     )
     room = Room(
-        west=-4.6, east=4.4, south=-2.9, north=3.1, height=3.2, style=style,
+        west=-4.6,
+        east=4.4,
+        south=-2.9,
+        north=3.1,
+        height=3.2,
+        style=style,
         openings={Wall.EAST: (*windows(1, 2.0, 1.2, 1.7, 0.9),), Wall.WEST: (door(-0.2, 1.3),)},
     )
     room.build(a)

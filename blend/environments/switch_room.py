@@ -77,7 +77,9 @@ def wire_duct(a: Assembly, place: tuple[float, float, float], size: tuple[float,
         offset = float(place_along) * max(size)
         for side in (-0.5, 0.5):
             if along == 0:
-                a.box((x + offset, y + 0.03, z + (0.5 + side) * size[1] - 0.002), (0.008, 0.055, 0.004), "rubber", BLACK)
+                a.box(
+                    (x + offset, y + 0.03, z + (0.5 + side) * size[1] - 0.002), (0.008, 0.055, 0.004), "rubber", BLACK
+                )
             else:
                 spot = (x + side * size[0], y + 0.03, z + 0.5 * size[1] + offset)
                 a.box(spot, (0.004, 0.055, 0.008), "rubber", BLACK)
@@ -91,7 +93,9 @@ def looms(a: Assembly, rng: Rng, width: float, low: float, high: float, count: i
         start, end = (x, rng.uniform(0.06, 0.11), high), (other, rng.uniform(0.06, 0.13), low)
         bulge = (0.5 * (x + other) + rng.normal(0, 0.03), rng.uniform(0.11, 0.16), 0.5 * (low + high))
         share = np.linspace(0, 1, 9)[:, None]
-        points = np.array(start) * (1 - share) ** 2 + 2 * np.array(bulge) * share * (1 - share) + np.array(end) * share**2
+        points = (
+            np.array(start) * (1 - share) ** 2 + 2 * np.array(bulge) * share * (1 - share) + np.array(end) * share**2
+        )
         a.tube(points, rng.choice([0.002, 0.003, 0.005]), "plastic", pick(rng, WIRES))
 
 
@@ -122,10 +126,20 @@ def mounting_plate(a: Assembly, rng: Rng, width: float, low: float, high: float)
             z -= 0.36
         else:
             for x in (-0.25, 0.25):
-                a.box((x * inner, 0.06, z - 0.17), (0.36 * inner, 0.1, 0.13), "plastic", pick(rng, (DARK_GREY, BLACK, GREY)), bevel=0.005)
+                a.box(
+                    (x * inner, 0.06, z - 0.17),
+                    (0.36 * inner, 0.1, 0.13),
+                    "plastic",
+                    pick(rng, (DARK_GREY, BLACK, GREY)),
+                    bevel=0.005,
+                )
                 for n in range(8):
-                    a.box((x * inner - 0.14 * inner + n * 0.035 * inner, 0.112, z - 0.06), (0.012, 0.003, 0.008), "glow",
-                          pick(rng, ((0.2, 4.0, 0.4), (4.0, 0.8, 0.1), (0.2, 2.0, 0.3))))
+                    a.box(
+                        (x * inner - 0.14 * inner + n * 0.035 * inner, 0.112, z - 0.06),
+                        (0.012, 0.003, 0.008),
+                        "glow",
+                        pick(rng, ((0.2, 4.0, 0.4), (4.0, 0.8, 0.1), (0.2, 2.0, 0.3))),
+                    )
             looms(a, rng, inner, z - 0.2, z - 0.14, 10)
             z -= 0.23
     wire_duct(a, (0, 0.01, low + 0.02), (inner, 0.06))
@@ -203,14 +217,22 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
     """Build one: a room with rows of cabinets, or a place close before open ones."""
     close = variant % 2 == 0
     style = Style(
-        wall="wall" if close else "blocks", upper=(0.7, 0.7, 0.66), lower=(0.45, 0.52, 0.55), dado=1.4,
+        wall="wall" if close else "blocks",
+        upper=(0.7, 0.7, 0.66),
+        lower=(0.45, 0.52, 0.55),
+        dado=1.4,
         floor="surface:rubber_studs" if close else "surface:linoleum",
         floor_tint=(0.8, 0.8, 0.85) if close else (0.6, 0.75, 0.7),
-        ceiling="wall", ceiling_tint=(0.62, 0.62, 0.6),
+        ceiling="wall",
+        ceiling_tint=(0.62, 0.62, 0.6),
     )
     room = Room(
-        west=-2.1 if close else -4.4, east=2.0 if close else 5.0, south=-1.7 if close else -2.7,
-        north=1.7 if close else 2.8, height=3.0 if close else 3.3, style=style,
+        west=-2.1 if close else -4.4,
+        east=2.0 if close else 5.0,
+        south=-1.7 if close else -2.7,
+        north=1.7 if close else 2.8,
+        height=3.0 if close else 3.3,
+        style=style,
         openings={
             Wall.WEST: (door(0.3 if close else 1.2, 1.1),),
             Wall.EAST: () if close else windows(1, 2.0, 1.4, 1.4, 1.1),
@@ -244,8 +266,12 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
         start, end = (x, side * y, 2.0), (x + rng.normal(0, 0.2), side * (y - 0.5), room.height - 0.55)
         a.tube(hanging(start, end, 0.1), rng.uniform(0.008, 0.02), "rubber", pick(rng, CABLES))
     return Light(
-        camera_m=(0.0, 0.0, 1.4), sky=5.0, overcast=0.5, daylight=6.0,
-        ambient=(0.16, 0.16, 0.17), reach_m=1.2,
+        camera_m=(0.0, 0.0, 1.4),
+        sky=5.0,
+        overcast=0.5,
+        daylight=6.0,
+        ambient=(0.16, 0.16, 0.17),
+        reach_m=1.2,
     )
 
 

@@ -6,7 +6,18 @@ from blend.environments import furniture, lamps, machines, services
 from blend.environments.assembly import Assembly
 from blend.environments.goods import BENCH, STORED
 from blend.environments.layout import Piece, clutter, line_up
-from blend.environments.palette import DARK_GREY, LIGHT_GREY, MACHINES, ORANGE, WHITE, WOODS, YELLOW, palette, pick, vary
+from blend.environments.palette import (
+    DARK_GREY,
+    LIGHT_GREY,
+    MACHINES,
+    ORANGE,
+    WHITE,
+    WOODS,
+    YELLOW,
+    palette,
+    pick,
+    vary,
+)
 from blend.environments.room import Room, Style, Wall, door, gate, windows
 from blend.environments.scene import Light
 
@@ -140,7 +151,7 @@ def _above(a: Assembly, rng: Rng, room: Room, *, old: bool) -> None:
                 a.box((0, 0, room.height - 0.3), (8.6, 0.2, 0.3), "wood", vary(rng, WOODS[3]))
             else:
                 services.girder(a, 8.6, room.height - 0.26, vary(rng, LIGHT_GREY), 0.24)
-    for x, y in lamps.rows(a, (-3.6, 3.4, 3), (-2.2, 2.6, 3)):
+    for x, y in lamps.rows((-3.6, 3.4, 3), (-2.2, 2.6, 3)):
         with a.at(x, y):
             if old and abs(y) < 1.0:
                 lamps.bell(a, room.height, drop=0.9)

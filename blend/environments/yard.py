@@ -28,7 +28,12 @@ def _works(a: Assembly, rng: Rng) -> Light:
     for x, y, z, turn in ((6.5, 7.0, 0, 182), (6.6, 7.1, 2.6, 181), (-9.0, -6.5, 0, 20), (9.5, 3.0, 0, 95)):
         with a.at(x, y, z, turn=turn):
             outdoors.container(a, rng)
-    for x, y, turn, van in ((-5.0, -7.5, 80, False), (-1.5, -7.8, 95, True), (2.2, -7.4, 85, False), (8.5, -5.0, 10, True)):
+    for x, y, turn, van in (
+        (-5.0, -7.5, 80, False),
+        (-1.5, -7.8, 95, True),
+        (2.2, -7.4, 85, False),
+        (8.5, -5.0, 10, True),
+    ):
         with a.at(x, y, turn=turn):
             outdoors.car(a, rng, van=van)
     with a.at(-5.5, 4.2, turn=-35):
@@ -56,13 +61,18 @@ def _works(a: Assembly, rng: Rng) -> Light:
     outdoors.wires(a, rng, (-20, -11.5, 7.0), (18, -9.5, 7.2))
     for x in (-4.0, -0.5, 3.0, 6.5):
         a.box((x, -6.8, 0.0), (0.1, 4.2, 0.004), "paint", WHITE)
-    with a.at(3.4, -2.9, turn=-40):
-        machines.gas_bottles(a, rng)
     for n in range(5):
         _cone(a, 1.6 + 0.9 * n, 2.6 + 0.25 * n)
     return Light(
-        camera_m=(0.0, 0.0, 1.6), sky=1.0, overcast=0.55, sun=3.6, sun_bearing_deg=-50.0, sun_height_deg=38.0,
-        ambient=(0.85, 0.93, 1.05), reach_m=60.0, town=True,
+        camera_m=(0.0, 0.0, 1.6),
+        sky=1.0,
+        overcast=0.55,
+        sun=3.6,
+        sun_bearing_deg=-50.0,
+        sun_height_deg=38.0,
+        ambient=(0.85, 0.93, 1.05),
+        reach_m=60.0,
+        town=True,
     )
 
 
@@ -90,8 +100,14 @@ def _street(a: Assembly, rng: Rng) -> Light:
             if rng.random() < 0.72 and abs(x) > 2.0:
                 with a.at(float(x) + rng.uniform(-0.5, 0.5), side * 3.3, -0.05, turn=-90 * side + rng.normal(0, 1.5)):
                     outdoors.car(a, rng, van=rng.random() < 0.2)
-        for x, thing in ((-3.2, outdoors.bench), (2.4, outdoors.wheeled_bin), (3.1, outdoors.wheeled_bin),
-                         (5.6, outdoors.road_sign), (-7.4, outdoors.bush), (9.0, outdoors.bush)):
+        for x, thing in (
+            (-3.2, outdoors.bench),
+            (2.4, outdoors.wheeled_bin),
+            (3.1, outdoors.wheeled_bin),
+            (5.6, outdoors.road_sign),
+            (-7.4, outdoors.bush),
+            (9.0, outdoors.bush),
+        ):
             with a.at(x + rng.uniform(-0.6, 0.6), side * 7.6, 0.12, turn=180 if side > 0 else 0):
                 thing(a, rng)
     for x in np.arange(-40.0, 40.0, 4.0):
@@ -105,6 +121,13 @@ def _street(a: Assembly, rng: Rng) -> Light:
         _cone(a, 4.0 + 1.2 * n, -1.6 + 0.2 * n)
     a.box((6.5, -2.2, -0.05), (2.2, 0.1, 1.0), "paint", vary(rng, YELLOW))
     return Light(
-        camera_m=(0.0, 1.4, 1.6), sky=1.0, overcast=0.15, sun=4.2, sun_bearing_deg=155.0, sun_height_deg=34.0,
-        ambient=(0.6, 0.75, 1.0), reach_m=60.0, town=True,
+        camera_m=(0.0, 1.4, 1.6),
+        sky=1.0,
+        overcast=0.15,
+        sun=4.2,
+        sun_bearing_deg=155.0,
+        sun_height_deg=34.0,
+        ambient=(0.6, 0.75, 1.0),
+        reach_m=60.0,
+        town=True,
     )
