@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from assets.environments import ENVIRONMENTS
 from assets.hdris import registry, scan_hdris
 from assets.plates import scan_plates
 from assets.surfaces.catalogue import FLOORS, LIGHT, SURFACES
@@ -32,6 +33,13 @@ class InstalledAssets:
         return [
             HdriRef(name=hdri.name, path=None, sha256=hdri.sha256, dark=hdri.dark, backdrop=hdri.backdrop)
             for hdri in registry()
+        ]
+
+    def environments(self) -> Sequence[HdriRef]:
+        """See `AssetSource.environments`. Told by the registry, as each machine renders its own."""
+        return [
+            HdriRef(name=recipe.name, path=None, dark=False, recipe_version=recipe.version)
+            for recipe in ENVIRONMENTS.values()
         ]
 
     def hdris_in(self, folder: Path) -> Sequence[HdriRef]:

@@ -30,6 +30,7 @@ class Inputs:
         backgrounds: folders of photographs.
         builtin_textures: whether our own surfaces take part.
         builtin_hdris: whether Blender's own HDRIs take part.
+        environments: whether our own environments take part; the published style has none.
     """
 
     template: Path | None = None
@@ -38,6 +39,7 @@ class Inputs:
     builtin_textures: bool = True
     builtin_hdris: bool = True
     backgrounds: tuple[Path, ...] = ()
+    environments: bool = True
 
 
 class AssetSource(Protocol):
@@ -53,6 +55,10 @@ class AssetSource(Protocol):
 
     def builtin_hdris(self) -> Sequence[HdriRef]:
         """Blender's own HDRIs."""
+        ...
+
+    def environments(self) -> Sequence[HdriRef]:
+        """Our own environments."""
         ...
 
     def hdris_in(self, folder: Path) -> Sequence[HdriRef]:
@@ -76,6 +82,8 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
     for folder in inputs.textures:
         surfaces += assets.surfaces_in(folder)
     hdris = list(assets.builtin_hdris()) if inputs.builtin_hdris else []
+    if inputs.environments and spec.style is not Style.PUBLISHED:
+        hdris += assets.environments()
     for folder in inputs.hdris:
         hdris += assets.hdris_in(folder)
     plates = [plate for folder in inputs.backgrounds for plate in assets.plates_in(folder)]

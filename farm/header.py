@@ -3,10 +3,10 @@
 import functools
 import hashlib
 from collections.abc import Mapping
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 import pydantic_core
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from farm.category import Category
 from farm.model import Model, Sha256
@@ -29,18 +29,29 @@ class TemplateRef(Model):
 
 
 class HdriRef(Model):
-    """An HDRI; `path` is None for one from Blender's own files.
+    """An HDRI; `path` is None for one from Blender's own files, and for an environment of our own.
 
     Attributes:
+        sha256: of the file; None for an environment, of which each machine renders its own bytes.
         dark: its brightness is drawn.
         backdrop: it can be seen behind cables; others only light them.
+        recipe_version: of an environment; None for files.
     """
 
     name: str
     path: str | None
-    sha256: Sha256
+    sha256: Sha256 | None = None
     dark: bool
     backdrop: bool = True
+    recipe_version: Annotated[int, Field(ge=1)] | None = None
+
+    @model_validator(mode="after")
+    def _of_one_kind(self) -> Self:
+        if (self.sha256 is None) == (self.recipe_version is None):
+            raise ValueError(f"the HDRI '{self.name}' needs a checksum or a recipe's version, and not both")
+        if self.recipe_version is not None and self.path is not None:
+            raise ValueError(f"the HDRI '{self.name}' is an environment, which has no path")
+        return self
 
 
 class PlateRef(Model):

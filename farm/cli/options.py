@@ -112,6 +112,9 @@ class DatasetOptions:
     no_builtin_hdris: Annotated[
         bool, typer.Option("--no-builtin-hdris", help="Leave Blender's HDRIs out.", rich_help_panel=_DATASET)
     ] = False
+    no_environments: Annotated[
+        bool, typer.Option("--no-environments", help="Leave our environments out.", rich_help_panel=_DATASET)
+    ] = False
     close_distributed_hdri: Annotated[
         str | None,
         typer.Option(metavar="NAME", help="The one HDRI over a floor in its light.", rich_help_panel=_DATASET),
@@ -152,6 +155,8 @@ class DatasetOptions:
             inputs["builtin_textures"] = False
         if self.no_builtin_hdris:
             inputs["builtin_hdris"] = False
+        if self.no_environments:
+            inputs["environments"] = False
         return describe(self.spec_file or self.spec, {**flags, **override}, inputs)
 
 
