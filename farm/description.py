@@ -76,7 +76,7 @@ def _read_inputs(data: Mapping[str, object], folder: Path, source: str) -> dict[
             inputs[key] = folder / value
         elif key in _FOLDERS and isinstance(value, list) and all(isinstance(entry, str) for entry in value):
             inputs[key] = tuple(folder / entry for entry in value)
-        elif key in {"builtin_textures", "builtin_hdris"} and isinstance(value, bool):
+        elif key in {"builtin_textures", "builtin_hdris", "environments"} and isinstance(value, bool):
             inputs[key] = value
         else:
             expected = {"template": "a path", **dict.fromkeys(_FOLDERS, "a list of paths")}
