@@ -12,12 +12,13 @@ from farm.looks import CableMaterial, Rgb
 from farm.photograph import Camera
 from farm.rendering import CableDetail, Economy
 from farm.scene import Cable, Scene
+from worker.clutter.place import add_clutter
 from worker.floor import set_floor, set_unseen_floor
 from worker.images import ImageShelf
 from worker.library import AssetLibrary
 from worker.matte import Backdrop, covered_by
 from worker.panorama import lens_radius_m
-from worker.shapes import Points, parts_near, smooth
+from worker.shapes import CableShapes, Points, parts_near, smooth
 from worker.silhouette import View
 from worker.surroundings import backdrop_of, set_grey_world, set_hdri_world, set_lamps
 from worker.tube import Tube, sweep
@@ -31,7 +32,7 @@ SHADOW_SLOPE = 3.0
 
 def realize(
     scene: Scene,
-    nodes_m: tuple[Points, ...],
+    shapes: CableShapes,
     library: AssetLibrary,
     shelf: ImageShelf,
     *,
@@ -40,11 +41,11 @@ def realize(
     detail: CableDetail,
     economy: Economy,
 ) -> Backdrop | None:
-    """Set the picture's scene to `scene`, with settled cables.
+    """Set the picture's scene to `scene`, with settled cables and clutter.
 
     Args:
         scene: what was drawn.
-        nodes_m: the settled centrelines, nodes (N, 3), metres, one a cable.
+        shapes: its cables and sticks, settled.
         library: where the textures and HDRIs are.
         shelf: the images that this process holds.
         traits: of the scene's category.
@@ -63,13 +64,16 @@ def realize(
         shelf.forget()
     remove_cables()
     view = View(height_m=scene.camera.height_m, resolution=resolution)
-    curves = [smooth(nodes, detail.points_per_segment) for nodes in nodes_m]
+    curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
     for number, (cable, curve) in enumerate(zip(scene.cables, curves, strict=True), start=1):
         _add_cable(number, cable, curve, detail, view if economy.cables_in_view else None)
     if scene.floor is None:
         set_unseen_floor(shelf)
     else:
-        set_floor(scene.floor, library.surface(scene.floor.texture), shelf, view if economy.texture_window else None)
+        # Wear is drawn on what is seen, so it needs a view whatever is left out.
+        seen = view if economy.texture_window or scene.floor.wear is not None else None
+        set_floor(scene.floor, library.surface(scene.floor.texture), shelf, seen)
+    add_clutter(scene, shapes.sticks_m, curves, shelf)
     set_lamps(scene.lamps)
     _set_camera(scene.camera)
     if scene.hdri_world is None:

@@ -115,7 +115,7 @@ class Studio:
         """Set the scene; returns what is behind it, if the renderer is to leave that out."""
         return realize(
             scene,
-            shapes.nodes_m,
+            shapes,
             self._library,
             self._shelf,
             traits=job.category.traits,

@@ -58,7 +58,7 @@ def set_up(header: DatasetHeader, library: AssetLibrary, job: Job, samples: int,
     settings = PictureSettings(cycles=CyclesSettings(samples=samples, denoiser=Denoiser.NONE), economy=economy)
     behind = realize(
         scene,
-        shapes.nodes_m,
+        shapes,
         library,
         ImageShelf(),
         traits=job.category.traits,

@@ -75,7 +75,7 @@ class Stage:
         resolution = resolution or self._resolution
         self._behind = realize(
             settled.scene,
-            settled.shapes.nodes_m,
+            settled.shapes,
             self._library,
             self._shelf,
             traits=settled.job.category.traits,
