@@ -19,11 +19,11 @@ def smooth_noise(rng: np.random.Generator, rows: int, columns: int, grain: tuple
     high, wide = (max(2, int(np.ceil(edge / step)) + 3) for edge, step in zip((rows, columns), grain, strict=True))
     coarse = rng.standard_normal((high, wide)).astype(np.float32)
     down, across = (np.float32(max(step, 1e-6)) for step in grain)
-    # Cubic interpolation between independent numbers leaves 0.7 of their deviation.
+    # Cubic interpolation between independent numbers leaves 0.85 of their deviation.
     place = np.array([[1 / across, 0, 1.0], [0, 1 / down, 1.0]], np.float32)
     flags = cv2.INTER_CUBIC | cv2.WARP_INVERSE_MAP
     fine = cv2.warpAffine(coarse, place, (columns, rows), flags=flags, borderMode=cv2.BORDER_REFLECT_101)
-    field: Field = (fine / np.float32(0.7)).astype(np.float32, copy=False)
+    field: Field = (fine / np.float32(0.85)).astype(np.float32, copy=False)
     return field
 
 

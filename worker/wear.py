@@ -13,10 +13,10 @@ from worker.texture_window import Texels, light_of
 STAIN_LEAVES = (0.58, 0.50, 0.40)
 """Of red, green and blue light, where a puddle's rim was thickest."""
 
-DUST_COLOUR = (0.46, 0.43, 0.38)
+DUST_COLOUR = (0.44, 0.40, 0.34)
 """Of house dust, linear."""
 
-DUST_COVERS = 0.5
+DUST_COVERS = 0.42
 DUST_ROUGHNESS = 0.85
 
 LUMA = np.array([0.2126, 0.7152, 0.0722], np.float32)

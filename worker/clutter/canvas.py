@@ -24,6 +24,7 @@ class Print:
         alpha: 0 to 255, what of it there is; None: all.
         normal: (H, W, 3) levels of a normal map in OpenGL convention; None: flat.
         metallic: 0 to 1.
+        specular: 0.5 for what has a surface, 0 for holes.
         margin_m: how far the images reach over the sheet's edge on all sides.
     """
 
@@ -32,6 +33,7 @@ class Print:
     alpha: Levels | None = None
     normal: Levels | None = None
     metallic: float = 0.0
+    specular: float = 0.5
     margin_m: float = 0.0
 
 

@@ -14,7 +14,7 @@ def draw_painted_line(sheet: Sheet, rng: np.random.Generator) -> Print:
     grime = rough_noise(rng, rows, columns, 70.0, 4)
     canvas *= 1 + 0.05 * grime[:, :, None]
     ink(canvas, 0.3 * smooth_step(grime, 0.6, 2.2), (70, 64, 56))
-    away = _from_edge(rows, columns) - 1.5 - 1.2 * smooth_noise(rng, rows, columns, (6.0, 9.0))
+    away = _from_edge(rows, columns) - 1.5 - 0.8 * rough_noise(rng, rows, columns, 16.0, 4)
     worn = rough_noise(rng, rows, columns, 45.0, 6)
     left = 1 - smooth_step(worn, float(rng.uniform(0.8, 2.2)), 2.6)
     alpha = np.clip(away, 0, 1) * left
@@ -35,7 +35,7 @@ def draw_slot(sheet: Sheet, rng: np.random.Generator) -> Print:
     ink(canvas, np.broadcast_to(0.16 * np.exp(-across / 0.18), (rows, columns)).astype(np.float32), (120, 118, 114))
     lint = smooth_step(rough_noise(rng, rows, columns, 30.0, 5), 1.2, 2.6)
     ink(canvas, 0.22 * lint, (120, 112, 100))
-    lip = np.float32(0.35e-3 * rows / sheet.width_m)
+    lip = np.float32(0.45e-3 * rows / sheet.width_m)
     place = np.arange(rows, dtype=np.float32)[:, None] + 0.5
     chips = np.clip(1 + 0.3 * smooth_noise(rng, 1, columns, (1.0, 14.0)), 0.4, 1.8)
     lit = np.clip(1 - np.abs(rows - place - lip) / (lip * chips), 0, 1)
@@ -48,6 +48,7 @@ def draw_slot(sheet: Sheet, rng: np.random.Generator) -> Print:
         colour=levels(canvas),
         roughness=levels(255 * np.broadcast_to(0.75 - 0.4 * np.maximum(lit, 0), (rows, columns))),
         alpha=levels(255 * alpha),
+        specular=0.05,
     )
 
 
@@ -63,7 +64,12 @@ def draw_seam(sheet: Sheet, rng: np.random.Generator) -> Print:
     ink(canvas, 0.5 * filled, (96, 88, 76))
     ends = np.minimum(np.arange(columns), np.arange(columns)[::-1]).astype(np.float32)[None]
     alpha = np.clip(away / soft, 0, 1) * np.clip(ends / 4, 0, 1) * (0.9 - 0.3 * filled)
-    return Print(colour=levels(canvas), roughness=np.full((rows, columns), 200, np.uint8), alpha=levels(255 * alpha))
+    return Print(
+        colour=levels(canvas),
+        roughness=np.full((rows, columns), 200, np.uint8),
+        alpha=levels(255 * alpha),
+        specular=0.1,
+    )
 
 
 def _from_edge(rows: int, columns: int) -> Field:

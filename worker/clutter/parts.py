@@ -145,7 +145,7 @@ def _screw(size_m: float, _: tuple[int, int, int], rng: np.random.Generator) -> 
         section([(length, 0.75 * r), (length, 0.0)], 0),
     ]
     solid = turned_on_lathe(sections, SIDES)
-    tilt = np.arctan2(rim - r, length - 0.3 * r)
+    tilt = np.arctan2(rim - r, length - 0.3 * r - head)
     cosine, sine = np.cos(tilt), np.sin(tilt)
     metal = _metal(rng)
     dark = Finish(colour=(30, 30, 32), roughness=0.6, metallic=metal.metallic)
@@ -209,13 +209,13 @@ def _cable_tie(
     wide, thick = float(rng.uniform(2.5e-3, 4.5e-3)), 1.1e-3
     plastic = Finish(colour=colour, roughness=0.35, mottle=0.03)
     if rng.random() < 0.5:
-        radius = max(size_m / 2 - 2.5e-3, 3e-3)
+        radius = max(size_m / 2 - 3.5e-3, 3e-3)
         angle = np.linspace(-0.5 * np.pi + 0.02, 1.5 * np.pi - 0.02, 96)
         out = radius * (1 + 0.07 * np.cos(2 * angle + float(rng.uniform(0, 2 * np.pi))))
         curve = np.stack([out * np.cos(angle), out * np.sin(angle), np.full_like(angle, wide / 2)], axis=1)
         tail = float(rng.uniform(1e-3, 4e-3))
     else:
-        arc = size_m * 1.15
+        arc = max(size_m - 4e-3, 6e-3) * 1.05
         turn = float(rng.uniform(0.4, 2.4))
         bearing = turn * np.linspace(-0.5, 0.5, 96) * (1 + 0.3 * np.sin(np.linspace(0, 4, 96)))
         level = np.cumsum(np.stack([np.cos(bearing), np.sin(bearing)], axis=1), axis=0) * arc / 96

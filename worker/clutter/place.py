@@ -147,6 +147,7 @@ def _sheet_material(name: str, drawn: Print, shelf: ImageShelf) -> Any:
     surface = add_node(tree, "ShaderNodeBsdfPrincipled", "surface", (0, 0))
     output = add_node(tree, "ShaderNodeOutputMaterial", "output", (300, 0))
     surface.inputs["Metallic"].default_value = drawn.metallic
+    surface.inputs["Specular IOR Level"].default_value = drawn.specular
     colour = add_node(tree, "ShaderNodeTexImage", "colour", (-600, 300), extension="EXTEND")
     colour.image = shelf.drawn(f"{name}.colour", drawn.colour, colour=True)
     link(tree, colour, "Color", surface, "Base Color")

@@ -114,7 +114,7 @@ def _turn(each: Section, sides: int) -> Solid:
     faces = ring.shape[0] * sides
     return Solid(
         vertices_m=vertices.reshape(-1, 3),
-        corners=(ring * sides + side % sides)[..., ::-1].reshape(-1).astype(np.int64),
+        corners=(ring * sides + side % sides).reshape(-1).astype(np.int64),
         sizes=np.full(faces, 4),
         finishes=np.full(faces, each.finish),
         smooth=np.ones(faces, np.bool_),

@@ -183,8 +183,8 @@ def _button_pen(stick: Stick, rng: np.random.Generator) -> Turned:
 
 def _clip(start_m: float, end_m: float, inner_m: float, outer_m: float, finish: int) -> Solid:
     """A clip along the top, from just in the barrel to the radius with which the pen fell."""
-    half = 0.3 * outer_m
-    return box((start_m, -half, 0.9 * inner_m), (end_m, half, outer_m), 0.03 * outer_m, finish)
+    half, top = 0.22 * outer_m, 0.975 * outer_m  # its corners lie on the radius
+    return box((start_m, -half, 0.9 * inner_m), (end_m, half, top), 0.03 * outer_m, finish)
 
 
 def _pencil(stick: Stick, rng: np.random.Generator) -> Turned:
