@@ -23,10 +23,10 @@ CELL_M = 1.25e-3
 
 CELLS = round(EDGE_M / CELL_M)
 
-STAIN_RADII_M = (0.006, 0.045)
+STAIN_RADII_M = (0.004, 0.032)
 MOST_STAINS = 400
 SCRATCH_LENGTHS_M = (0.004, 0.07)
-SCRATCH_WIDTHS_M = (0.08e-3, 0.35e-3)
+SCRATCH_WIDTHS_M = (0.1e-3, 0.4e-3)
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,8 +207,8 @@ def scratch_lines(density: float, rng: np.random.Generator) -> Iterator[tuple[ND
     low, high = np.log(SCRATCH_LENGTHS_M)
     t = np.linspace(-0.5, 0.5, 13)
     while left > 0:
-        sheaf = min(left, 1 + int(rng.geometric(0.6)) - 1 if rng.random() < 0.8 else int(rng.integers(3, 9)))
-        sheaf = max(1, sheaf)
+        sheaf = min(left, int(rng.geometric(0.6)) if rng.random() < 0.8 else int(rng.integers(3, 9)))
+
         left -= sheaf
         length = float(np.exp(rng.uniform(low, high)))
         bearing, bend = float(rng.uniform(0, np.pi)), float(rng.normal(0, 0.25))
@@ -220,7 +220,7 @@ def scratch_lines(density: float, rng: np.random.Generator) -> Iterator[tuple[ND
             points = middle + rng.normal(0, 0.0025, 2) * (sheaf > 1)
             points = points + (long * t)[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=1)
             width = float(rng.uniform(*SCRATCH_WIDTHS_M)) * float(rng.uniform(0.4, 1))
-            strength = float(rng.uniform(0.25, 1.0))
+            strength = float(rng.uniform(0.4, 1.0))
             yield points, width, strength if bright else -strength
 
 

@@ -48,8 +48,8 @@ def worn_colour(texels: Texels, wear: Wear, marks: Marks) -> Texels:
         for channel, left in enumerate(STAIN_LEAVES):
             light[:, :, channel] *= 1 - np.float32(1 - left) * marks.stain
     if marks.scratch is not None:
-        light *= (1 + 0.75 * marks.scratch)[:, :, None]
-        light += (0.06 * np.maximum(marks.scratch, 0))[:, :, None]
+        light *= (1 + 0.9 * marks.scratch)[:, :, None]
+        light += (0.1 * np.maximum(marks.scratch, 0))[:, :, None]
     if marks.dust is not None:
         cover = np.float32(DUST_COVERS) * marks.dust
         for channel, dust in enumerate(DUST_COLOUR):

@@ -8,12 +8,12 @@ from worker.clutter.solid import Solid, box, inset, joined, polygon, section, st
 
 def volume_m3(solid: Solid) -> float:
     """By the divergence theorem; positive if faces look outwards."""
-    total, start = 0.0, 0
-    for size in solid.sizes:
-        face = solid.vertices_m[solid.corners[start : start + size]]
-        for k in range(1, size - 1):
-            total += float(np.dot(face[0], np.cross(face[k], face[k + 1]))) / 6
-        start += size
+    starts = np.cumsum(solid.sizes) - solid.sizes
+    total = 0.0
+    for k in range(1, int(solid.sizes.max()) - 1):
+        at = starts[solid.sizes > k + 1]
+        first, one, other = (solid.vertices_m[solid.corners[at + corner]] for corner in (0, k, k + 1))
+        total += float(np.einsum("ij,ij->", first, np.cross(one, other))) / 6
     return total
 
 
