@@ -5,20 +5,21 @@ from farm.rendering import CableDetail, Economy
 from farm.scene import Scene
 from worker.cable_objects import add_cables, remove_cables
 from worker.camera import has_round_aperture, set_camera
+from worker.clutter.place import add_clutter
 from worker.floor import set_floor, set_unseen_floor
 from worker.images import ImageShelf
 from worker.library import AssetLibrary
 from worker.matte import Backdrop, covered_by
 from worker.panorama import lens_radius_m
 from worker.pieces import pieces_of
-from worker.shapes import Points, smooth
+from worker.shapes import CableShapes, smooth
 from worker.surroundings import backdrop_of, set_grey_world, set_hdri_world, set_lamps
 from worker.view import View
 
 
 def realize(
     scene: Scene,
-    nodes_m: tuple[Points, ...],
+    shapes: CableShapes,
     library: AssetLibrary,
     shelf: ImageShelf,
     *,
@@ -27,11 +28,11 @@ def realize(
     detail: CableDetail,
     economy: Economy,
 ) -> Backdrop | None:
-    """Set the picture's scene to `scene`, with settled cables.
+    """Set the picture's scene to `scene`, with settled cables and clutter.
 
     Args:
         scene: what was drawn.
-        nodes_m: the settled centrelines, nodes (N, 3), metres, one a cable.
+        shapes: its cables and sticks, settled.
         library: where the textures and HDRIs are.
         shelf: the images that this process holds.
         traits: of the scene's category.
@@ -50,13 +51,16 @@ def realize(
         shelf.forget()
     remove_cables()
     view = View.of(scene.camera, resolution).undistorted()
-    curves = [smooth(nodes, detail.points_per_segment) for nodes in nodes_m]
+    curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
     pieces = pieces_of(scene, curves)
     add_cables(pieces, detail.sides, view, shelf, whole=not economy.cables_in_view)
     if scene.floor is None:
         set_unseen_floor(shelf)
     else:
-        set_floor(scene.floor, library.surface(scene.floor.texture), shelf, view if economy.texture_window else None)
+        # Wear is drawn on what is seen, so it needs a view whatever is left out.
+        seen = view if economy.texture_window or scene.floor.wear is not None else None
+        set_floor(scene.floor, library.surface(scene.floor.texture), shelf, seen)
+    add_clutter(scene, shapes.sticks_m, curves, shelf)
     set_lamps(scene.lamps)
     set_camera(scene.camera)
     if scene.hdri_world is None:

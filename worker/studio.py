@@ -23,6 +23,7 @@ from farm.scene import Scene
 from farm.spec import DatasetSpec, Engine
 from worker import eevee
 from worker.check import find_fault
+from worker.clutter.hiding import hiding_pieces
 from worker.devices import choose_device
 from worker.gates import measure
 from worker.images import ImageShelf
@@ -116,7 +117,7 @@ class Studio:
         """Set the scene; returns what is behind it, if the renderer is to leave that out."""
         return realize(
             scene,
-            shapes.nodes_m,
+            shapes,
             self._library,
             self._shelf,
             traits=job.category.traits,
@@ -179,7 +180,8 @@ def label(scene: Scene, shapes: CableShapes, detail: CableDetail, resolution: in
     """Label a settled scene's cables as they are rendered."""
     curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
     view = View.of(scene.camera, resolution)
-    return label_cables(pieces_of(scene, curves), view, detail.sides)
+    pieces = [*pieces_of(scene, curves), *hiding_pieces(scene, shapes)]
+    return label_cables(pieces, view, detail.sides)
 
 
 @contextmanager

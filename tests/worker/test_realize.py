@@ -77,7 +77,7 @@ def set_up(
     settings = PictureSettings(cycles=CyclesSettings(samples=samples, denoiser=Denoiser.NONE), economy=economy)
     behind = realize(
         scene,
-        shapes.nodes_m,
+        shapes,
         library,
         ImageShelf(),
         traits=job.category.traits,

@@ -78,7 +78,7 @@ class Stage:
         self._scene = settled.scene
         self._behind = realize(
             settled.scene,
-            settled.shapes.nodes_m,
+            settled.shapes,
             self._library,
             self._shelf,
             traits=settled.job.category.traits,
