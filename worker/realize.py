@@ -1,5 +1,6 @@
 """A scene made real in the open template: cables, floor, light, world and camera. Sets everything, every time."""
 
+import math
 from typing import Any
 
 import bpy
@@ -7,6 +8,7 @@ import numpy as np
 
 from blend import names
 from farm.category import Background, CategoryTraits
+from farm.lights import Lamp, StudioLamp
 from farm.looks import CableMaterial, Rgb
 from farm.rendering import CableDetail, Economy
 from farm.scene import Cable, Scene
@@ -25,7 +27,7 @@ DIRT_EDGE = 0.05
 """Distance of the two stops of the dirt ramp: how soft the edge of a spot is."""
 
 SHADOW_SLOPE = 3.0
-"""How far a shadow reaches, in the height of what throws it: that of the lowest lamp, 15 m away at a height of 5."""
+"""How far a shadow reaches, in the height of what throws it: that of the lowest published lamp, 15 m away at 5 m."""
 
 
 def realize(
@@ -63,8 +65,9 @@ def realize(
     remove_cables()
     view = View.of(scene.camera, resolution).undistorted()
     curves = [smooth(nodes, detail.points_per_segment) for nodes in nodes_m]
+    slope = _shadow_slope(scene.lamps)
     for number, (cable, curve) in enumerate(zip(scene.cables, curves, strict=True), start=1):
-        _add_cable(number, cable, curve, detail, view if economy.cables_in_view else None)
+        _add_cable(number, cable, curve, detail, view if economy.cables_in_view else None, slope)
     if scene.floor is None:
         set_unseen_floor(shelf)
     else:
@@ -93,7 +96,15 @@ def remove_cables() -> None:
             collection.remove(block)
 
 
-def _add_cable(number: int, cable: Cable, curve: Points, detail: CableDetail, view: View | None) -> None:
+def _shadow_slope(lamps: tuple[Lamp, ...]) -> float:
+    """How far the longest shadow reaches, in the height of what throws it; a lamp at the horizon's is cut short."""
+    elevations_deg = [max(lamp.elevation_deg, 1.0) for lamp in lamps if isinstance(lamp, StudioLamp)]
+    return max([SHADOW_SLOPE, *(1.0 / math.tan(math.radians(elevation)) for elevation in elevations_deg)])
+
+
+def _add_cable(
+    number: int, cable: Cable, curve: Points, detail: CableDetail, view: View | None, shadow_slope: float
+) -> None:
     """Add a cable; of one that leaves the view, the parts that are seen or may throw a shadow into it."""
     if not isinstance(cable.material, CableMaterial):
         raise NotImplementedError  # until skins are drawn
@@ -102,7 +113,7 @@ def _add_cable(number: int, cable: Cable, curve: Points, detail: CableDetail, vi
         parts = [slice(0, len(curve))]
     else:
         half_m = float(np.abs(view.floor_corners_m()[:, :2]).max())
-        parts = parts_near(curve, half_m + SHADOW_SLOPE * float(curve[:, 2].max()) + cable.diameter_m)
+        parts = parts_near(curve, half_m + shadow_slope * float(curve[:, 2].max()) + cable.diameter_m)
     for part in parts:
         start_m = cable.length_m * part.start / (len(curve) - 1)
         tube = sweep(curve[part], cable.diameter_m / 2, detail.sides, start_m=start_m)
