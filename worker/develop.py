@@ -111,7 +111,8 @@ def balance(light: Light, error: tuple[float, float], lit_by: NDArray[np.float64
     """
     left = lit_by ** (1.0 - ADAPTED) * [error[0], 1.0, error[1]]
     gains = left / lit_by * (REC709_LUMINANCE @ lit_by) / (REC709_LUMINANCE @ left)
-    return light * gains.astype(np.float32)
+    balanced: Light = light * gains.astype(np.float32)
+    return balanced
 
 
 def vignette(light: Light, lost: float) -> Light:
@@ -152,7 +153,9 @@ def add_noise(light: Light, full_well: float, read_noise: float, rng: np.random.
         return light
     grains = rng.standard_normal(light.shape, np.float32)
     kernel = np.array([CORRELATION, 1.0, CORRELATION]) / math.sqrt(1.0 + 2 * CORRELATION**2)
-    grains = cv2.sepFilter2D(grains, -1, kernel, kernel, borderType=cv2.BORDER_REFLECT_101)
+    grains = cv2.sepFilter2D(grains, -1, kernel, kernel, borderType=cv2.BORDER_REFLECT_101).astype(
+        np.float32, copy=False
+    )
     variance = light * np.float32(1 / full_well)
     variance += np.float32((read_noise / full_well) ** 2)
     grains *= np.sqrt(variance, out=variance)

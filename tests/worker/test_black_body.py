@@ -15,7 +15,8 @@ _XYZ_OF_REC709 = np.array(
 def chromaticity(colour: NDArray[np.float64]) -> NDArray[np.float64]:
     """CIE x and y."""
     tristimulus = _XYZ_OF_REC709 @ colour
-    return tristimulus[:2] / tristimulus.sum()
+    found: NDArray[np.float64] = tristimulus[:2] / tristimulus.sum()
+    return found
 
 
 @pytest.mark.parametrize(

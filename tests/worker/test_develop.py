@@ -40,7 +40,8 @@ def even(value: float, size: int = 64) -> Light:
 
 def varied(size: int = 64, seed: int = 0) -> Light:
     """Light of all levels over four stops and of all colours, the same at any exposure."""
-    return np.exp2(np.random.default_rng(seed).uniform(-3, 1, (size, size, 3))).astype(np.float32)
+    light: Light = np.exp2(np.random.default_rng(seed).uniform(-3, 1, (size, size, 3))).astype(np.float32)
+    return light
 
 
 def test_settings_that_do_nothing_give_plain_srgb() -> None:

@@ -25,17 +25,20 @@ BLACK = GreyWorld(radiance=0.0, temperature_k=6500.0)
 RESOLUTION = 32
 
 
+LAMP = StudioLamp(
+    bearing_deg=30.0,
+    elevation_deg=90.0,
+    distance_m=2.0,
+    irradiance_w_m2=math.pi / 2,
+    size_m=0.2,
+    temperature_k=6500.0,
+)
+"""Above the floor, which it gives a radiance of a half."""
+
+
 def lamp(**changes: float) -> StudioLamp:
-    """A lamp above the floor that gives it a radiance of a half."""
-    given = {
-        "bearing_deg": 30.0,
-        "elevation_deg": 90.0,
-        "distance_m": 2.0,
-        "irradiance_w_m2": math.pi / 2,
-        "size_m": 0.2,
-        "temperature_k": 6500.0,
-    }
-    return StudioLamp(**{**given, **changes})
+    """Like that but for some changes."""
+    return LAMP.model_copy(update=changes)
 
 
 @pytest.fixture(autouse=True)
