@@ -7,7 +7,7 @@ SECONDS_EACH ?= 30
 WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup bench-queue masks soak stress flower template clean fuzz audit chaos
+.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup bench-queue bench-pictures bench-training masks soak stress flower template clean fuzz audit chaos
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -50,6 +50,15 @@ bench: setup ## what an image costs, beside the published method; writes bench/w
 bench-farm: setup ## images an hour of farm run by workers and threads; writes bench/farm.json and .png
 	$(BIN)/farm assets build
 	$(BIN)/python -m worker.bench farm --out bench
+
+bench-pictures: setup ## light, colour, cables and clutter of each style; writes bench/pictures.json, .png and sheets
+	$(BIN)/farm assets build
+	$(BIN)/python -m worker.bench pictures --out bench
+
+bench-training: setup ## a network trained on each style and tested on both; writes bench/training.json and .png
+	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[train]'
+	$(BIN)/farm assets build
+	$(BIN)/python -m worker.bench training --out bench
 
 masks: setup ## masks against Cycles renders of 1,024 samples; writes bench/masks.json
 	$(BIN)/farm assets build

@@ -38,6 +38,7 @@ _NODES: Final = (
     ("worlds", names.WORLD, names.WORLD_BRIGHTNESS, "MIX_SHADER"),
     ("worlds", names.WORLD, names.WORLD_MAPPING, "MAPPING"),
     ("worlds", names.WORLD, names.WORLD_IMAGE, "TEX_ENVIRONMENT"),
+    ("worlds", names.WORLD, names.WORLD_GREY, "BACKGROUND"),
 )
 
 

@@ -19,7 +19,7 @@ _LINKS: Final = (
     ("plain", "Background", names.WORLD_BRIGHTNESS, 1),
     ("doubled", "Shader", names.WORLD_BRIGHTNESS, 2),
     (names.WORLD_BRIGHTNESS, "Shader", names.WORLD_SWITCH, 1),
-    ("grey", "Background", names.WORLD_SWITCH, 2),
+    (names.WORLD_GREY, "Background", names.WORLD_SWITCH, 2),
     (names.WORLD_SWITCH, "Shader", "output", "Surface"),
 )
 """From which node's output to which node's input."""
@@ -38,7 +38,7 @@ def add_world(scene: Any) -> None:
     add_node(tree, "ShaderNodeBackground", "plain", (-600, 0))
     add_node(tree, "ShaderNodeAddShader", "doubled", (-400, -150))
     brightness = add_node(tree, "ShaderNodeMixShader", names.WORLD_BRIGHTNESS, (-200, 0))
-    grey = add_node(tree, "ShaderNodeBackground", "grey", (-200, -250))
+    grey = add_node(tree, "ShaderNodeBackground", names.WORLD_GREY, (-200, -250))
     switch = add_node(tree, "ShaderNodeMixShader", names.WORLD_SWITCH, (0, 0))
     add_node(tree, "ShaderNodeOutputWorld", "output", (200, 0))
     grey.inputs["Color"].default_value = (GREY, GREY, GREY, 1.0)

@@ -1,21 +1,28 @@
-"""The surfaces and HDRIs of this machine, as a dataset's header names them."""
+"""The surfaces, HDRIs and photographs of this machine, as a dataset's header names them."""
 
 from collections.abc import Sequence
 from pathlib import Path
 
+from assets.environments import ENVIRONMENTS
 from assets.hdris import registry, scan_hdris
-from assets.surfaces.catalogue import SURFACES
+from assets.plates import scan_plates
+from assets.surfaces.catalogue import FLOORS, LIGHT, SURFACES
 from assets.texture_names import TextureRole
 from assets.textures import TextureSet, scan_textures
-from farm.header import BuiltinSurfaceRef, FileRef, FolderSurfaceRef, HdriRef
+from farm.header import BuiltinSurfaceRef, FileRef, FolderSurfaceRef, HdriRef, PlateRef
+from farm.styles import Style
 
 
 class InstalledAssets:
     """Implements `farm.catalogue.AssetSource` over the `assets` package."""
 
-    def builtin_surfaces(self) -> Sequence[BuiltinSurfaceRef]:
+    def builtin_surfaces(self, style: Style) -> Sequence[BuiltinSurfaceRef]:
         """See `AssetSource.builtin_surfaces`."""
-        return [BuiltinSurfaceRef(name=recipe.name, recipe_version=recipe.version) for recipe in SURFACES.values()]
+        recipes = FLOORS if style is Style.PUBLISHED else SURFACES
+        return [
+            BuiltinSurfaceRef(name=recipe.name, recipe_version=recipe.version, light=recipe.name in LIGHT)
+            for recipe in recipes.values()
+        ]
 
     def surfaces_in(self, folder: Path) -> Sequence[FolderSurfaceRef]:
         """See `AssetSource.surfaces_in`."""
@@ -26,6 +33,13 @@ class InstalledAssets:
         return [
             HdriRef(name=hdri.name, path=None, sha256=hdri.sha256, dark=hdri.dark, backdrop=hdri.backdrop)
             for hdri in registry()
+        ]
+
+    def environments(self) -> Sequence[HdriRef]:
+        """See `AssetSource.environments`. Told by the registry, as each machine renders its own."""
+        return [
+            HdriRef(name=recipe.name, path=None, dark=False, recipe_version=recipe.version)
+            for recipe in ENVIRONMENTS.values()
         ]
 
     def hdris_in(self, folder: Path) -> Sequence[HdriRef]:
@@ -39,6 +53,13 @@ class InstalledAssets:
                 backdrop=hdri.backdrop,
             )
             for hdri in scan_hdris(folder)
+        ]
+
+    def plates_in(self, folder: Path) -> Sequence[PlateRef]:
+        """See `AssetSource.plates_in`."""
+        return [
+            PlateRef(name=plate.name, path=str(plate.path.resolve()), sha256=plate.sha256)
+            for plate in scan_plates(folder)
         ]
 
 

@@ -10,9 +10,10 @@ from typing import Protocol
 
 from farm import __version__
 from farm.errors import AssetError, SpecError, TemplateError
-from farm.header import DatasetHeader, HdriRef, SurfaceRef, TemplateRef
+from farm.header import DatasetHeader, HdriRef, PlateRef, SurfaceRef, TemplateRef
 from farm.quality import settings_for
 from farm.spec import DatasetSpec, Engine
+from farm.styles import Style
 
 # A .blend file is plain, or compressed by Zstandard or (older ones) gzip.
 _BLEND_STARTS = (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b")
@@ -26,8 +27,10 @@ class Inputs:
         template: None for the one that comes with the farm.
         textures: folders of PBR textures.
         hdris: folders of .hdr and .exr files.
+        backgrounds: folders of photographs.
         builtin_textures: whether our own surfaces take part.
         builtin_hdris: whether Blender's own HDRIs take part.
+        environments: whether our own environments take part; the published style has none.
     """
 
     template: Path | None = None
@@ -35,13 +38,15 @@ class Inputs:
     hdris: tuple[Path, ...] = ()
     builtin_textures: bool = True
     builtin_hdris: bool = True
+    backgrounds: tuple[Path, ...] = ()
+    environments: bool = True
 
 
 class AssetSource(Protocol):
     """Where surfaces and HDRIs come from. Each method may raise AssetError, naming the file."""
 
-    def builtin_surfaces(self) -> Sequence[SurfaceRef]:
-        """Our own surfaces."""
+    def builtin_surfaces(self, style: Style) -> Sequence[SurfaceRef]:
+        """Our own surfaces that a style shows."""
         ...
 
     def surfaces_in(self, folder: Path) -> Sequence[SurfaceRef]:
@@ -52,8 +57,16 @@ class AssetSource(Protocol):
         """Blender's own HDRIs."""
         ...
 
+    def environments(self) -> Sequence[HdriRef]:
+        """Our own environments."""
+        ...
+
     def hdris_in(self, folder: Path) -> Sequence[HdriRef]:
         """The HDRIs of a folder."""
+        ...
+
+    def plates_in(self, folder: Path) -> Sequence[PlateRef]:
+        """The photographs of a folder."""
         ...
 
 
@@ -61,18 +74,22 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
     """Resolve the inputs; nothing is written.
 
     Raises:
-        AssetError: if a texture or HDRI is unreadable, two have one name, or none is left.
+        AssetError: if a texture, HDRI or photograph is unreadable, two have one name, or no surface or HDRI is left.
         TemplateError: if the template is not readable or no .blend file.
         SpecError: if the description names an HDRI that is not there.
     """
-    surfaces = list(assets.builtin_surfaces()) if inputs.builtin_textures else []
+    surfaces = list(assets.builtin_surfaces(spec.style)) if inputs.builtin_textures else []
     for folder in inputs.textures:
         surfaces += assets.surfaces_in(folder)
     hdris = list(assets.builtin_hdris()) if inputs.builtin_hdris else []
+    if inputs.environments and spec.style is not Style.PUBLISHED:
+        hdris += assets.environments()
     for folder in inputs.hdris:
         hdris += assets.hdris_in(folder)
+    plates = [plate for folder in inputs.backgrounds for plate in assets.plates_in(folder)]
     _check_names("surface", "--textures", [surface.name for surface in surfaces])
     _check_names("HDRI", "--hdris", [hdri.name for hdri in hdris])
+    _check_unique("photograph", [plate.name for plate in plates], "rename one of the files")
     wanted = spec.close_distributed_hdri
     if wanted is not None and wanted not in {hdri.name for hdri in hdris}:
         names = ", ".join(hdri.name for hdri in hdris)
@@ -83,6 +100,7 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
         template=template_ref(inputs.template),
         surfaces=tuple(surfaces),
         hdris=tuple(hdris),
+        plates=tuple(plates),
         rendering={category: settings_for(spec.quality, category) for category in spec.quotas}
         if spec.engine is Engine.CYCLES
         else {},
@@ -92,11 +110,13 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
 def _check_names(kind: str, flag: str, names: list[str]) -> None:
     if not names:
         raise AssetError(f"no {kind} is left; name a folder with {flag}, or leave the built-in ones in")
-    name, count = Counter(names).most_common(1)[0]
-    if count > 1:
-        raise AssetError(
-            f"{count} {kind}s are called '{name}'; rename the files of one, or leave the built-in ones out"
-        )
+    _check_unique(kind, names, "rename the files of one, or leave the built-in ones out")
+
+
+def _check_unique(kind: str, names: list[str], advice: str) -> None:
+    for name, count in Counter(names).most_common(1):
+        if count > 1:
+            raise AssetError(f"{count} {kind}s are called '{name}'; {advice}")
 
 
 def template_ref(template: Path | None) -> TemplateRef:

@@ -13,6 +13,9 @@ from farm.spec import DatasetSpec, parse_spec, read_toml
 _MOST_DIGITS = 12
 """More than any quota has; Python refuses to read thousands."""
 
+_FOLDERS = ("textures", "hdris", "backgrounds")
+"""Keys that list folders."""
+
 
 @dataclass(frozen=True, slots=True)
 class Description:
@@ -71,14 +74,12 @@ def _read_inputs(data: Mapping[str, object], folder: Path, source: str) -> dict[
     for key, value in data.items():
         if key == "template" and isinstance(value, str):
             inputs[key] = folder / value
-        elif (
-            key in {"textures", "hdris"} and isinstance(value, list) and all(isinstance(entry, str) for entry in value)
-        ):
+        elif key in _FOLDERS and isinstance(value, list) and all(isinstance(entry, str) for entry in value):
             inputs[key] = tuple(folder / entry for entry in value)
-        elif key in {"builtin_textures", "builtin_hdris"} and isinstance(value, bool):
+        elif key in {"builtin_textures", "builtin_hdris", "environments"} and isinstance(value, bool):
             inputs[key] = value
         else:
-            expected = {"template": "a path", "textures": "a list of paths", "hdris": "a list of paths"}
+            expected = {"template": "a path", **dict.fromkeys(_FOLDERS, "a list of paths")}
             raise SpecError(
                 f"{source}: {key}: expected {expected.get(key, 'true or false')}, not {type(value).__name__}"
             )

@@ -3,10 +3,10 @@
 import functools
 import hashlib
 from collections.abc import Mapping
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 import pydantic_core
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from farm.category import Category
 from farm.model import Model, Sha256
@@ -29,26 +29,50 @@ class TemplateRef(Model):
 
 
 class HdriRef(Model):
-    """An HDRI; `path` is None for one from Blender's own files.
+    """An HDRI; `path` is None for one from Blender's own files, and for an environment of our own.
 
     Attributes:
+        sha256: of the file; None for an environment, of which each machine renders its own bytes.
         dark: its brightness is drawn.
         backdrop: it can be seen behind cables; others only light them.
+        recipe_version: of an environment; None for files.
     """
 
     name: str
     path: str | None
-    sha256: Sha256
+    sha256: Sha256 | None = None
     dark: bool
     backdrop: bool = True
+    recipe_version: Annotated[int, Field(ge=1)] | None = None
+
+    @model_validator(mode="after")
+    def _of_one_kind(self) -> Self:
+        if (self.sha256 is None) == (self.recipe_version is None):
+            raise ValueError(f"the HDRI '{self.name}' needs a checksum or a recipe's version, and not both")
+        if self.recipe_version is not None and self.path is not None:
+            raise ValueError(f"the HDRI '{self.name}' is an environment, which has no path")
+        return self
+
+
+class PlateRef(Model):
+    """A photograph of the user's own that may stand behind far cables."""
+
+    name: str
+    path: str
+    sha256: Sha256
 
 
 class BuiltinSurfaceRef(Model):
-    """A floor surface of our own recipes, baked on each machine from a fixed seed."""
+    """A floor surface of our own recipes, baked on each machine from a fixed seed.
+
+    Attributes:
+        light: it is as bright as a table or a bench; a style may draw more of these.
+    """
 
     kind: Literal["builtin"] = "builtin"
     name: str
     recipe_version: int
+    light: bool = False
 
 
 class FolderSurfaceRef(Model):
@@ -66,6 +90,7 @@ class FolderSurfaceRef(Model):
     size_m: Annotated[float, Field(gt=0)] = 0.4
     flip_green: bool = False
     gloss: bool = False
+    light: bool = False
 
 
 SurfaceRef = Annotated[BuiltinSurfaceRef | FolderSurfaceRef, Field(discriminator="kind")]
@@ -85,6 +110,7 @@ class DatasetHeader(Model):
     template: TemplateRef
     surfaces: Annotated[tuple[SurfaceRef, ...], Field(min_length=1)]
     hdris: Annotated[tuple[HdriRef, ...], Field(min_length=1)]
+    plates: tuple[PlateRef, ...] = ()
     rendering: Mapping[Category, ChosenSettings] = {}
 
     @functools.cached_property  # it takes part in every message

@@ -18,6 +18,7 @@ from farm.range_types import (
     PositiveRange,
     Range,
     TemperatureRange,
+    ZoomRange,
 )
 
 
@@ -35,10 +36,11 @@ class LampRanges(Model):
 
 
 class WorldRanges(Model):
-    """The HDRI's turn, its brightness when it is a dark one, and its tilt over a floor."""
+    """The HDRI's turn, its brightness if it is a dark one, its tilt over a floor, and whether it is the same there."""
 
     rotation_deg: Range = (-180.0, 180.0)
     dark_brightness: FractionRange = (0.10, 0.60)
+    one_over_floors: bool = True
     close_tilts_deg: Annotated[tuple[float, ...], Field(min_length=1)] = (0.0, 90.0)
 
 
@@ -78,5 +80,5 @@ class PlateRanges(Model):
     """
 
     share: Fraction = 0.5
-    zoom: FractionRange = (0.4, 1.0)
+    zoom: ZoomRange = (0.4, 1.0)
     blur_px: NotNegativeRange = (0.0, 8.0)

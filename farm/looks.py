@@ -131,6 +131,11 @@ class Bundle(Model):
     ties: tuple[Tie, ...]
 
 
+def envelope_ratio(strands: int) -> float:
+    """Diameter of the smallest circle around equal circles over theirs, for 2 to 7 of them (Graham 1968)."""
+    return (2.0, 1.0 + 2.0 / 3.0**0.5, 1.0 + 2.0**0.5, 1.0 + (2.0 + 2.0 / 5.0**0.5) ** 0.5, 3.0, 3.0)[strands - 2]
+
+
 Look = Annotated[CableMaterial | Skin | Bundle, Field(discriminator="kind")]
 
 

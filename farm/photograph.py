@@ -10,14 +10,14 @@ from farm.model import Model
 
 
 class Camera(Model):
-    """A camera above the origin, at which it looks. In focus is what is as far as the origin, but for `focus_offset_m`.
+    """A camera that looks at the origin. In focus is what is as far along its view, but for `focus_offset_m`.
 
     Attributes:
-        height_m: above the floor.
+        height_m: distance from the point of the floor at which it looks; its height where it is not tilted.
         focal_length_mm: on a sensor of 36 mm.
         tilt_deg: between its view and straight down.
         tilt_bearing_deg: to which side it stands, from the x axis.
-        roll_deg: about its view.
+        roll_deg: about its view, counter-clockwise seen from above.
         focus_offset_m: how much nearer than the origin the focus is.
     """
 
@@ -30,7 +30,7 @@ class Camera(Model):
     focus_offset_m: float = 0.0
     distortion: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
     """Radial: how much farther out a corner of the picture is than a lens without any has it, before the picture is
-    enlarged to be filled; negative is a barrel."""
+    scaled to be just filled; negative is a barrel."""
 
 
 class Development(Model):
@@ -41,7 +41,7 @@ class Development(Model):
         exposure_ev: the exposure's error, in stops.
         contrast: slope of the tone curve at mid-grey over that of the plain sRGB curve.
         saturation: 1 leaves colours as they are.
-        white_balance: error, as gains of red and blue.
+        white_balance: error of the camera's own, as gains of red and blue.
         vignetting: share of the light that is lost in the corners.
         chromatic_aberration: how much larger the red picture is than the green, and the blue smaller, as a share.
         full_well: electrons of a white pixel: fewer make more shot noise; 0 is no noise at all.

@@ -38,6 +38,7 @@ Heights = Annotated[float, Field(ge=0.02, le=1.5)]
 Count = Annotated[int, Field(ge=0, le=20)]
 Temperature = Annotated[float, Field(ge=1000, le=20_000)]
 Elevation = Annotated[float, Field(gt=0, le=90)]
+Zoom = Annotated[float, Field(ge=0.3, le=1)]
 JpegQuality = Annotated[int, Field(ge=1, le=100)]
 
 Range = Annotated[tuple[float, float], AfterValidator(in_order)]
@@ -57,3 +58,4 @@ CableLengthRange = Annotated[tuple[CableLength, CableLength], AfterValidator(in_
 BendRange = Annotated[tuple[Bend, Bend], AfterValidator(in_order)]
 TemperatureRange = Annotated[tuple[Temperature, Temperature], AfterValidator(in_order)]
 ElevationRange = Annotated[tuple[Elevation, Elevation], AfterValidator(in_order)]
+ZoomRange = Annotated[tuple[Zoom, Zoom], AfterValidator(in_order)]

@@ -3,7 +3,7 @@
 Source: Malvido Fresnillo et al., "Generation of realistic synthetic cable images to train deep learning
 segmentation models", Machine Vision and Applications 35(4), 2024, doi 10.1007/s00138-024-01562-y.
 
-Lengths are metres of the picture, in which cables are true to size (2 mm thick); angles are degrees. The wind's
+Lengths are metres of the picture, in which cables are true to size (2.3 mm thick); angles are degrees. The wind's
 numbers are those of a Blender wind field in the fall's own units (ARCHITECTURE.md, "Two scales"). Where the
 publication gives no figure (cable length, drop height, spacing, f-number) the default is ours and marked so.
 """
@@ -122,6 +122,8 @@ class PlacementRanges(Model):
 class CableRanges(Model):
     """How many cables, how thick (ours: one value), how long (ours), how heavy and stiff, and their surface.
 
+    Of `count_draws` even draws of the count the largest holds: with two, eight cables at most are six on average.
+    Far cables have a length of their own: over a floor that is not seen, one that ends in the picture seems to float.
     Diameters are drawn evenly in their logarithm; one wider than `widest_share` of the picture is made so thin.
 
     `vertex_mass` is the published setting of the cloth. Young's modulus (drawn evenly in its logarithm), density and
@@ -130,9 +132,11 @@ class CableRanges(Model):
     """
 
     count: CableCountRange = (1, 8)
-    diameter_m: DiameterRange = (0.002, 0.002)
+    count_draws: Annotated[int, Field(ge=1, le=10)] = 2
+    diameter_m: DiameterRange = (0.0023, 0.0023)
     widest_share: Fraction = 1.0
     length_m: CableLengthRange = (0.40, 0.40)
+    far_length_m: CableLengthRange = (0.40, 0.40)
     vertex_mass: PositiveRange = (0.3, 0.5)
     youngs_modulus_pa: ModulusRange = (1e6, 3e7)
     density_kg_m3: DensityRange = (1200.0, 2500.0)

@@ -127,7 +127,7 @@ class Plate(Model):
     name: str
     x: Annotated[float, Field(ge=0, le=1)]
     y: Annotated[float, Field(ge=0, le=1)]
-    zoom: Annotated[float, Field(ge=0.1, le=1)]
+    zoom: Annotated[float, Field(ge=0.3, le=1)]
     mirror: bool
     blur_px: Annotated[float, Field(ge=0)]
 

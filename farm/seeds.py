@@ -26,7 +26,8 @@ class Stage(IntEnum):
     WEAR = 9
     CLUTTER = 10
     DEVELOPMENT = 11
-    ENDS = 12
+    LOOK = 12
+    PLATE = 13
 
 
 def seed_sequence(

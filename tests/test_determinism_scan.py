@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-STAGES = ["randomize", "simulate", "check", "label", "realize", "render", "studio", "shapes", "gates", "tube"]
+STAGES = ["randomize", "simulate", "check", "label", "realize", "render", "studio", "shapes", "gates", "tube", "plate"]
 FILES = [
     *(ROOT / "worker" / f"{stage}.py" for stage in STAGES),
     *(file for part in ("rod", "cloth", "physics") for file in sorted((ROOT / "worker" / part).rglob("*.py"))),

@@ -7,15 +7,14 @@ import bpy
 import numpy as np
 
 from blend import names
-from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from farm.looks import CableMaterial, Rgb
 from worker.images import ImageShelf
 from worker.piece import Convex, Piece, Plain, Tubular
 from worker.plain import draw_plain
 from worker.shapes import parts_near
-from worker.silhouette import View
 from worker.skin import SkinImages, draw_skin
 from worker.tube import Tube, loft, sweep
+from worker.view import View
 
 DIRT_EDGE = 0.05
 """Distance of the two stops of the dirt ramp: how soft the edge of a spot is."""
@@ -70,7 +69,7 @@ def _meshes(piece: Piece, sides: int, view: View | None) -> list[tuple[int, Tube
     if view is None:
         parts = [slice(0, points)]
     else:
-        half_m = 0.5 * view.height_m * SENSOR_MM / FOCAL_LENGTH_MM
+        half_m = float(np.abs(view.floor_corners_m()[:, :2]).max())
         widest_m = 2 * float(np.max(piece.radius_m))
         parts = parts_near(curve, half_m + SHADOW_SLOPE * float(curve[:, 2].max()) + widest_m)
     return [(part.start, _tube(piece, part, sides)) for part in parts]

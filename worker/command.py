@@ -11,6 +11,7 @@ from typing import Protocol
 
 from pydantic import ValidationError
 
+from assets.environments import DEFAULT_WIDTH
 from farm.errors import EnvironmentMissingError, FarmError, MessageError
 from farm.header import DatasetHeader
 from farm.job import Job
@@ -66,6 +67,11 @@ def _parser() -> argparse.ArgumentParser:
 
     commands.add_parser("device", parents=[render], help="load Blender and find the device")
 
+    rooms = commands.add_parser("environments", parents=[render], help="render the environments that a folder lacks")
+    rooms.add_argument("--out", type=Path, required=True, help="folder of the baked surfaces; they go below it")
+    rooms.add_argument("--pixels", type=int, default=DEFAULT_WIDTH, help="width of the panoramas")
+    rooms.add_argument("--name", action="append", help="only this one; repeat it")
+
     one = commands.add_parser("preview", parents=[render], help="one picture; the dataset's header comes by stdin")
     one.add_argument("--job", required=True)
     one.add_argument("--out", type=Path, required=True)
@@ -90,6 +96,8 @@ def main(arguments: list[str], open_studio: OpenStudio = _open_blender) -> int:
             return _check(options, open_maker)
         if options.command == "device":
             return _device(options)
+        if options.command == "environments":
+            return _environments(options)
         if options.command == "preview":
             return _preview(options, open_maker)
         settings = WorkerSettings(
@@ -127,6 +135,22 @@ def _device(options: argparse.Namespace) -> int:
     return 0
 
 
+def _environments(options: argparse.Namespace) -> int:
+    """Render them; the name of each goes to standard output as soon as it is on disk, for the farm to count."""
+    names = None if options.name is None else tuple(options.name)
+    with _output_in(options.logs / "environments.log") as screen:
+        try:
+            # It loads Blender, as above.
+            from worker.environments import render_environments  # noqa: PLC0415
+        except ImportError as error:
+            raise EnvironmentMissingError(f"Blender does not load: {error}; try farm doctor") from error
+        for name in render_environments(
+            options.out, pixels=options.pixels, names=names, device=options.device, threads=options.threads
+        ):
+            os.write(screen, f"{name}\n".encode())
+    return 0
+
+
 def _preview(options: argparse.Namespace, open_maker: MakerFactory) -> int:
     header, job = _read_header(), Job.from_id(options.job)
     with _output_in(options.logs / "preview.log"):
@@ -148,13 +172,15 @@ def _read_header() -> DatasetHeader:
 
 
 @contextmanager
-def _output_in(log_file: Path) -> Iterator[None]:
+def _output_in(log_file: Path) -> Iterator[int]:
+    """Send all output to a file; gives the descriptor of what was standard output."""
     prepare_log(log_file.parent, log_file.name)
-    errors = os.dup(2)
+    errors, screen = os.dup(2), os.dup(1)
     send_output_to(log_file)
     try:
-        yield
+        yield screen
     finally:
+        os.close(screen)
         # From here on the terminal is wanted again, for an error's line.
         sys.stderr.flush()
         os.dup2(errors, 2)

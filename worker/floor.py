@@ -6,16 +6,21 @@ import bpy
 import numpy as np
 
 from blend import names
-from farm.scene import Floor
+from farm.scene import Floor, Wear
 from worker.images import ImageShelf, TextureFile
 from worker.library import SurfaceFiles
-from worker.silhouette import View
-from worker.texture_window import TextureWindow, tile_coordinates, window_on
+from worker.marks import marks_on, sized
+from worker.texture_window import Texels, TextureWindow, texels_to_floor, tile_coordinates, window_on
+from worker.view import View
+from worker.wear import turned_over, worn_colour, worn_metallic, worn_roughness
 
 UNSEEN_FLOOR = 0.4
 """Albedo and roughness of a floor that only throws light back at the cables."""
 
 UNKNOWN_ROUGHNESS = 0.6
+
+MOST_WORN_TILES = 4.0
+"""Of a texture along the edge of a window that is worn: marks are not to repeat with the tiles."""
 
 _UNTEXTURED = Floor(texture="", offset_x=0.0, offset_y=0.0, rotation_deg=0.0, scale=1.0)
 
@@ -36,6 +41,9 @@ def set_unseen_floor(shelf: ImageShelf) -> None:
 def set_floor(floor: Floor, files: SurfaceFiles, shelf: ImageShelf, view: View | None) -> None:
     """Show a surface.
 
+    What a floor has been through is drawn on the texels that are seen. A surface whose colour is in floating point
+    stays as it is.
+
     Args:
         floor: how its texture lies.
         files: its maps.
@@ -54,26 +62,63 @@ def set_floor(floor: Floor, files: SurfaceFiles, shelf: ImageShelf, view: View |
         names.FLOOR_METALLIC: None if isinstance(files.metallic, float) else TextureFile(files.metallic),
     }
     given = {node: file for node, file in maps.items() if file is not None}
-    texels = {node: shelf.texels(file) for node, file in given.items()} if view else {}
+    is_worn = floor.wear is not None
+    texels = {node: shelf.texels(file, reduced=is_worn) for node, file in given.items()} if view else {}
     decoded = {node: pixels for node, pixels in texels.items() if pixels is not None}
     window = TextureWindow.whole()
     if view is not None and len(decoded) == len(given):
         sizes = tuple((pixels.shape[0], pixels.shape[1]) for pixels in decoded.values())
-        window = window_on(floor, files.size_m, view, sizes)
+        window = window_on(floor, files.size_m, view, sizes, MOST_WORN_TILES if is_worn else 1.0)
+    metallic = files.metallic if isinstance(files.metallic, float) else 0.0
     plain = {
         names.FLOOR_ROUGHNESS: shelf.constant(UNKNOWN_ROUGHNESS),
         names.FLOOR_NORMAL: shelf.flat_normal(),
-        names.FLOOR_METALLIC: shelf.constant(files.metallic if isinstance(files.metallic, float) else 0.0),
+        names.FLOOR_METALLIC: shelf.constant(metallic),
     }
+    worn: dict[str, Texels] = {}
+    if floor.wear is not None and names.FLOOR_COLOUR in decoded:
+        worn = _worn(floor, floor.wear, files.size_m, decoded, window, metallic)
     nodes = bpy.data.materials[names.FLOOR].node_tree.nodes
     for node, file in maps.items():
-        if file is None:
+        if node in worn:
+            nodes[node].image = shelf.drawn(f"worn {node}", worn[node], colour=node == names.FLOOR_COLOUR)
+        elif file is None:
             nodes[node].image = plain[node]
         elif node in decoded:
             nodes[node].image = shelf.window(file, decoded[node], window)
         else:
             nodes[node].image = shelf.whole(file)
     _place_texture(floor_object.data, floor, files.size_m, window)
+
+
+def _worn(
+    floor: Floor, wear: Wear, size_m: float, maps: dict[str, Texels], window: TextureWindow, metallic: float
+) -> dict[str, Texels]:
+    """The maps' windows after what the floor has been through; metal and roughness of their own where marks need them.
+
+    Args:
+        floor: how its texture lies.
+        wear: of it.
+        size_m: edge of a tile at scale 1.
+        maps: the tile's texels, by the name of their node.
+        window: of them that is seen.
+        metallic: of the surface where there is no map of it.
+    """
+    if wear.mirrored:
+        maps = {node: turned_over(pixels, normal=node == names.FLOOR_NORMAL) for node, pixels in maps.items()}
+    seen = {node: window.cut(pixels, colour=node == names.FLOOR_COLOUR) for node, pixels in maps.items()}
+    rows, columns = seen[names.FLOOR_COLOUR].shape[:2]
+    marks = marks_on(wear, rows, columns, texels_to_floor(window, rows, columns, floor, size_m))
+    worn = {**seen, names.FLOOR_COLOUR: worn_colour(seen[names.FLOOR_COLOUR], wear, marks)}
+    if marks.any:
+        rough = seen.get(names.FLOOR_ROUGHNESS, np.full((rows, columns), round(255 * UNKNOWN_ROUGHNESS), np.uint8))
+        worn[names.FLOOR_ROUGHNESS] = worn_roughness(rough, sized(marks, *rough.shape[:2]))
+        metal = seen.get(names.FLOOR_METALLIC)
+        if metal is None and metallic > 0:
+            metal = np.full((rows, columns), round(255 * metallic), np.uint8)
+        if metal is not None:
+            worn[names.FLOOR_METALLIC] = worn_metallic(metal, sized(marks, *metal.shape[:2]))
+    return worn
 
 
 def _place_texture(mesh: Any, floor: Floor, size_m: float, window: TextureWindow) -> None:

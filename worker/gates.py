@@ -99,17 +99,22 @@ def measure(shapes: CableShapes) -> SettleFigures:
     one went through the other or, close to an end, that it may have slipped round it. Whether a cable went through
     itself can't be seen from where it rests: nothing says which strand was to be on top. See `worker.physics.passes`.
 
+    Sticks count as cables do where rods cut, carry or cross each other or the floor; lengths, speeds and air are the
+    cables' own.
+
     Args:
         shapes: finite; see `stress_fault` where they may not be.
     """
-    spans = cut(shapes.nodes_m)
-    near = spans.near_in_plan(search_reach_m(shapes.radii_m))
-    contacts = find_contacts(spans, near, shapes.radii_m)
+    spans = cut((*shapes.nodes_m, *shapes.sticks_m))
+    radii = np.concatenate([shapes.radii_m, shapes.stick_radii_m])
+    near = spans.near_in_plan(search_reach_m(radii))
+    contacts = find_contacts(spans, near, radii)
     crossings = find_crossings(spans, near)
-    flipped, near_end = crossings.flipped(shapes.start_order), crossings.near_end(shapes.radii_m)
-    radius = shapes.radii_m[spans.cable_of_sample]
-    floor_depth = np.maximum(1 - spans.samples_m[:, 2] / radius, 0)
-    gaps = np.minimum(spans.lowest_m - shapes.radii_m, contacts.clearance_m) / shapes.radii_m
+    flipped = crossings.flipped(shapes.start_order)
+    # No cable slips round the end of a stick, which lies below it from the start.
+    near_end = crossings.near_end(radii) & (np.maximum(crossings.one, crossings.other) < len(shapes.radii_m))
+    floor_depth = np.maximum(1 - spans.samples_m[:, 2] / radii[spans.cable_of_sample], 0)
+    gaps = (np.minimum(spans.lowest_m - radii, contacts.clearance_m) / radii)[: len(shapes.radii_m)]
     speeds = np.concatenate(shapes.speeds_m_s) * 1000
     return SettleFigures(
         fall_s=shapes.fall_s,

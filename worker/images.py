@@ -46,7 +46,7 @@ class ImageShelf:
 
     def __init__(self, capacity_bytes: int = 2**30) -> None:
         self._capacity_bytes = capacity_bytes
-        self._held: OrderedDict[tuple[str, object], tuple[Any, int]] = OrderedDict()
+        self._held: OrderedDict[tuple[object, ...], tuple[Any, int]] = OrderedDict()
         self._constants: dict[str, Any] = {}
         self._of_picture: list[Any] = []
         self._scratch = np.empty(0, np.float32)
@@ -88,8 +88,12 @@ class ImageShelf:
         light: NDArray[np.float32] = self._hold((str(path), "radiance"), read)
         return light
 
-    def texels(self, file: TextureFile) -> Texels | None:
+    def texels(self, file: TextureFile, *, reduced: bool = False) -> Texels | None:
         """A map's texels, (H, W) or (H, W, 3) with red first, the top row first; don't write to them.
+
+        Args:
+            file: of the map.
+            reduced: take what has 16 bits, or alpha, without them.
 
         Returns:
             None if the file is none of grey or RGB with 8 bits a channel.
@@ -99,7 +103,7 @@ class ImageShelf:
         """
         if file.path.suffix.lower() in _FLOAT_SUFFIXES:
             return None
-        texels: Texels | None = self._hold((str(file.path), file), lambda: _decode(file))
+        texels: Texels | None = self._hold((str(file.path), file, reduced), lambda: _decode(file, reduced=reduced))
         return texels
 
     def whole(self, file: TextureFile) -> Any:
@@ -127,6 +131,10 @@ class ImageShelf:
         """A part of a map as a Blender image, for this picture alone."""
         part = window.cut(texels, colour=file.colour)
         return self._new(file.path.name, part, colour=file.colour)
+
+    def drawn(self, name: str, texels: Texels, *, colour: bool) -> Any:
+        """Texels (H, W) or (H, W, 3) as a Blender image, for this picture alone."""
+        return self._new(name, texels, colour=colour)
 
     def light(self, name: str, radiance: NDArray[np.float32]) -> Any:
         """A panorama (H, W, 3) of linear light, the top row first, as a Blender image for this picture alone."""
@@ -172,7 +180,7 @@ class ImageShelf:
             self._constants[name] = image
         return self._constants[name]
 
-    def _hold(self, key: tuple[str, object], read: Any) -> Any:
+    def _hold(self, key: tuple[object, ...], read: Any) -> Any:
         if key in self._held:
             self._held.move_to_end(key)
             return self._held[key][0]
@@ -204,10 +212,14 @@ def _load(path: Path) -> Any:
     return image
 
 
-def _decode(file: TextureFile) -> tuple[Texels | None, int]:
+def _decode(file: TextureFile, *, reduced: bool) -> tuple[Texels | None, int]:
     pixels = cv2.imread(str(file.path), cv2.IMREAD_UNCHANGED)
     if pixels is None:
         raise AssetError(f"{file.path}: can't decode this image; replace the file")
+    if reduced and pixels.dtype == np.uint16:
+        pixels = (pixels >> 8).astype(np.uint8)
+    if reduced and pixels.ndim == 3 and pixels.shape[2] == 4:
+        pixels = pixels[:, :, :3]
     if pixels.dtype != np.uint8 or (pixels.ndim == 3 and pixels.shape[2] != 3):
         return None, 0
     texels = (cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB) if pixels.ndim == 3 else pixels).astype(np.uint8, copy=False)

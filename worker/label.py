@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from worker.coverage import cover
 from worker.piece import Piece
-from worker.silhouette import View, silhouettes
+from worker.silhouette import silhouettes
+from worker.view import View
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Where this machine has the surfaces and HDRIs that a dataset's header names, checked against it."""
+"""Where this machine has the surfaces, HDRIs and photographs that a dataset's header names, checked against it."""
 
 import hashlib
 from collections.abc import Mapping
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from assets.baked import BakedSurface, load_surface, surface_directory
+from assets.environments import Environment, load_environment
 from assets.files import open_regular
 from assets.hdris import Hdri, builtin_hdris
 from farm.errors import AssetError
@@ -44,8 +45,10 @@ class AssetLibrary:
         """
         self._surfaces = {surface.name: surface for surface in header.surfaces}
         self._hdris = {hdri.name: hdri for hdri in header.hdris}
+        self._plates = {plate.name: plate for plate in header.plates}
         self._baked_folder = baked_folder or surface_directory()
         self._baked: dict[str, BakedSurface] = {}
+        self._environments: dict[str, Environment] = {}
         self._builtin_hdris: Mapping[str, Hdri] | None = None
         self._checked: dict[str, Path] = {}
 
@@ -65,7 +68,9 @@ class AssetLibrary:
             AssetError: if it is not on this machine, or differs from the header's.
         """
         reference = self._hdris[name]
-        if reference.path is not None:
+        if reference.recipe_version is not None:
+            return self._environment(name, reference.recipe_version)
+        if reference.path is not None and reference.sha256 is not None:
             return self._once_checked(FileRef(path=reference.path, sha256=reference.sha256))
         if self._builtin_hdris is None:
             self._builtin_hdris = {hdri.name: hdri for hdri in builtin_hdris()}
@@ -75,6 +80,27 @@ class AssetLibrary:
                 f"the HDRI '{name}' is not among this Blender's own; install the bpy it was submitted with"
             )
         return builtin.path
+
+    def plate(self, name: str) -> Path:
+        """File of a photograph.
+
+        Raises:
+            AssetError: if it is not on this machine, or differs from the header's.
+        """
+        reference = self._plates[name]
+        return self._once_checked(FileRef(path=reference.path, sha256=reference.sha256))
+
+    def _environment(self, name: str, version: int) -> Path:
+        """One of our own, whose checksum this process reads when a scene first shows it."""
+        if name not in self._environments:
+            self._environments[name] = load_environment(self._baked_folder, name)
+        found = self._environments[name]
+        if found.record.version != version:
+            raise AssetError(
+                f"{self._baked_folder}: the environment '{name}' is of version {found.record.version}, not {version}; "
+                "run `farm assets build`"
+            )
+        return found.path
 
     def _once_checked(self, reference: FileRef) -> Path:
         """A file whose checksum this process reads once, since pictures by the thousand use it."""

@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 from worker.coverage import covered_share
 from worker.panorama import Panorama
 from worker.piece import Piece
-from worker.silhouette import View, silhouettes
+from worker.silhouette import silhouettes
+from worker.view import View
 
 _RING_PX = 0.75
-"""Between places on the lens, by how far apart the cable that is highest is seen from them: below a pixel, which is
+"""Between places on the lens, by how far apart what is most out of focus is seen from them: below a pixel, which is
 what each of them blurs it by."""
 
 _MOST_RINGS = 4
@@ -44,7 +45,7 @@ class Backdrop:
 
 
 def covered_by(pieces: Sequence[Piece], view: View, lens_radius_m: float, sides: int) -> NDArray[np.float32]:
-    """How much of each pixel cables and what is on them cover, seen through a lens in focus on the floor.
+    """How much of each pixel cables and what is on them cover, seen through a lens.
 
     It is the mean over places spread evenly over the lens, each of which sees as a pinhole does; so many of them that
     no edge shows twice.
@@ -59,16 +60,28 @@ def covered_by(pieces: Sequence[Piece], view: View, lens_radius_m: float, sides:
         (H, W), 0 to 1.
     """
     highest = max(piece.top_m for piece in pieces)
-    below_m = max(view.height_m - highest, 1e-6)  # a cable that reaches up to the camera has no picture
-    blur_px = lens_radius_m * highest / below_m * view.pixels_per_m
+    places = list(_on_disc(min(_MOST_RINGS, round(lens_radius_m * _blur_px_per_m(view, highest) / _RING_PX))))
     covered = np.zeros((view.resolution, view.resolution), np.float32)
-    places = list(_on_disc(min(_MOST_RINGS, round(blur_px / _RING_PX))))
     for x, y in places:
         through = replace(view, pinhole_m=(lens_radius_m * x, lens_radius_m * y))
         for rows, quads, _ in silhouettes(pieces, through, sides).bands(through):
             covered[rows] += covered_share(quads, rows.stop - rows.start, view.resolution)
     covered /= np.float32(len(places))
     return covered
+
+
+def _blur_px_per_m(view: View, highest_m: float) -> float:
+    """Pixels by which a point that is most out of focus moves for each metre on the lens.
+
+    Args:
+        view: the camera.
+        highest_m: of all points above the floor.
+    """
+    floor_m = view.depths_m(view.floor_corners_m())
+    # Along a line of sight depth falls as height rises. A cable that reaches up to the camera has no picture.
+    nearest_m = max(floor_m.min() * (1.0 - highest_m / view.position_m[2]), 1e-6)
+    blur = max(view.focus_m / nearest_m - 1.0, 1.0 - view.focus_m / floor_m.max())
+    return float(blur * view.focal_length_px / view.focus_m)
 
 
 def _on_disc(rings: int) -> Iterator[tuple[float, float]]:

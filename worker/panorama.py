@@ -10,8 +10,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
+from farm.lens import SENSOR_MM
 from farm.photograph import Camera
+from worker.view import View
 
 UPPER_WIDTH_PX = 512
 """Texels around the horizon of light from above: 0.7 degrees each, sharper than any reflection on floors and cables."""
@@ -51,7 +52,7 @@ def upper_world(panorama: Panorama, turn: NDArray[np.float64]) -> Panorama:
 
 
 def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, resolution: int) -> Panorama:
-    """What a camera that looks straight down sees of a panorama, out of focus as it is.
+    """What a camera sees of a panorama, out of focus as it is, before its lens distorts it.
 
     The world is infinitely far. A ray through the lens at l goes through the point in focus at distance D, so it points
     where one through the lens's middle would, less l / D: blur is a convolution with the lens's disc, exactly.
@@ -59,31 +60,32 @@ def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, reso
     Args:
         panorama: the HDRI.
         turn: (3, 3), takes a direction in the world to one in the panorama.
-        camera: its height is the distance in focus.
+        camera: it gives the direction, the angle of view and the distance in focus.
         resolution: pixels along an edge.
 
     Returns:
         (resolution, resolution, 3), the top row first.
     """
-    pixel = SENSOR_MM / FOCAL_LENGTH_MM / resolution
-    disc = _disc(lens_radius_m(camera) / camera.height_m / pixel)
-    margin = disc.shape[0] // 2
+    view = View.of(camera, resolution)
+    pixel = SENSOR_MM / camera.focal_length_mm / resolution
+    lens_disc = disc(lens_radius_m(camera) / view.focus_m / pixel)
+    margin = lens_disc.shape[0] // 2
     fine = _samples_per_pixel(pixel, panorama.shape[1])
     edge = resolution + 2 * margin
     offset = ((np.arange(edge * fine) + 0.5) / fine - edge / 2) * pixel
     towards = np.empty((edge * fine, edge * fine, 3), np.float32)
     towards[..., 0], towards[..., 1], towards[..., 2] = offset[None, :], -offset[:, None], -1.0
-    sharp = _look_up(panorama, towards @ turn.T.astype(np.float32))
+    sharp = _look_up(panorama, towards @ (turn @ view.rotation).T.astype(np.float32))
     if fine > 1:
         sharp = cv2.resize(sharp, (edge, edge), interpolation=cv2.INTER_AREA).astype(np.float32, copy=False)
-    blurred = cv2.filter2D(sharp, -1, disc)
+    blurred = cv2.filter2D(sharp, -1, lens_disc)
     seen: Panorama = blurred[margin : edge - margin, margin : edge - margin].astype(np.float32, copy=False)
     return seen
 
 
 def lens_radius_m(camera: Camera) -> float:
     """Of the lens's aperture."""
-    return 0.5e-3 * FOCAL_LENGTH_MM / camera.f_number
+    return 0.5e-3 * camera.focal_length_mm / camera.f_number
 
 
 def _samples_per_pixel(pixel: float, columns: int) -> int:
@@ -91,14 +93,14 @@ def _samples_per_pixel(pixel: float, columns: int) -> int:
     return min(8, max(1, math.ceil(pixel / (2 * math.pi / columns))))
 
 
-def _disc(radius_px: float) -> NDArray[np.float32]:
+def disc(radius_px: float) -> NDArray[np.float32]:
     """A disc of unit sum, (N, N) with N odd; the share of each pixel that it covers counts."""
     reach, fine = math.ceil(radius_px), 8
     place = (np.arange((2 * reach + 1) * fine) + 0.5) / fine - (reach + 0.5)
     inside = (place[:, None] ** 2 + place[None, :] ** 2 <= max(radius_px, 0.5) ** 2).astype(np.float32)
     share = cv2.resize(inside, (2 * reach + 1, 2 * reach + 1), interpolation=cv2.INTER_AREA)
-    disc: NDArray[np.float32] = (share / share.sum()).astype(np.float32)
-    return disc
+    weights: NDArray[np.float32] = (share / share.sum()).astype(np.float32)
+    return weights
 
 
 @lru_cache(maxsize=4)

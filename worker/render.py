@@ -11,12 +11,20 @@ from numpy.typing import NDArray
 
 from blend import names
 from farm.errors import RenderError
+from farm.photograph import Development
 from farm.rendering import CyclesSettings, Denoiser, Pattern, PictureSettings
+from farm.scene import Scene
+from worker.develop import develop
+from worker.distortion import Distortion
 from worker.eevee import light_with_a_spot
+from worker.illuminant import NEUTRAL, illuminant
 from worker.matte import Backdrop, lay_over
+from worker.panorama import Panorama
 
 ADAPTIVE_LEAST_SAMPLES = 4
 """Taken of every pixel before noise is looked at."""
+
+_NOTHING_WRITTEN = "Blender ended a render without writing a picture; see the worker's log"
 
 
 def configure_picture(resolution: int, threads: int) -> Any:
@@ -102,11 +110,20 @@ def _find_bright_parts(world: Any, map_px: int) -> None:
         world.cycles.sample_map_resolution = map_px
 
 
-def render_picture(behind: Backdrop | None = None) -> NDArray[np.uint8]:
+def render_picture(
+    behind: Backdrop | None = None,
+    *,
+    distortion: float = 0.0,
+    development: Development | None = None,
+    lit_by: NDArray[np.float64] = NEUTRAL,
+) -> NDArray[np.uint8]:
     """Render the picture's scene as configured.
 
     Args:
         behind: what is behind all that is rendered; None if the scene has it all.
+        distortion: of the lens, which Blender's has none of; see `farm.photograph.Camera`.
+        development: what the camera makes of the light; None for the scene's view transform.
+        lit_by: colour of the scene's light, (3,), for the development.
 
     Returns:
         (H, W, 3) uint8 sRGB.
@@ -116,15 +133,24 @@ def render_picture(behind: Backdrop | None = None) -> NDArray[np.uint8]:
     """
     scene = bpy.data.scenes[names.PICTURE_SCENE]
     with tempfile.TemporaryDirectory(prefix="cable-farm-") as folder:
-        target = Path(folder) / "picture.png"
-        if behind is None:
+        if behind is None and distortion == 0.0 and development is None:
+            target = Path(folder) / "picture.png"
             _render_into(scene, target)
-        else:
-            _render_before(scene, behind, target)
-        pixels = cv2.imread(str(target), cv2.IMREAD_COLOR)
-    if pixels is None:
-        raise RenderError("Blender ended a render without writing a picture; see the worker's log")
-    return cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB).astype(np.uint8, copy=False)
+            return _read(target)
+        light = _render_light(scene, behind, Path(folder))
+        if development is not None:
+            return develop(light, development, distortion=distortion, lit_by=lit_by)
+        return _view(scene, Distortion(distortion).distort(light), Path(folder))
+
+
+def render_scene(drawn: Scene, behind: Backdrop | None) -> NDArray[np.uint8]:
+    """Render a realized scene as its own camera takes it; see `render_picture`."""
+    return render_picture(
+        behind,
+        distortion=drawn.camera.distortion,
+        development=drawn.development,
+        lit_by=illuminant(drawn.lamps, drawn.grey_world),
+    )
 
 
 def _render_into(scene: Any, target: Path) -> None:
@@ -135,11 +161,11 @@ def _render_into(scene: Any, target: Path) -> None:
         raise RenderError(f"Blender failed to render: {' '.join(str(error).split())}") from error
 
 
-def _render_before(scene: Any, behind: Backdrop, target: Path) -> None:
-    """Render without the world, and put it behind in linear light, before Blender's view transform."""
-    light = target.with_suffix(".exr")
+def _render_light(scene: Any, behind: Backdrop | None, folder: Path) -> Panorama:
+    """Render linear light (H, W, 3), with what is behind laid behind; the world is left out then."""
+    target = folder / "light.exr"
     settings = scene.render.image_settings
-    scene.render.film_transparent = True
+    scene.render.film_transparent = behind is not None
     settings.file_format, settings.color_mode, settings.color_depth, settings.exr_codec = (
         "OPEN_EXR",
         "RGBA",
@@ -147,21 +173,46 @@ def _render_before(scene: Any, behind: Backdrop, target: Path) -> None:
         "NONE",
     )
     try:
-        _render_into(scene, light)
+        _render_into(scene, target)
     finally:
         scene.render.film_transparent = False
         settings.file_format, settings.color_mode, settings.color_depth, settings.compression = "PNG", "RGB", "8", 0
-    image = bpy.data.images.load(str(light))
+    light = _pixels(target)
+    if behind is None:
+        return light
+    if light.shape[:2] != behind.covered.shape:
+        raise RenderError(_NOTHING_WRITTEN)
+    return lay_over(light, behind)
+
+
+def _pixels(path: Path) -> Panorama:
+    image = bpy.data.images.load(str(path))
     try:
-        rows, columns = behind.covered.shape
+        columns, rows = image.size
+        if not columns:
+            raise RenderError(_NOTHING_WRITTEN)
         pixels = np.empty(rows * columns * 4, np.float32)
-        if tuple(image.size) != (columns, rows):
-            raise RenderError("Blender ended a render without writing a picture; see the worker's log")
         image.pixels.foreach_get(pixels)
-        layers = pixels.reshape(rows, columns, 4)[::-1]  # Blender's rows go up
-        layers[:, :, :3] = lay_over(np.ascontiguousarray(layers[:, :, :3]), behind)
-        layers[:, :, 3] = 1.0
-        image.pixels.foreach_set(pixels)
+    finally:
+        bpy.data.images.remove(image)
+    return np.ascontiguousarray(pixels.reshape(rows, columns, 4)[::-1, :, :3])  # Blender's rows go up
+
+
+def _view(scene: Any, light: Panorama, folder: Path) -> NDArray[np.uint8]:
+    """Light through the scene's view transform."""
+    target = folder / "picture.png"
+    rows, columns = light.shape[:2]
+    image = bpy.data.images.new("light", columns, rows, float_buffer=True)
+    try:
+        image.pixels.foreach_set(cv2.cvtColor(np.ascontiguousarray(light[::-1]), cv2.COLOR_RGB2RGBA).ravel())
         image.save_render(str(target), scene=scene)
     finally:
         bpy.data.images.remove(image)
+    return _read(target)
+
+
+def _read(path: Path) -> NDArray[np.uint8]:
+    pixels = cv2.imread(str(path), cv2.IMREAD_COLOR)
+    if pixels is None:
+        raise RenderError(_NOTHING_WRITTEN)
+    return cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB).astype(np.uint8, copy=False)

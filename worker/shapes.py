@@ -1,6 +1,6 @@
 """Cables as curves: what the fall produces, and what checking, rendering and labelling read."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +18,11 @@ class CableShapes:
         radii_m: (cables,), radius of each cable.
         lengths_m: (cables,), length of each at rest.
         speeds_m_s: per cable (N,), speed of each node when the shape was captured.
-        start_order: the cables from the lowest start to the highest.
+        start_order: the cables from the lowest start to the highest; sticks among them, numbered on after the cables.
         fall_s: true seconds from the start to the capture.
         steps: time steps of the rod solver, or frames of the cloth.
+        sticks_m: per stick (N, 3), nodes of its axis from end to end; none where the simulator has none.
+        stick_radii_m: (sticks,), radius of each.
     """
 
     nodes_m: tuple[Points, ...]
@@ -30,6 +32,8 @@ class CableShapes:
     start_order: tuple[int, ...]
     fall_s: float
     steps: int
+    sticks_m: tuple[Points, ...] = ()
+    stick_radii_m: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
 
 
 def smooth(nodes: Points, samples_per_span: int) -> Points:

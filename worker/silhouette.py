@@ -7,45 +7,20 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from worker.piece import Convex, Piece
 from worker.shapes import Points, tangents
+from worker.view import View
 
 _BAND_PIXELS = 2**18
 """Pixels that are looked at together."""
 
 
 @dataclass(frozen=True, slots=True)
-class View:
-    """A pinhole camera above the origin that sees the floor where it is, from wherever the pinhole is.
-
-    That is how a lens in focus on the floor sees through one of its points.
-
-    Attributes:
-        height_m: above the floor.
-        resolution: pixels on each edge of the square picture.
-        pinhole_m: x and y of the pinhole.
-    """
-
-    height_m: float
-    resolution: int
-    pinhole_m: tuple[float, float] = (0.0, 0.0)
-
-    @property
-    def pixels_per_m(self) -> float:
-        """On the floor."""
-        return self.resolution * FOCAL_LENGTH_MM / SENSOR_MM / self.height_m
-
-    def project(self, points: Points) -> NDArray[np.float64]:
-        """Pixel coordinates (N, 2) of points (N, 3); the top left corner of the picture is (0, 0)."""
-        nearer = self.height_m / (self.height_m - points[:, 2:])
-        on_floor = np.multiply(self.pinhole_m, 1.0 - nearer) + nearer * points[:, :2]
-        return self.resolution / 2 + self.pixels_per_m * on_floor * [1.0, -1.0]
-
-
-@dataclass(frozen=True, slots=True)
 class Silhouettes:
     """Cables as seen, in convex quads, the lowest first: a later one hides an earlier one.
+
+    However the camera is turned, lines of sight go down from it, as it is above all that it sees. So of two points on
+    one of them, the higher is the nearer.
 
     Attributes:
         quads_px: (N, 4, 2) corners in order around each.
@@ -94,7 +69,7 @@ def _outline(solid: Convex, view: View) -> tuple[NDArray[np.float64], NDArray[np
     Of one around cables that is the height of its lowest corner; what is seen of its side lies above the cables.
     """
     corners = solid.rings.reshape(-1, 3)
-    if corners[:, 2].max() >= view.height_m:
+    if corners[:, 2].max() >= view.position_m[2]:
         return np.zeros((0, 4, 2)), np.zeros(0)
     seen = view.project(corners)
     hull = seen[cv2.convexHull(seen.astype(np.float32), returnPoints=False)[:, 0]]
@@ -128,7 +103,7 @@ def _silhouette(
     across = np.cross(along, [0.0, 0.0, 1.0])
     across /= np.linalg.norm(across, axis=1, keepdims=True)
     up = np.cross(across, along)
-    to_camera = np.array([*view.pinhole_m, view.height_m]) - curve
+    to_camera = view.eye_m - curve
     x, y = np.einsum("ij,ij->i", to_camera, across), np.einsum("ij,ij->i", to_camera, up)
     toward, half = np.arctan2(y, x), np.arccos(np.minimum(radius_m / np.hypot(x, y), 1.0))
     step = 2 * np.pi / sides
@@ -151,10 +126,10 @@ def _silhouette(
 def _quads(left: Points, right: Points, view: View) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The strip between two lines of points (N, 3) in quads (N - 1, 4, 2) px, with the height of each (N - 1,).
 
-    What reaches up to the camera is left out, for it has no picture.
+    What is not in front of the camera is left out, for it has no picture.
     """
     middle = 0.5 * (left[:, 2] + right[:, 2])
-    seen = np.maximum(left[:, 2], right[:, 2]) < view.height_m
+    seen = np.minimum(view.depths_m(left), view.depths_m(right)) > 0.0
     kept = seen[:-1] & seen[1:]
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         left_px, right_px = view.project(left), view.project(right)

@@ -11,6 +11,8 @@ from worker.shapes import CableShapes
 def let_fall(scene: Scene, simulator: Simulator, fall: Fall) -> CableShapes:
     """Let the cables of a scene fall until they rest.
 
+    Sticks fall with them as rods; cloth has none, and its cables fall as if there were none.
+
     Raises:
         SceneError: if the simulator diverges.
     """

@@ -23,6 +23,7 @@ from farm.scene import Scene
 from farm.spec import DatasetSpec, Engine
 from worker import eevee
 from worker.check import find_fault
+from worker.clutter.hiding import hiding_pieces
 from worker.devices import choose_device
 from worker.gates import measure
 from worker.images import ImageShelf
@@ -33,10 +34,10 @@ from worker.matte import Backdrop
 from worker.pieces import pieces_of
 from worker.randomize import draw_scene
 from worker.realize import realize
-from worker.render import configure_cycles, configure_eevee, configure_picture, render_picture
+from worker.render import configure_cycles, configure_eevee, configure_picture, render_scene
 from worker.shapes import CableShapes, smooth
-from worker.silhouette import View
 from worker.simulate import let_fall
+from worker.view import View
 
 
 def open_studio(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> "Studio":
@@ -95,7 +96,7 @@ class Studio:
             behind = self._realize(job, spec, chosen.settings, scene, shapes)
             rendering = self._configure(spec, chosen, scene.render_seed)
         with _timed(timings, "render"):
-            image = render_picture(behind)
+            image = render_scene(scene, behind)
         with _timed(timings, "mask"):
             labels = label(scene, shapes, chosen.settings.detail, spec.resolution)
         return MadeImage(
@@ -116,7 +117,7 @@ class Studio:
         """Set the scene; returns what is behind it, if the renderer is to leave that out."""
         return realize(
             scene,
-            shapes.nodes_m,
+            shapes,
             self._library,
             self._shelf,
             traits=job.category.traits,
@@ -178,8 +179,9 @@ def _chosen_settings(header: DatasetHeader, category: Category) -> ChosenSetting
 def label(scene: Scene, shapes: CableShapes, detail: CableDetail, resolution: int) -> Labels:
     """Label a settled scene's cables as they are rendered."""
     curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
-    view = View(height_m=scene.camera.height_m, resolution=resolution)
-    return label_cables(pieces_of(scene, curves), view, detail.sides)
+    view = View.of(scene.camera, resolution)
+    pieces = [*pieces_of(scene, curves), *hiding_pieces(scene, shapes)]
+    return label_cables(pieces, view, detail.sides)
 
 
 @contextmanager

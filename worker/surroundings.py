@@ -1,4 +1,4 @@
-"""What lights the picture, and what is behind the cables: a lamp in a grey world, or an HDRI."""
+"""What lights the picture, and what is behind the cables: lamps in a grey world, or an HDRI."""
 
 from typing import Any
 
@@ -9,21 +9,30 @@ from numpy.typing import NDArray
 
 from blend import names
 from blend.world import is_as_built
-from farm.lights import AreaLamp, HdriWorld, Lamp, PointLamp
+from farm.lights import AreaLamp, GreyWorld, HdriWorld, Lamp, PointLamp, StudioLamp
 from farm.photograph import Camera
+from worker.black_body import black_body
 from worker.images import ImageShelf
 from worker.library import AssetLibrary
 from worker.panorama import Panorama, backdrop, upper_world
+from worker.studio_lamps import add_studio_lamp, remove_studio_lamps
+
+_TEMPLATES_GREY = "farm_templates_grey"
+"""Under this name the node itself keeps its colour and strength as they came with the template."""
 
 
 def set_lamps(lamps: tuple[Lamp, ...]) -> None:
     """Light the lamps that a scene has, and no other."""
     bpy.data.objects[names.POINT_LAMP].hide_render = bpy.data.objects[names.AREA_LAMP].hide_render = True
-    for lamp in lamps:
-        _light(lamp)
+    remove_studio_lamps()
+    for number, lamp in enumerate(lamps, start=1):
+        if isinstance(lamp, StudioLamp):
+            add_studio_lamp(lamp, number)
+        else:
+            _light(lamp)
 
 
-def _light(lamp: Lamp) -> None:
+def _light(lamp: PointLamp | AreaLamp) -> None:
     point, area = bpy.data.objects[names.POINT_LAMP], bpy.data.objects[names.AREA_LAMP]
     if isinstance(lamp, PointLamp):
         point.hide_render = False
@@ -31,17 +40,29 @@ def _light(lamp: Lamp) -> None:
         point.location = (lamp.radius_m * np.cos(bearing), lamp.radius_m * np.sin(bearing), lamp.height_m)
         point.data.energy = lamp.power_w
         point.data.shadow_soft_size = lamp.size_m
-    elif isinstance(lamp, AreaLamp):
+    else:
         area.hide_render = False
         area.location.x = lamp.x_m
         area.data.energy = lamp.power_w
 
 
-def set_grey_world() -> None:
-    """Set the world to grey."""
+def set_grey_world(grey: GreyWorld | None = None) -> None:
+    """Set the world to grey; None is the template's own."""
     nodes = bpy.data.worlds[names.WORLD].node_tree.nodes
     nodes[names.WORLD_SWITCH].inputs["Fac"].default_value = 1.0
     nodes[names.WORLD_IMAGE].image = None
+    _set_grey(nodes[names.WORLD_GREY], grey)
+
+
+def _set_grey(node: Any, grey: GreyWorld | None) -> None:
+    colour, strength = node.inputs["Color"], node.inputs["Strength"]
+    if _TEMPLATES_GREY not in node:
+        node[_TEMPLATES_GREY] = [*colour.default_value, strength.default_value]
+    if grey is None:
+        *colour.default_value, strength.default_value = node[_TEMPLATES_GREY]
+    else:
+        colour.default_value = (*black_body(grey.temperature_k), 1.0)
+        strength.default_value = grey.radiance
 
 
 def set_hdri_world(world: HdriWorld, library: AssetLibrary, shelf: ImageShelf, *, only_lights: bool) -> None:
@@ -58,6 +79,7 @@ def set_hdri_world(world: HdriWorld, library: AssetLibrary, shelf: ImageShelf, *
     """
     nodes = bpy.data.worlds[names.WORLD].node_tree.nodes
     nodes[names.WORLD_SWITCH].inputs["Fac"].default_value = 0.0
+    _set_grey(nodes[names.WORLD_GREY], None)
     nodes[names.WORLD_BRIGHTNESS].inputs["Fac"].default_value = world.brightness
     image, path = nodes[names.WORLD_IMAGE], library.hdri(world.hdri)
     if only_lights and is_as_built(bpy.data.worlds[names.WORLD]):

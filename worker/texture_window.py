@@ -12,9 +12,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from farm.scene import Floor
-from worker.silhouette import View
+from worker.view import View
 
 MARGIN = 0.06
 """Of the view's width, on each side: what the pixel filter, blur and a tilt of the floor's normals may reach."""
@@ -85,7 +84,28 @@ def tile_coordinates(points_m: NDArray[np.float64], floor: Floor, size_m: float)
     return placed
 
 
-def window_on(floor: Floor, size_m: float, view: View, sizes: tuple[tuple[int, int], ...]) -> TextureWindow:
+def texels_to_floor(window: TextureWindow, rows: int, columns: int, floor: Floor, size_m: float) -> NDArray[np.float64]:
+    """What takes the column and row of a window's texel to metres on the floor, (2, 3); see `tile_coordinates`.
+
+    Args:
+        window: of the texture.
+        rows: of the window's texels.
+        columns: of them.
+        floor: how the texture lies.
+        size_m: edge of a tile at scale 1.
+    """
+    turn = math.radians(floor.rotation_deg)
+    rotation = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
+    to_tile = np.diag([window.width / columns, -window.height / rows])
+    first = np.array([window.u + 0.5 * window.width / columns, window.v + (1 - 0.5 / rows) * window.height])
+    first -= np.mod([floor.offset_x, floor.offset_y], 1.0)
+    tile_m = size_m * floor.scale
+    return tile_m * np.column_stack([rotation.T @ to_tile, rotation.T @ first])
+
+
+def window_on(
+    floor: Floor, size_m: float, view: View, sizes: tuple[tuple[int, int], ...], most_tiles: float = 1.0
+) -> TextureWindow:
     """The window on a surface's maps through which a view is the same as with all of them.
 
     Args:
@@ -93,21 +113,28 @@ def window_on(floor: Floor, size_m: float, view: View, sizes: tuple[tuple[int, i
         size_m: edge of a tile at scale 1.
         view: what the camera sees.
         sizes: (rows, columns) of each map.
+        most_tiles: along an edge. With one, a view of more sees the same texels again; with more it has its own.
     """
     grid = math.gcd(*(edge for size in sizes for edge in size))
-    seen_m = view.height_m * SENSOR_MM / FOCAL_LENGTH_MM
+    # A pixel is smallest where the floor is nearest.
+    pixel_m = view.depths_m(view.floor_corners_m()).min() / view.focal_length_px
     texel_m = size_m * floor.scale / min(edge for size in sizes for edge in size)
     coarser = 1
-    while TEXELS_PER_PIXEL * 2 * coarser * texel_m <= seen_m / view.resolution and grid % (2 * coarser) == 0:
+    while TEXELS_PER_PIXEL * 2 * coarser * texel_m <= pixel_m and grid % (2 * coarser) == 0:
         coarser *= 2
     lines = grid // coarser
     if lines < FINEST_GRID:
         return TextureWindow.whole()
-    half = (0.5 + MARGIN) * seen_m
-    seen = tile_coordinates(np.array([[-half, -half], [half, -half], [half, half], [-half, half]]), floor, size_m)
+    seen = tile_coordinates(view.floor_corners_m(MARGIN)[:, :2], floor, size_m)
     low = np.floor(seen.min(axis=0) * lines - 1) / lines
-    extent = np.minimum(np.ceil(seen.max(axis=0) * lines + 1) / lines - low, 1.0)
+    extent = np.minimum(np.ceil(seen.max(axis=0) * lines + 1) / lines - low, most_tiles)
     return TextureWindow(float(low[0]), float(low[1]), float(extent[0]), float(extent[1]), coarser)
+
+
+def light_of(levels: Texels) -> NDArray[np.float32]:
+    """Linear light, 0 to 1, of 8-bit sRGB levels."""
+    light: NDArray[np.float32] = cv2.LUT(np.ascontiguousarray(levels), _LIGHT_OF_LEVEL)
+    return light
 
 
 def _coarsen(texels: Texels, factor: int, *, colour: bool) -> Texels:

@@ -103,3 +103,27 @@ def herringbone(grid: Grid, blocks: int, ratio: int = 4) -> Layout:
     edge = np.minimum(np.minimum(along, ratio * width - along), np.minimum(across, width - across))
     pieces = compact.reshape(labels.shape).astype(np.int32)
     return Layout(pieces, along, (across - width / 2).astype(np.float32), edge.astype(np.float32))
+
+
+def chevron(grid: Grid, columns: int, pieces: int) -> Layout:
+    """Lay boards in a chevron: columns of parallel boards at 45 degrees, cut where they meet, each column mirrored.
+
+    Args:
+        grid: The tile.
+        columns: Columns across the tile; even, so that the edges meet.
+        pieces: Boards in a column of the tile's height.
+
+    Returns:
+        The layout; u runs along each board's own length.
+    """
+    x, y = grid.coordinates()
+    width, pitch = grid.size_mm / columns, grid.size_mm / pieces
+    column = np.minimum((x / width).astype(np.int32), columns - 1)
+    from_left = x - column.astype(np.float32) * np.float32(width)
+    rise = np.where(column % 2 == 0, from_left, np.float32(width) - from_left)
+    along = np.where(column % 2 == 0, from_left, from_left - np.float32(width)) * np.float32(np.sqrt(2.0))
+    level = np.mod(y + rise, np.float32(grid.size_mm))
+    piece = np.minimum((level / pitch).astype(np.int32), pieces - 1)
+    across = (level - (piece + 0.5).astype(np.float32) * np.float32(pitch)) * np.float32(np.sqrt(0.5))
+    edge = np.minimum(pitch * np.sqrt(0.125) - np.abs(across), np.minimum(from_left, width - from_left))
+    return Layout(column * pieces + piece, along, across, edge.astype(np.float32))

@@ -22,6 +22,9 @@ class SurfaceFamily(StrEnum):
     GROUND = "ground"
     FABRIC = "fabric"
     SHEET = "sheet"
+    PAPER = "paper"
+    PLASTIC = "plastic"
+    ELECTRONICS = "electronics"
 
 
 @dataclass(frozen=True)

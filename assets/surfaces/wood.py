@@ -4,9 +4,9 @@ import numpy as np
 
 from assets.surfaces.colour import mix, plain, shade, tint_each, value_each
 from assets.surfaces.grid import Grid
-from assets.surfaces.layouts import Layout, boards, herringbone
+from assets.surfaces.layouts import Layout, boards, chevron, herringbone
 from assets.surfaces.maps import SurfaceMaps, finish
-from assets.surfaces.marks import dust, scratches
+from assets.surfaces.marks import dust, scratches, specks, stains
 from assets.surfaces.noise import coverage, fractal, smoothstep
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 from assets.surfaces.wood_grain import Species, grain
@@ -17,6 +17,8 @@ PINE = Species(((0.0, "e3c593"), (0.5, "d6ad72"), (1.0, "b07a3e")), "5a3417", 3.
 CHERRY = Species(((0.0, "a9653f"), (0.5, "8d4b2b"), (1.0, "66311b")), "4a2012", 5.0, 0.5, 0.3, 0.05, 5.0, 22.0)
 BIRCH = Species(((0.0, "e2cca5"), (0.5, "d4b887"), (1.0, "bf9d69")), "94713f", 8.0, 0.5, 0.3, 0.04, 4.0, 26.0)
 GREY_OAK = Species(((0.0, "b5aea4"), (0.5, "978e84"), (1.0, "6f665d")), "4c453e", 3.0, 0.6, 0.35, 0.08, 9.0, 18.0)
+MAPLE = Species(((0.0, "ead9bb"), (0.5, "dfc9a3"), (1.0, "c9aa7c")), "a98a60", 4.5, 0.32, 0.24, 0.02, 3.0, 20.0)
+BEECH = Species(((0.0, "e3c6a0"), (0.5, "d8b48a"), (1.0, "c39a6c")), "8d6440", 3.6, 0.35, 0.24, 0.07, 2.0, 14.0)
 SILVERED = Species(((0.0, "a39c92"), (0.5, "857c72"), (1.0, "5b534b")), "2e2823", 3.2, 0.9, 0.5, 0.05, 14.0, 12.0, 0.6)
 
 
@@ -52,6 +54,21 @@ def oak_herringbone(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 def walnut_herringbone(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     """Small walnut parquet laid in a herringbone of 33 by 100 mm blocks."""
     return _floor(rng, grid, herringbone(grid, 2, 3), WALNUT, bevel_mm=0.6, varnish=0.4)
+
+
+def oak_chevron(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
+    """Oak parquet laid in a chevron: boards 47 mm wide, cut at 45 degrees, in columns of 100 mm."""
+    return _floor(rng, grid, chevron(grid, 4, 6), OAK, bevel_mm=0.7, varnish=0.4)
+
+
+def maple_bench(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
+    """Pale maple bench top: glued staves 44 mm wide, oiled, with marks of work."""
+    return _bench(rng, grid, boards(rng, grid, 9, 0.6), MAPLE)
+
+
+def beech_bench(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
+    """Light beech bench top: glued staves 40 mm wide, flecked with fine rays."""
+    return _bench(rng, grid, boards(rng, grid, 10, 0.8), BEECH)
 
 
 def grey_laminate(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
@@ -92,6 +109,28 @@ def weathered_boards(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     return finish(grid, colour, 0.86 - 0.06 * wood.late, height.astype(np.float32))
 
 
+def _bench(rng: np.random.Generator, grid: Grid, layout: Layout, species: Species) -> SurfaceMaps:
+    """A glued bench top sanded to one face: no bevels, thin glue lines, scratches, rings and smudges."""
+    wood = grain(rng, grid, layout, species)
+    colour = wood.colour * tint_each(rng, layout.labels, 0.035, 0.009)
+    colour = shade(colour, 1 + 0.02 * fractal(rng, grid, 140, 12, gain=0.55))
+    rays = coverage(fractal(rng, grid, 1.6, 0.4, gain=0.9, stretch=(4.0, 1.0)), 0.03, 0.5)
+    colour = mix(colour, species.pore, 0.3 * rays)
+    glue = (1 - smoothstep(0.05, 0.35, layout.edge_mm)) * smoothstep(-1.6, 0.6, fractal(rng, grid, 40, 2, gain=0.6))
+    colour = mix(colour, "8a6b45", 0.55 * glue)
+    body, rim = stains(rng, grid, 90, 0.06)
+    colour = mix(colour, "8d7656", 0.1 * body + 0.22 * rim)
+    colour = mix(colour, "7a6a55", 0.09 * smoothstep(0.3, 2.2, fractal(rng, grid, 120, 2, gain=0.65)))
+    dents = scratches(rng, grid, 40, 0.3)
+    cuts = scratches(rng, grid, 10, 0.35)
+    colour = mix(mix(colour, "f2e6cf", 0.22 * dents), "6b553c", 0.4 * cuts)
+    colour = mix(colour, "4a4038", 0.5 * specks(rng, grid, 0.0015, 0.6))
+    wear = fractal(rng, grid, 90, 3, gain=0.6)
+    rough = 0.5 + 0.04 * wear - 0.03 * wood.relief + 0.12 * dents - 0.06 * body
+    height = 0.008 * wood.relief - 0.06 * glue - 0.02 * dents - 0.05 * cuts
+    return finish(grid, colour, np.asarray(rough, np.float32), np.asarray(height, np.float32))
+
+
 def _floor(
     rng: np.random.Generator, grid: Grid, layout: Layout, species: Species, bevel_mm: float, varnish: float
 ) -> SurfaceMaps:
@@ -129,3 +168,9 @@ RECIPES = tuple(
         ("weathered_boards", weathered_boards),
     )
 )
+
+WORKPLACE_RECIPES = tuple(
+    SurfaceRecipe(name, SurfaceFamily.WOOD, 0.4, draw)
+    for name, draw in (("oak_chevron", oak_chevron), ("maple_bench", maple_bench), ("beech_bench", beech_bench))
+)
+"""Wood that the published set-up has not."""

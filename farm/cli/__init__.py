@@ -15,6 +15,7 @@ from farm.cli.flower import flower
 from farm.cli.mending import repair, retry
 from farm.cli.metrics import metrics
 from farm.cli.preview import preview
+from farm.cli.ranges import ranges
 from farm.cli.replay import replay
 from farm.cli.report import report
 from farm.cli.run import run
@@ -51,7 +52,7 @@ def _options(
 
 COMMANDS = (
     *(run, submit, worker, status, watch, pause, resume, cancel),
-    *(repair, retry, replay, verify, report, preview, doctor, flower, metrics),
+    *(repair, retry, replay, verify, report, preview, ranges, doctor, flower, metrics),
 )
 for command in COMMANDS:
     app.command()(command)

@@ -8,7 +8,10 @@ from rich.progress import Progress
 
 from assets.bake import BakedSet, bake_surfaces
 from assets.baked import surface_directory
+from assets.environments import DEFAULT_WIDTH, FOLDER_NAME, missing_environments
 from farm.category import Background
+from farm.cli.options import log_folder
+from farm.cli.worker_program import ask_worker, require_blender
 from farm.header import BuiltinSurfaceRef, DatasetHeader
 
 
@@ -33,12 +36,52 @@ def bake(names: Iterable[str], folder: Path | None, screen: Console) -> BakedSet
     return baked
 
 
-def bake_for(header: DatasetHeader, folder: Path | None, screen: Console) -> None:
-    """Draw the surfaces that a dataset shows.
+def render_environments(
+    names: Iterable[str], folder: Path | None, screen: Console, *, pixels: int | None = None
+) -> tuple[str, ...]:
+    """Render environments in a process of its own, showing how far it is.
+
+    Args:
+        names: which ones; those that are there already take no time.
+        folder: where they go; None for the usual place.
+        screen: for the bar, or a plain line for each.
+        pixels: width of the panoramas; None for the usual one, and any will do.
+
+    Returns:
+        Those that were rendered now.
 
     Raises:
         AssetError: if the folder can't be written.
+        FarmError: if the worker's program fails.
     """
+    directory = folder or surface_directory()
+    missing = [recipe.name for recipe in missing_environments(directory, pixels, tuple(names))]
+    if not missing:
+        return ()
+    require_blender()
+    wanted = [word for name in missing for word in ("--name", name)]
+    with Progress(console=screen, disable=not screen.is_terminal, transient=True) as bar:
+        task = bar.add_task("rendering the environments, once", total=len(missing))
+        ask_worker(
+            ["environments", "--out", str(directory), "--pixels", str(pixels or DEFAULT_WIDTH), *wanted],
+            None,
+            log_folder(None),
+            told=lambda _: bar.advance(task),
+        )
+    screen.print(f"{len(missing)} environments rendered into {directory / FOLDER_NAME}", markup=False)
+    return tuple(missing)
+
+
+def bake_for(header: DatasetHeader, folder: Path | None, screen: Console) -> None:
+    """Draw the surfaces that a dataset shows, and render its environments.
+
+    Raises:
+        AssetError: if the folder can't be written.
+        FarmError: if the worker's program fails.
+    """
+    environments = [hdri.name for hdri in header.hdris if hdri.recipe_version is not None]
+    if environments:
+        render_environments(environments, folder, screen)
     # Surfaces are drawn at random from all of them, so a single picture over a floor may need any.
     if any(quota and category.traits.background is Background.FLOOR for category, quota in header.spec.quotas.items()):
         bake([surface.name for surface in header.surfaces if isinstance(surface, BuiltinSurfaceRef)], folder, screen)

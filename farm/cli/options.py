@@ -100,11 +100,20 @@ class DatasetOptions:
         list[Path] | None,
         typer.Option(metavar="DIR", help="Folder of .hdr and .exr files to add; repeat it.", rich_help_panel=_DATASET),
     ] = None
+    backgrounds: Annotated[
+        list[Path] | None,
+        typer.Option(
+            metavar="DIR", help="Folder of photographs to stand behind far cables; repeat it.", rich_help_panel=_DATASET
+        ),
+    ] = None
     no_builtin_textures: Annotated[
         bool, typer.Option("--no-builtin-textures", help="Leave our surfaces out.", rich_help_panel=_DATASET)
     ] = False
     no_builtin_hdris: Annotated[
         bool, typer.Option("--no-builtin-hdris", help="Leave Blender's HDRIs out.", rich_help_panel=_DATASET)
+    ] = False
+    no_environments: Annotated[
+        bool, typer.Option("--no-environments", help="Leave our environments out.", rich_help_panel=_DATASET)
     ] = False
     close_distributed_hdri: Annotated[
         str | None,
@@ -140,10 +149,14 @@ class DatasetOptions:
             inputs["textures"] = tuple(self.textures)
         if self.hdris:
             inputs["hdris"] = tuple(self.hdris)
+        if self.backgrounds:
+            inputs["backgrounds"] = tuple(self.backgrounds)
         if self.no_builtin_textures:
             inputs["builtin_textures"] = False
         if self.no_builtin_hdris:
             inputs["builtin_hdris"] = False
+        if self.no_environments:
+            inputs["environments"] = False
         return describe(self.spec_file or self.spec, {**flags, **override}, inputs)
 
 

@@ -1,10 +1,12 @@
 """Starting the worker's own program. This package never imports it: it loads Blender."""
 
+import contextlib
 import importlib.util
 import os
 import subprocess
 import sys
-from collections.abc import Sequence
+import tempfile
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from farm.errors import EnvironmentMissingError, RenderError, error_of
@@ -47,19 +49,43 @@ def check_device(device: str, logs: Path) -> None:
     ask_worker(["device", "--device", device], None, logs)
 
 
-def ask_worker(arguments: Sequence[str], header: DatasetHeader | None, logs: Path) -> None:
+def ask_worker(
+    arguments: Sequence[str],
+    header: DatasetHeader | None,
+    logs: Path,
+    told: Callable[[str], None] | None = None,
+) -> None:
     """Run one of the worker's commands, on a header if it takes one, to its end.
+
+    Args:
+        arguments: of the worker's program.
+        header: for its standard input.
+        logs: folder for what Blender prints.
+        told: gets each line that it prints as soon as it is there; None to let it print itself.
 
     Raises:
         FarmError: of the kind of the worker's exit code, with its message.
     """
-    result = subprocess.run(  # noqa: S603 - our own program and arguments
-        [*WORKER_COMMAND, *arguments, "--logs", str(logs)],
-        input=b"" if header is None else header.model_dump_json().encode(),
-        stderr=subprocess.PIPE,
-        check=False,
-    )
-    if result.returncode != 0:
-        message = result.stderr.decode(errors="replace").strip() or f"it ended with code {result.returncode}"
+    command = [*WORKER_COMMAND, *arguments, "--logs", str(logs)]
+    # Into a file, not a pipe: nobody empties a pipe while lines are read from the other.
+    with tempfile.TemporaryFile() as errors:
+        with subprocess.Popen(  # noqa: S603 - our own program and arguments
+            command, stdin=subprocess.PIPE, stdout=None if told is None else subprocess.PIPE, stderr=errors
+        ) as process:
+            _hand_over(process, b"" if header is None else header.model_dump_json().encode())
+            for line in process.stdout or ():
+                if told is not None:
+                    told(line.decode(errors="replace").rstrip("\n"))
+        errors.seek(0)
+        said = errors.read()
+    if process.returncode != 0:
+        message = said.decode(errors="replace").strip() or f"it ended with code {process.returncode}"
         defect = RenderError(f"the worker's program failed; its log is in {logs}: {message.splitlines()[-1]}")
-        raise error_of(result.returncode, message) or defect
+        raise error_of(process.returncode, message) or defect
+
+
+def _hand_over(process: "subprocess.Popen[bytes]", content: bytes) -> None:
+    if process.stdin is not None:
+        # One that ended without reading has said why.
+        with contextlib.suppress(BrokenPipeError), process.stdin:
+            process.stdin.write(content)

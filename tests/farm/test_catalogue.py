@@ -8,8 +8,9 @@ import pytest
 from farm.catalogue import Inputs, make_header
 from farm.description import describe
 from farm.errors import AssetError, SpecError, TemplateError
-from farm.header import BuiltinSurfaceRef, HdriRef, SurfaceRef
+from farm.header import BuiltinSurfaceRef, HdriRef, PlateRef, SurfaceRef
 from farm.spec import DatasetSpec, parse_spec
+from farm.styles import Style
 
 SHA = "0" * 64
 
@@ -17,7 +18,7 @@ SHA = "0" * 64
 class Shelf:
     """Implements `farm.catalogue.AssetSource` with names instead of files."""
 
-    def builtin_surfaces(self) -> Sequence[SurfaceRef]:
+    def builtin_surfaces(self, _style: Style) -> Sequence[SurfaceRef]:
         """One of our own."""
         return [BuiltinSurfaceRef(name="oak", recipe_version=1)]
 
@@ -32,6 +33,10 @@ class Shelf:
     def hdris_in(self, folder: Path) -> Sequence[HdriRef]:
         """One called as its folder."""
         return [HdriRef(name=folder.name, path=str(folder), sha256=SHA, dark=True)]
+
+    def plates_in(self, folder: Path) -> Sequence[PlateRef]:
+        """One called as its folder."""
+        return [PlateRef(name=folder.name, path=str(folder), sha256=SHA)]
 
 
 @pytest.fixture
@@ -63,6 +68,26 @@ def test_folders_replace_the_builtin(spec: DatasetSpec, template: Path) -> None:
     assert [hdri.name for hdri in header.hdris] == ["sky"]
 
 
+def test_photographs_are_all_the_users(spec: DatasetSpec, template: Path) -> None:
+    """None, unless folders are named; then in their order."""
+    assert make_header(spec, Inputs(template), Shelf()).plates == ()
+    header = make_header(spec, Inputs(template, backgrounds=(Path("lab"), Path("hall"))), Shelf())
+    assert [plate.name for plate in header.plates] == ["lab", "hall"]
+
+
+def test_photographs_decide_the_pictures(spec: DatasetSpec, template: Path) -> None:
+    """With others, it is another dataset."""
+    without = make_header(spec, Inputs(template), Shelf())
+    with_one = make_header(spec, Inputs(template, backgrounds=(Path("lab"),)), Shelf())
+    assert without.spec_sha256 != with_one.spec_sha256
+
+
+def test_one_photograph_twice(spec: DatasetSpec, template: Path) -> None:
+    """Two of one name, from two folders, are refused."""
+    with pytest.raises(AssetError, match="2 photographs are called 'lab'; rename one"):
+        make_header(spec, Inputs(template, backgrounds=(Path("a/lab"), Path("b/lab"))), Shelf())
+
+
 def test_one_name_twice(spec: DatasetSpec, template: Path) -> None:
     """Two things of one name can't be told apart in a scene, and are refused."""
     with pytest.raises(AssetError, match="'oak'"):
@@ -87,9 +112,15 @@ def test_template_that_is_a_folder(spec: DatasetSpec, tmp_path: Path) -> None:
 def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:
     """A description can be used from any folder."""
     file = tmp_path / "cables.toml"
-    file.write_text('images = 3\ntemplate = "mine.blend"\ntextures = ["wood"]\nhdris = ["/sky"]\nbuiltin_hdris = false')
+    file.write_text(
+        'images = 3\ntemplate = "mine.blend"\ntextures = ["wood"]\nhdris = ["/sky"]\nbuiltin_hdris = false\n'
+        'backgrounds = ["photos", "/more"]'
+    )
     inputs = describe(file, {}, {}).inputs
-    assert inputs == Inputs(tmp_path / "mine.blend", (tmp_path / "wood",), (Path("/sky"),), builtin_hdris=False)
+    photographs = (tmp_path / "photos", Path("/more"))
+    assert inputs == Inputs(
+        tmp_path / "mine.blend", (tmp_path / "wood",), (Path("/sky"),), builtin_hdris=False, backgrounds=photographs
+    )
 
 
 def test_flags_override_the_file(tmp_path: Path) -> None:

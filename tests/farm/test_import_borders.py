@@ -16,7 +16,18 @@ print(*sorted({name.partition(".")[0] for name in sys.modules} & {"bpy", "worker
 """
 PURE_STAGES = [
     f"worker.{stage}"
-    for stage in ["randomize", "shapes", "check", "tube", "label", "gates", "rod.fall", "cloth.strip", "cloth.scale"]
+    for stage in [
+        "randomize",
+        "shapes",
+        "check",
+        "tube",
+        "label",
+        "gates",
+        "plate",
+        "rod.fall",
+        "cloth.strip",
+        "cloth.scale",
+    ]
 ]
 ASSETS = ["assets", *(module.name for module in pkgutil.walk_packages(assets.__path__, "assets."))]
 MODULES = ["farm", *(module.name for module in pkgutil.walk_packages(farm.__path__, "farm."))]

@@ -8,12 +8,16 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from io import BytesIO
 from pathlib import Path
 
 import cv2
 import numpy as np
+from PIL import Image
 
 from assets.exr import check_exr
+from assets.fetchable import OWN_REGISTRY, read_registry
+from assets.plates import decode_plate
 from assets.radiance import check_radiance
 from farm.completion import job_of_manifest, parse_manifest
 from farm.dataset import Dataset, Destination, create_dataset, open_dataset, parse_destination
@@ -108,6 +112,12 @@ def _spec(data: bytes) -> None:
     assert spec.total > 0
 
 
+def _registry(data: bytes) -> None:
+    path = _folder() / "registry.toml"
+    path.write_bytes(data)
+    assert all("/" not in entry.file for asset in read_registry(path).asset for entry in asset.file)
+
+
 def _header(data: bytes) -> None:
     folder = _folder() / "fuzzed" / "cables"
     folder.mkdir(parents=True, exist_ok=True)
@@ -155,6 +165,19 @@ def _good_envelope() -> bytes:
     return json.dumps(envelope).encode()
 
 
+def _photograph(kind: str) -> bytes:
+    note = Image.Exif()
+    note[0x0112] = 8  # turned
+    buffer = BytesIO()
+    Image.new("RGB", (260, 256), "teal").save(buffer, kind, exif=note)
+    return buffer.getvalue()
+
+
+def _registry_seed() -> bytes:
+    """The farm's own, down to its first asset."""
+    return b"[[asset]]".join(OWN_REGISTRY.read_bytes().split(b"[[asset]]")[:2])
+
+
 def targets() -> dict[str, Target]:
     """All of them, by name."""
     dataset = _dataset()
@@ -172,6 +195,8 @@ def targets() -> dict[str, Target]:
         "quality": Target(lambda data: read_quality(_text(data)), (b"draft", b"0.02")),
         "broker address": Target(_address, (b"rediss://:word@there:1/0?ssl_ca_certs=/a.pem", b"redis+socket:///a")),
         "EXR structure": Target(lambda data: check_exr(Path("x.exr"), data), (exr,)),
+        "photograph": Target(lambda data: decode_plate(Path("x"), data), (_photograph("JPEG"), _photograph("WEBP"))),
+        "registry": Target(_one_line(_registry), (_registry_seed(),)),
         "Radiance structure": Target(
             lambda data: check_radiance(Path("x.hdr"), data), (b"#?RADIANCE\n\n-Y 4 +X 6\n" + bytes(96),)
         ),

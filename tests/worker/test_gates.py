@@ -57,6 +57,34 @@ def test_a_cable_on_the_floor_meets_gates_one_to_four() -> None:
     assert all(gate.on_target(figure) for gate, figure in settled_figures(measure(shapes(rod()))).items())
 
 
+STICK_RADIUS = 0.004
+
+
+def beside_a_stick(cable: Points) -> CableShapes:
+    """A cable and a stick of 4 mm radius along y on the floor, which starts below it."""
+    stick = rod(along_y=True, z=STICK_RADIUS)
+    return replace(shapes(cable, order=(1, 0)), sticks_m=(stick,), stick_radii_m=np.array([STICK_RADIUS]))
+
+
+def test_a_cable_that_cuts_into_a_stick_breaks_gate_two() -> None:
+    """Half a radius deep where it crosses."""
+    figures = measure(beside_a_stick(rod(z=2 * STICK_RADIUS + 0.5 * RADIUS)))
+    assert figures.cable_penetration_max == pytest.approx(0.5, abs=0.01)
+
+
+def test_a_cable_that_rests_on_a_stick_breaks_nothing_there() -> None:
+    """It touches and carries no air with it."""
+    figures = measure(beside_a_stick(rod(z=2 * STICK_RADIUS + RADIUS)))
+    assert figures.cable_penetration_max == pytest.approx(0.0, abs=1e-6)
+    assert figures.pass_throughs == 0
+    assert figures.support_gap == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_cable_below_a_stick_went_through_it() -> None:
+    """Wherever the stick's ends are: it has no end round which a cable above it could slip."""
+    assert measure(beside_a_stick(rod())).pass_throughs == 1
+
+
 def test_a_loop_is_counted_once() -> None:
     """One place where it crosses itself, and none that passed through."""
     figures = measure(shapes(looped(step=2 * RADIUS)))

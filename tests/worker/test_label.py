@@ -10,8 +10,8 @@ from tests.worker.scenes import tubular
 from worker.label import label_cables
 from worker.piece import OCCLUDER, Convex, Plain, Substance
 from worker.shapes import Points
-from worker.silhouette import View
 from worker.tube import sweep
+from worker.view import View
 
 RADIUS = 0.001
 SIDES = 20

@@ -5,8 +5,9 @@ from pathlib import Path
 import pytest
 
 from assets.bake import bake_surfaces
+from assets.files import sha256
 from farm.errors import AssetError
-from farm.header import BuiltinSurfaceRef, DatasetHeader
+from farm.header import BuiltinSurfaceRef, DatasetHeader, PlateRef
 from worker.library import AssetLibrary
 
 SHOWN, OTHER = "stucco", "galvanised_steel"
@@ -48,3 +49,16 @@ def test_another_version_of_a_surface_is_refused(header: DatasetHeader, baked: P
     """Its texels would be others than the dataset's."""
     with pytest.raises(AssetError, match="is of version 1, not 99"):
         library(header, baked, SHOWN, version=99).surface(SHOWN)
+
+
+@pytest.mark.parametrize("change", [None, b"another"])
+def test_a_photograph_is_checked(header: DatasetHeader, tmp_path: Path, change: bytes | None) -> None:
+    """It is found where the header says; one that has changed since then, or is gone, is refused."""
+    path = tmp_path / "lab.jpg"
+    path.write_bytes(b"a photograph")
+    plate = PlateRef(name="lab", path=str(path), sha256=sha256(b"a photograph"))
+    with_plate = header.model_copy(update={"plates": (plate,)})
+    assert AssetLibrary(with_plate, tmp_path).plate("lab") == path
+    path.unlink() if change is None else path.write_bytes(change)
+    with pytest.raises(AssetError, match=r"lab\.jpg: (can't be read|has changed since)"):
+        AssetLibrary(with_plate, tmp_path).plate("lab")

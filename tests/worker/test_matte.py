@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from tests.worker.scenes import tubular
 from worker.matte import Backdrop, covered_by, lay_over
 from worker.shapes import Points
-from worker.silhouette import View
+from worker.view import View
 
 RADIUS = 0.001
 SIDES = 64

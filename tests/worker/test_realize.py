@@ -18,6 +18,7 @@ from farm.catalogue import Inputs, make_header  # noqa: E402
 from farm.category import Category  # noqa: E402
 from farm.header import DatasetHeader  # noqa: E402
 from farm.job import Job  # noqa: E402
+from farm.photograph import Camera  # noqa: E402
 from farm.quality import REFERENCE  # noqa: E402
 from farm.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
 from farm.spec import parse_spec  # noqa: E402
@@ -33,6 +34,16 @@ pytestmark = pytest.mark.blender
 
 SURFACES = ("concrete_smooth", "rusted_steel")
 RESOLUTION = 128
+
+TILTED = Camera(
+    height_m=0.12,
+    f_number=8.0,
+    focal_length_mm=35.0,
+    tilt_deg=25.0,
+    tilt_bearing_deg=130.0,
+    roll_deg=50.0,
+    focus_offset_m=0.005,
+)
 
 
 @pytest.fixture(scope="module")
@@ -51,14 +62,22 @@ def library(header: DatasetHeader, tmp_path: Path) -> AssetLibrary:
     return AssetLibrary(header, tmp_path)
 
 
-def set_up(header: DatasetHeader, library: AssetLibrary, job: Job, samples: int, economy: Economy) -> Backdrop | None:
-    """Make a job's scene ready to render."""
+def set_up(
+    header: DatasetHeader,
+    library: AssetLibrary,
+    job: Job,
+    samples: int,
+    economy: Economy,
+    camera: Camera | None = None,
+) -> Backdrop | None:
+    """Make a job's scene ready to render, as seen by another camera if one is given."""
     scene = draw_scene(header, job, 0)
+    scene = scene.model_copy(update={"camera": camera or scene.camera})
     shapes = let_fall(scene, header.spec.simulator, header.spec.fall)
     settings = PictureSettings(cycles=CyclesSettings(samples=samples, denoiser=Denoiser.NONE), economy=economy)
     behind = realize(
         scene,
-        shapes.nodes_m,
+        shapes,
         library,
         ImageShelf(),
         traits=job.category.traits,
@@ -71,10 +90,15 @@ def set_up(header: DatasetHeader, library: AssetLibrary, job: Job, samples: int,
 
 
 def picture(
-    header: DatasetHeader, library: AssetLibrary, category: Category, samples: int, economy: Economy
+    header: DatasetHeader,
+    library: AssetLibrary,
+    category: Category,
+    samples: int,
+    economy: Economy,
+    camera: Camera | None = None,
 ) -> NDArray[np.float64]:
     """The first picture of a category, levels 0 to 255."""
-    behind = set_up(header, library, Job(category=category, index=0), samples, economy)
+    behind = set_up(header, library, Job(category=category, index=0), samples, economy, camera)
     return render_picture(behind).astype(np.float64)
 
 
@@ -83,19 +107,25 @@ def psnr_db(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
     return float(10 * np.log10(255.0**2 / max(np.mean((a - b) ** 2), 1e-9)))
 
 
+@pytest.mark.parametrize("camera", [None, TILTED], ids=["down", "tilted"])
 @pytest.mark.parametrize("field", ["texture_window", "cables_in_view"])
-def test_what_is_out_of_view_is_not_missed(header: DatasetHeader, library: AssetLibrary, field: str) -> None:
+def test_what_is_out_of_view_is_not_missed(
+    header: DatasetHeader, library: AssetLibrary, field: str, camera: Camera | None
+) -> None:
     """With the same samples, a lamp's picture is the same to 45 dB, which is a level and a half."""
     whole = REFERENCE.economy
     without = whole.model_copy(update={field: True})
-    category = Category.CLOSE_CONCENTRATED
-    assert psnr_db(picture(header, library, category, 8, without), picture(header, library, category, 8, whole)) > 45
+    less, more = (picture(header, library, Category.CLOSE_CONCENTRATED, 8, each, camera) for each in (without, whole))
+    assert psnr_db(less, more) > 45
 
 
-def test_what_is_behind_is_what_paths_would_find(header: DatasetHeader, library: AssetLibrary) -> None:
+@pytest.mark.parametrize("camera", [None, TILTED], ids=["down", "tilted"])
+def test_what_is_behind_is_what_paths_would_find(
+    header: DatasetHeader, library: AssetLibrary, camera: Camera | None
+) -> None:
     """A far picture with the HDRI looked up is that of 256 samples to 35 dB, which leaves their noise."""
-    looked_up = picture(header, library, Category.FAR, 64, Economy())
-    sampled = picture(header, library, Category.FAR, 256, REFERENCE.economy)
+    looked_up = picture(header, library, Category.FAR, 64, Economy(), camera)
+    sampled = picture(header, library, Category.FAR, 256, REFERENCE.economy, camera)
     assert psnr_db(looked_up, sampled) > 35
     assert looked_up.mean() == pytest.approx(sampled.mean(), rel=0.01)
 

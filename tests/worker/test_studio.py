@@ -98,7 +98,7 @@ def test_a_mask_agrees_with_an_emission_render(baked: Path, category: Category) 
     """White cables on black, 64 samples, at 512 pixels: edges within half a pixel, save in gaps between cables."""
     header = small_header(resolution=512)
     made = open_studio(header, device="cpu", threads=0, assets=baked).make(Job(category=category, index=0), header)
-    agreement = compare(made.instances, render_coverage(samples=64))
+    agreement = compare(made.instances, render_coverage(made.scene.camera, samples=64))
     assert agreement.iou > 0.97
     assert agreement.edge_error_px <= 0.5
     assert agreement.gap_pixels < 50

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from farm.scene import Floor
-from worker.silhouette import View
-from worker.texture_window import TextureWindow, tile_coordinates, window_on
+from worker.texture_window import TextureWindow, texels_to_floor, tile_coordinates, window_on
+from worker.view import View
 
 SIZE_M = 0.4
 SIZE = (256, 256)
@@ -54,6 +54,32 @@ def test_a_window_shows_what_the_whole_texture_shows(
     shown = look_up(window.cut(TILE, colour=True), placed)
     assert (shown == look_up(TILE, uvs))[clear].all()
     assert window.coarser == 1
+
+
+@given(x=st.floats(-10, 10), y=st.floats(-10, 10), turn=st.floats(0, 360), scale=st.floats(0.3, 1.5))
+def test_texels_know_where_on_the_floor_they_lie(x: float, y: float, turn: float, scale: float) -> None:
+    """The middle of a window's texel, taken to the floor and back to the window, is itself."""
+    lying = floor(x=x, y=y, turn=turn, scale=scale)
+    window = window_on(lying, SIZE_M, View(height_m=0.33, resolution=512), (SIZE,), 4.0)
+    rows, columns = window.cut(TILE, colour=True).shape[:2]
+    to_floor = texels_to_floor(window, rows, columns, lying, SIZE_M)
+    places = np.array([[0.0, 0.0], [columns - 1.0, 0.0], [3.0, rows - 1.0]])
+    points = places @ to_floor[:, :2].T + to_floor[:, 2]
+    uvs = window.place(tile_coordinates(points, lying, SIZE_M))
+    back = np.stack([uvs[:, 0] * columns - 0.5, (1 - uvs[:, 1]) * rows - 0.5], axis=1)
+    assert back == pytest.approx(places, abs=1e-6)
+
+
+def test_a_window_of_many_tiles_repeats_none_of_its_texels() -> None:
+    """A tile of 0.12 m under a view of 0.24 m: the window is wider than the tile, and its texels are the tile's."""
+    lying = floor(turn=0.0, scale=0.3)
+    view = View(height_m=0.33, resolution=512)
+    window = window_on(lying, SIZE_M, view, (SIZE,), 4.0)
+    assert window.width > 2.0
+    assert window_on(lying, SIZE_M, view, (SIZE,)).width == 1.0
+    texels = window.cut(TILE, colour=True)
+    assert texels.shape[1] == round(window.width * 256)
+    assert (texels[:, :200] == texels[:, 256:456]).all()
 
 
 def test_a_near_camera_needs_few_texels() -> None:

@@ -1,13 +1,16 @@
-"""`python -m worker.bench whole|farm|masks|skips|stress|physics|render|soak|startup --out DIR`."""
+"""`python -m worker.bench NAME --out DIR`."""
 
 import argparse
 import sys
 from pathlib import Path
 
 from farm.errors import FarmError
+from worker.bench.examples.options import add_examples
+from worker.bench.pictures.options import add_pictures, styles_of
 from worker.bench.soak.options import add_soak
 from worker.bench.throughput.options import add_farm
 from worker.bench.throughput.splits import SPLITS
+from worker.bench.training.options import add_training, training_plan_of
 from worker.bench.whole.options import add_whole, plan_of
 from worker.leave import leave
 
@@ -21,6 +24,8 @@ def main(arguments: list[str]) -> int:
     shared.add_argument("--seed", type=int, default=0)
     add_whole(commands, shared)
     add_farm(commands, shared)
+    add_pictures(commands, shared)
+    add_training(commands, shared)
     masks = commands.add_parser("masks", parents=[shared], help="masks against fine renders")
     masks.add_argument("--images", type=int, help="images of each category")
     stress = commands.add_parser("stress", parents=[shared], help="the rod solver over the whole range of everything")
@@ -37,6 +42,10 @@ def main(arguments: list[str]) -> int:
     startup = commands.add_parser("startup", parents=[shared], help="from a worker's start to its first picture")
     startup.add_argument("--starts", type=int, help="how often")
     add_soak(commands, shared)
+    add_examples(commands, shared)
+    surfaces = commands.add_parser("surfaces", parents=[shared], help="what each floor surface costs to render")
+    surfaces.add_argument("--scenes", type=int, help="on which each is tried")
+    surfaces.add_argument("--only", action="append", default=[], metavar="NAME", help="this one; repeat it")
     options = parser.parse_args(arguments)
     options.out.mkdir(parents=True, exist_ok=True)
     try:
@@ -73,7 +82,22 @@ def _run(options: argparse.Namespace) -> int:
             quality=options.quality,
             resolution=options.resolution,
         )
+    if options.benchmark in {"pictures", "training"}:
+        return _run_styles(options)
     return _run_pictures(options)
+
+
+def _run_styles(options: argparse.Namespace) -> int:
+    """Run one that compares the styles, which are made by other processes: Blender stays out of this one."""
+    if options.benchmark == "training":
+        from worker.bench.training.command import run as run_training  # noqa: PLC0415
+
+        return run_training(options.out, training_plan_of(options))
+    from worker.bench.pictures.command import run as run_pictures  # noqa: PLC0415
+
+    return run_pictures(
+        options.out, seed=options.seed, images=options.images, styles=styles_of(options), datasets=options.dataset
+    )
 
 
 def _run_pictures(options: argparse.Namespace) -> int:
@@ -94,9 +118,22 @@ def _run_pictures(options: argparse.Namespace) -> int:
         from worker.bench.throughput.command import run as run_farm  # noqa: PLC0415
 
         return run_farm(options.out, seed=options.seed, images=options.images, splits=options.split or SPLITS)
-    from worker.bench import masks  # noqa: PLC0415
+    if options.benchmark == "masks":
+        from worker.bench import masks  # noqa: PLC0415
 
-    return masks.run(options.out, images=options.images, seed=options.seed)
+        return masks.run(options.out, images=options.images, seed=options.seed)
+    return _run_looks(options)
+
+
+def _run_looks(options: argparse.Namespace) -> int:
+    """Run one that is about what pictures look like."""
+    if options.benchmark == "examples":
+        from worker.bench.examples.command import run as run_examples  # noqa: PLC0415
+
+        return run_examples(options.out, seed=options.seed, each=options.each, groups=options.group, only=options.only)
+    from worker.bench.surfaces.command import run as run_surfaces  # noqa: PLC0415
+
+    return run_surfaces(options.out, seed=options.seed, scenes=options.scenes, only=options.only)
 
 
 if __name__ == "__main__":

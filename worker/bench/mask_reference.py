@@ -4,6 +4,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from farm.photograph import Camera
 from worker.bench.white_on_black import white_on_black
 from worker.render import render_picture
 
@@ -13,13 +14,14 @@ _SAME_SO_FAR = 128
 """Samples after which Cycles leaves a pixel that is all black or all white, with all around it: most of the picture."""
 
 
-def render_coverage(samples: int = SAMPLES) -> NDArray[np.float64]:
+def render_coverage(camera: Camera, samples: int = SAMPLES) -> NDArray[np.float64]:
     """Render the cables of the realized scene white on black.
 
     The lens is the picture's, depth of field included. The floor, the lamps and the world are left out, which changes
     the open scene: realize it again before another picture.
 
     Args:
+        camera: of the realized scene; Blender knows all of it but the distortion.
         samples: Cycles samples a pixel.
 
     Returns:
@@ -35,6 +37,6 @@ def render_coverage(samples: int = SAMPLES) -> NDArray[np.float64]:
         scene.cycles.adaptive_threshold = 1e-4
         scene.cycles.max_bounces = 0
         scene.cycles.use_denoising = False
-        grey = cv2.cvtColor(render_picture(), cv2.COLOR_RGB2GRAY)
+        grey = cv2.cvtColor(render_picture(distortion=camera.distortion), cv2.COLOR_RGB2GRAY)
     coverage: NDArray[np.float64] = grey / 255.0
     return coverage

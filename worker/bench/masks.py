@@ -10,7 +10,6 @@ from rich.progress import track
 from farm.category import Category
 from farm.errors import VerificationError
 from farm.header import DatasetHeader
-from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from farm.scene import Scene
 from worker.bench.bench_dataset import bench_header, bench_jobs
 from worker.bench.mask_agreement import compare
@@ -20,6 +19,7 @@ from worker.bench.terminal import bench_console, blender_writes_to
 from worker.made import MadeImage
 from worker.simulate import let_fall
 from worker.studio import label, open_studio
+from worker.view import View
 
 DEFAULT_IMAGES = 2
 REPEATS = 5
@@ -42,7 +42,7 @@ def run(out: Path, *, images: int | None, seed: int) -> int:
     for job in track(bench_jobs(count), "images", console=console, transient=True):
         with blender_writes_to(log_file):
             made = studio.make(job, header)
-            agreement = compare(made.instances, render_coverage())
+            agreement = compare(made.instances, render_coverage(made.scene.camera))
             label_ms = _label_again(made, job.category, header)
         width_px = _thinnest_px(made.scene, header.spec.resolution)
         found.append(LabelledImage(job.category, width_px, label_ms, agreement))
@@ -75,7 +75,7 @@ def _label_again(made: MadeImage, category: Category, header: DatasetHeader) -> 
 def _thinnest_px(scene: Scene, resolution: int) -> float:
     """Width in pixels of the scene's thinnest cable where it lies on the floor."""
     diameter_m = min(cable.diameter_m for cable in scene.cables)
-    return diameter_m * resolution * FOCAL_LENGTH_MM / SENSOR_MM / scene.camera.height_m
+    return diameter_m * View.of(scene.camera, resolution).pixels_per_m
 
 
 def _entry(image: LabelledImage) -> dict[str, float]:

@@ -31,8 +31,8 @@ def white_on_black() -> Iterator[Any]:
     for piece in [item for item in scene.objects if item.name.startswith(f"{names.CABLE}.")]:
         hides = piece.name.startswith(f"{names.CABLE}.{OCCLUDER}.")
         piece.data.materials[0] = black if hides else white
-    for lamp in (names.POINT_LAMP, names.AREA_LAMP):
-        bpy.data.objects[lamp].hide_render = True
+    for lamp in [item for item in scene.objects if item.type == "LIGHT"]:
+        lamp.hide_render = True
     floor.hide_render = True
     picture_world, scene.world = scene.world, world
     view.view_transform = "Raw"

@@ -1,19 +1,38 @@
 import re
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 from assets.bake import recipe_generator
-from assets.surfaces.catalogue import SURFACES
+from assets.surfaces.catalogue import FLOORS, SURFACES, WORKPLACE
+from assets.surfaces.catalogue import LIGHT as BRIGHT
 from assets.surfaces.recipe import SurfaceFamily
 from tests.assets.built import PIXELS, built, steps
 
 NAMES = list(SURFACES)
 
 
-def test_there_are_at_least_32_surfaces_in_every_family() -> None:
-    """The catalogue is wide: at least 32 surfaces, and no family is empty."""
-    assert len(SURFACES) >= 32
+LIGHT = (
+    "laminate_white",
+    "melamine_board",
+    "whiteboard",
+    "pegboard_white",
+    "paper_sheets",
+    "squared_paper",
+    "wiring_plan",
+)
+
+
+def linear(colour: npt.NDArray[np.uint8]) -> npt.NDArray[np.float64]:
+    """Reflectance, 0 to 1, of a colour in sRGB."""
+    value = colour / 255.0
+    return np.asarray(np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4))
+
+
+def test_there_are_at_least_40_surfaces_in_every_family() -> None:
+    """The catalogue is wide, and no family is empty."""
+    assert len(SURFACES) >= 40
     assert {recipe.family for recipe in SURFACES.values()} == set(SurfaceFamily)
 
 
@@ -31,6 +50,18 @@ def test_some_surfaces_are_light_some_dark() -> None:
     assert sum(mean < 95 for mean in means) >= 5
     assert sum(95 <= mean < 160 for mean in means) >= 10
     assert sum(mean >= 160 for mean in means) >= 8
+
+
+@pytest.mark.parametrize("name", sorted(BRIGHT))
+def test_light_surfaces_are_light(name: str) -> None:
+    """As a style that prefers them takes for granted."""
+    assert built(name).colour.mean() > 165
+
+
+def test_the_published_floors_are_apart_from_the_workplace() -> None:
+    """Together they are all there is."""
+    assert not FLOORS.keys() & WORKPLACE.keys()
+    assert dict(SURFACES) == {**FLOORS, **WORKPLACE}
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -58,9 +89,9 @@ def test_opposite_edges_meet(name: str, axis: int) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_albedo_is_plausible(name: str) -> None:
-    """The mean lies between soot and snow, and hardly a texel is pure black or pure white."""
+    """The mean lies between soot and fresh paper, and hardly a texel is pure black or pure white."""
     colour = built(name).colour
-    assert 45 <= colour.mean() <= 220
+    assert 45 <= colour.mean() <= 235
     assert (colour.max(axis=2) < 8).mean() < 0.02
     assert (colour.min(axis=2) > 248).mean() < 0.02
 
@@ -99,3 +130,38 @@ def test_another_generator_gives_another_surface() -> None:
     other = recipe.build(np.random.default_rng(5), PIXELS)
     assert not np.array_equal(other.colour, built("marble_white").colour)
     assert abs(other.colour.mean() - built("marble_white").colour.mean()) < 15
+
+
+@pytest.mark.parametrize("name", LIGHT)
+def test_white_tables_and_paper_are_really_white(name: str) -> None:
+    """They reflect 60 to 85 percent of the light, and hardly more in one channel than in another."""
+    mean = linear(built(name).colour).mean(axis=(0, 1))
+    assert 0.60 <= mean.mean() <= 0.85
+    assert mean.max() - mean.min() < 0.08
+
+
+@pytest.mark.parametrize(
+    ("name", "share"),
+    [("perforated_steel", 0.354), ("cable_tray", 0.164), ("bar_grating", 0.79), ("aluminium_profile", 0.205)],
+)
+def test_openings_are_dark_and_of_true_size(name: str, share: float) -> None:
+    """The share of the area that is nearly black follows from the openings' sizes and pitches."""
+    dark = built(name).colour.max(axis=2) < 90
+    assert dark.mean() == pytest.approx(share, abs=0.06)
+
+
+def test_the_cutting_mat_has_a_line_every_ten_millimetres() -> None:
+    """Averaged along y, brightness has 40 peaks over the 400 mm, the highest every 50 mm."""
+    profile = built("cutting_mat").colour.mean(axis=(0, 2))
+    profile = profile - np.median(profile)
+    spectrum = np.abs(np.fft.rfft(profile))
+    assert spectrum[40] > 4 * np.median(spectrum[20:60])
+    assert spectrum[8] > 2 * np.median(spectrum[2:16])
+
+
+def test_keys_stand_at_their_true_pitch() -> None:
+    """Averaged along x, a keyboard repeats itself three times down the tile, which is 20 keys of 19.05 mm wide."""
+    assert SURFACES["keyboard_black"].size_m == pytest.approx(20 * 0.01905)
+    profile = built("keyboard_black").colour.mean(axis=(1, 2))
+    third = PIXELS // 3
+    assert np.corrcoef(profile, np.roll(profile, third))[0, 1] > 0.8

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from assets.surfaces.grid import Grid
-from assets.surfaces.layouts import Layout, boards, herringbone, tiles
+from assets.surfaces.layouts import Layout, boards, chevron, herringbone, tiles
 
 GRID = Grid(256, 400.0)
 LAYOUTS = [
@@ -11,6 +11,7 @@ LAYOUTS = [
     tiles(GRID, 2, 4, 0.5),
     herringbone(GRID, 1),
     herringbone(GRID, 2, 3),
+    chevron(GRID, 4, 8),
 ]
 
 
@@ -44,3 +45,19 @@ def test_half_bond_shifts_every_other_row() -> None:
     assert abs(layout.u_mm[10, 64]) < GRID.texel_mm
     assert layout.edge_mm[32, 128] < GRID.texel_mm
     assert abs(layout.u_mm[96, 128]) < GRID.texel_mm
+
+
+def test_chevron_boards_are_all_of_one_size() -> None:
+    """Every board covers the same area, and there are as many as columns times pieces."""
+    counts = np.bincount(chevron(GRID, 4, 8).labels.ravel())
+    assert len(counts) == 32
+    assert counts.min() == counts.max() == 256 * 256 // 32
+
+
+def test_chevron_boards_rise_and_fall_in_turn() -> None:
+    """Boards run up to the right in even columns and down in odd ones, mirrored where they meet."""
+    layout = chevron(GRID, 4, 8)
+    left, right = layout.v_mm[:, :64], layout.v_mm[:, 64:128]
+    assert np.array_equal(left, right[:, ::-1])
+    assert layout.labels[40, 10] == layout.labels[30, 20]
+    assert layout.labels[40, 74] == layout.labels[50, 84]

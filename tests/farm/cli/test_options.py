@@ -110,10 +110,12 @@ def test_bad_template(farm: Farm, tmp_path: Path, content: bytes | None, words: 
         ("--hdris", "sky.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 64 +X 128\n\x02\x02"),
         ("--hdris", "sky.exr", b"\x76\x2f\x31\x01"),
         ("--hdris", None, b""),
+        ("--backgrounds", "lab.jpg", b"\xff\xd8\xff\xe0"),
+        ("--backgrounds", None, b""),
     ],
 )
 def test_bad_assets(farm: Farm, tmp_path: Path, flag: str, name: str | None, content: bytes) -> None:
-    """A texture that is no image, a truncated HDRI and an empty folder are refused by their names."""
+    """A texture that is no image, a truncated HDRI or photograph and an empty folder are refused by their names."""
     inputs = tmp_path / "inputs"
     inputs.mkdir()
     if name is not None:

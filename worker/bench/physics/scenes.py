@@ -7,6 +7,8 @@ from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
 from farm.job import Job
 from farm.scene import Cable, Scene
 from farm.spec import parse_spec
+from farm.styles import merge_tables
+from worker.bench.bench_dataset import PUBLISHED
 from worker.randomize import draw_scene
 
 CATEGORIES = (Category.FAR, Category.FAR_ALIGNED)
@@ -64,9 +66,10 @@ def crowd(header: DatasetHeader, category: Category, index: int, cables: int) ->
 def _header(seed: int) -> DatasetHeader:
     """One that names a surface and an HDRI which need not be there, since nothing is rendered."""
     nothing = "0" * 64
+    description = {**PUBLISHED, "images": DRAWN_CABLES, "seed": seed}
     return DatasetHeader(
         farm_version=version("cable-farm"),
-        spec=parse_spec({"images": DRAWN_CABLES, "seed": seed, "ranges": MOST_CABLES}, source="benchmark"),
+        spec=parse_spec(merge_tables(description, {"ranges": MOST_CABLES}), source="benchmark"),
         template=TemplateRef(path=None, sha256=nothing),
         surfaces=(BuiltinSurfaceRef(name="none", recipe_version=1),),
         hdris=(HdriRef(name="none", path=None, sha256=nothing, dark=False),),

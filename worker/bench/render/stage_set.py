@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from blend.build import TEMPLATE
 from blend.contract import open_template
 from farm.category import Category
+from farm.errors import RenderError
 from farm.header import DatasetHeader
 from farm.job import Job
 from farm.rendering import PictureSettings
@@ -18,7 +19,7 @@ from worker.library import AssetLibrary
 from worker.matte import Backdrop
 from worker.randomize import draw_scene
 from worker.realize import realize
-from worker.render import configure_cycles, configure_picture, render_picture
+from worker.render import configure_cycles, configure_picture, render_scene
 from worker.shapes import CableShapes
 from worker.simulate import let_fall
 
@@ -51,6 +52,7 @@ class Stage:
         self._shelf = ImageShelf()
         self._resolution = resolution
         self._behind: Backdrop | None = None
+        self._scene: Scene | None = None
 
     def set(
         self,
@@ -73,9 +75,10 @@ class Stage:
             share: of the picture's edge that is rendered, about its middle.
         """
         resolution = resolution or self._resolution
+        self._scene = settled.scene
         self._behind = realize(
             settled.scene,
-            settled.shapes.nodes_m,
+            settled.shapes,
             self._library,
             self._shelf,
             traits=settled.job.category.traits,
@@ -92,4 +95,6 @@ class Stage:
 
     def render(self) -> NDArray[np.uint8]:
         """The picture (H, W, 3) as set."""
-        return render_picture(self._behind)
+        if self._scene is None:
+            raise RenderError("nothing is set to be rendered")
+        return render_scene(self._scene, self._behind)

@@ -36,7 +36,7 @@ def play(split: Split, images: int, seed: int, folder: Path, log_file: Path) -> 
     """
     place = folder / "data"
     started_s, start = time.time(), time.perf_counter()
-    peak_mib = _run(_command(split, images, seed, place, folder / "logs"), log_file)
+    peak_mib = run_to_end(_command(split, images, seed, place, folder / "logs"), log_file)
     wall_s = time.perf_counter() - start
     dataset = open_dataset(parse_destination(str(place)))
     verdict = verify(dataset)
@@ -68,8 +68,19 @@ def _command(split: Split, images: int, seed: int, place: Path, logs: Path) -> l
     return [*command, "--workers", str(split.workers), "--threads", str(split.threads)]
 
 
-def _run(command: list[str], log_file: Path) -> float | None:
-    """Run it to its end; returns the peak memory of all its processes in MiB."""
+def run_to_end(command: list[str], log_file: Path) -> float | None:
+    """Run a command of the farm to its end.
+
+    Args:
+        command: the program and its arguments.
+        log_file: takes what it prints.
+
+    Returns:
+        Peak memory of all its processes in MiB; None where the system does not tell.
+
+    Raises:
+        FarmError: that with which it ended.
+    """
     peak_mib: float | None = None
     with log_file.open("wb") as log:
         process = subprocess.Popen(  # noqa: S603  # our own program

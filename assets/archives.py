@@ -1,0 +1,60 @@
+"""One file out of a tar or zip archive. The archive's names choose what is read, never where anything is written."""
+
+import lzma
+import tarfile
+import zipfile
+import zlib
+from pathlib import Path
+
+from farm.errors import AssetError
+
+
+def read_member(archive: Path, shown: str, member: str, size: int) -> bytes:
+    """Read one regular file of a known size.
+
+    Args:
+        archive: A zip file, or a tar file of any compression.
+        shown: What to call it in errors; its ending, .zip or .whl, tells zip from tar.
+        member: The file's full name in it.
+        size: Its bytes; no more are read.
+
+    Returns:
+        Its content, exactly so long.
+
+    Raises:
+        AssetError: The archive is damaged, or has no such file: it is missing, a link, a folder or of another size.
+    """
+    reader = _from_zip if shown.endswith((".zip", ".whl")) else _from_tar
+    try:
+        data = reader(archive, member, size)
+    except KeyError as error:
+        raise AssetError(f"{shown}: holds no {member}; the registry names another archive than this") from error
+    except (
+        *(OSError, EOFError, ValueError, RuntimeError, NotImplementedError),
+        *(tarfile.TarError, zipfile.BadZipFile, zlib.error, lzma.LZMAError),
+    ) as error:
+        raise AssetError(f"{shown}: {member} can't be read from it ({error}); the archive is damaged") from error
+    if data is None:
+        raise AssetError(f"{shown}: {member} isn't a file of {size} bytes, as registered; nothing was kept")
+    return data
+
+
+def _from_tar(archive: Path, member: str, size: int) -> bytes | None:
+    with tarfile.open(archive) as tar:
+        entry = tar.getmember(member)
+        if not entry.isreg() or entry.size != size:
+            return None
+        file = tar.extractfile(entry)
+        data = file.read(size) if file is not None else b""
+    return data if len(data) == size else None
+
+
+def _from_zip(archive: Path, member: str, size: int) -> bytes | None:
+    with zipfile.ZipFile(archive) as packed:
+        entry = packed.getinfo(member)
+        if entry.is_dir() or entry.file_size != size:
+            return None
+        with packed.open(entry) as file:
+            # The size told above is the archive's own word; read one byte past it to see whether it holds.
+            data = file.read(size + 1)
+    return data if len(data) == size else None

@@ -1,0 +1,206 @@
+"""Environments of our own, panoramas of rooms and yards rendered once on each machine: which, and where they lie."""
+
+import zlib
+from collections.abc import Mapping
+from enum import StrEnum
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from assets.files import read_bounded, sha256
+from assets.hdris import Checksum
+from farm.errors import AssetError
+
+FOLDER_NAME = "environments"
+RECORD_NAME = "environment.json"
+PANORAMA_NAME = "panorama.exr"
+
+SMALLEST_WIDTH, LARGEST_WIDTH = 64, 8192
+DEFAULT_WIDTH = 4096
+"""Pixels around the horizon: a far picture, 40 degrees wide, shows 455 of them."""
+
+TARGET_LUMINANCE = 0.8
+"""Mean over the sphere to which a panorama is scaled; Blender's own HDRIs of the day have 0.5 to 0.94."""
+
+BRIGHTEST = 50.0
+"""Light above this is clipped: lamps, and the sun's reflections."""
+
+
+class EnvironmentKind(StrEnum):
+    """What a panorama shows."""
+
+    WORKSHOP = "workshop"
+    LABORATORY = "laboratory"
+    STOREROOM = "storeroom"
+    OFFICE = "office"
+    FACTORY = "factory"
+    SWITCH_ROOM = "switch_room"
+    YARD = "yard"
+
+
+class EnvironmentRecipe(BaseModel):
+    """How to build one.
+
+    Attributes:
+        name: Unique.
+        kind: Which builder makes it.
+        seed: Of all that is drawn; an odd one builds the kind's first variant, an even one its second.
+        version: Grows with every change that would make another picture of it.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    kind: EnvironmentKind
+    seed: int = Field(ge=0)
+    version: int = Field(ge=1)
+
+
+class EnvironmentRecord(BaseModel):
+    """What `environment.json` says about a rendered environment.
+
+    Attributes:
+        name: The recipe's name, also the folder's.
+        kind: What it shows.
+        version: Version of the recipe that built it.
+        pixels: Width of the panorama; it is half as high.
+        sha256: Checksum of the panorama's file.
+        mean_luminance: Mean over the sphere, scene-linear.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    name: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
+    kind: EnvironmentKind
+    version: int = Field(ge=1)
+    pixels: int = Field(ge=SMALLEST_WIDTH, le=LARGEST_WIDTH)
+    sha256: Checksum
+    mean_luminance: float = Field(gt=0, allow_inf_nan=False)
+
+
+class Environment(BaseModel):
+    """An environment on disk, checked.
+
+    Attributes:
+        path: The panorama, an EXR file of linear light.
+        record: What is known of it.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    path: Path
+    record: EnvironmentRecord
+
+
+_VERSIONS: Mapping[EnvironmentKind, int] = MappingProxyType(dict.fromkeys(EnvironmentKind, 1))
+
+ENVIRONMENTS: Mapping[str, EnvironmentRecipe] = MappingProxyType(
+    {
+        f"{kind}_{seed}": EnvironmentRecipe(name=f"{kind}_{seed}", kind=kind, seed=seed, version=version)
+        for kind, version in _VERSIONS.items()
+        for seed in (1, 2)
+    }
+)
+"""All of them, by name."""
+
+
+def environment_generator(recipe: EnvironmentRecipe) -> np.random.Generator:
+    """The random generator that a recipe is built with: it follows from its kind, seed and version alone."""
+    return np.random.default_rng([zlib.crc32(recipe.kind.encode()), recipe.seed, recipe.version])
+
+
+def environment_directory(folder: Path, name: str) -> Path:
+    """Where an environment lies.
+
+    Args:
+        folder: The folder of the baked surfaces.
+        name: Of the environment.
+
+    Raises:
+        AssetError: The name would lead out of the folder.
+    """
+    if name in {"", ".", ".."} or Path(name).name != name or "\0" in name:
+        # A dataset's header, which may come from anybody, must not lead out of the folder.
+        raise AssetError(f"{name!a} can't name an environment")
+    return folder / FOLDER_NAME / name
+
+
+def load_environment(folder: Path, name: str) -> Environment:
+    """Find one rendered environment and check its file against its checksum.
+
+    Args:
+        folder: The folder of the baked surfaces.
+        name: Of the environment.
+
+    Raises:
+        AssetError: It is not there, incomplete or damaged.
+    """
+    directory = environment_directory(folder, name)
+    record_path = directory / RECORD_NAME
+    repair = "run 'farm assets build' to render it afresh"
+    if not record_path.exists():
+        raise AssetError(f"{folder}: the environment '{name}' is not rendered here; run `farm assets build`")
+    record = read_record(record_path)
+    if record.name != name:
+        raise AssetError(f"{record_path}: is about {record.name!r}, not {name!r}; {repair}")
+    path = directory / PANORAMA_NAME
+    if not path.is_file():
+        raise AssetError(f"{path}: is missing; {repair}")
+    if sha256(read_bounded(path)) != record.sha256:
+        raise AssetError(f"{path}: differs from its checksum in {RECORD_NAME}; {repair}")
+    return Environment(path=path, record=record)
+
+
+def read_record(path: Path) -> EnvironmentRecord:
+    """Read an `environment.json`.
+
+    Raises:
+        AssetError: It can't be read or says what it must not.
+    """
+    try:
+        return EnvironmentRecord.model_validate_json(read_bounded(path))
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(str(part) for part in first["loc"])
+        repair = "run 'farm assets build' to render it afresh"
+        raise AssetError(f"{path}: {place} {first['msg']}; {repair}") from error
+
+
+def chosen_environments(names: tuple[str, ...] | None) -> tuple[EnvironmentRecipe, ...]:
+    """The recipes of some names, all of them for None, in the registry's order.
+
+    Raises:
+        AssetError: A name is unknown.
+    """
+    if names is None:
+        return tuple(ENVIRONMENTS.values())
+    unknown = sorted(set(names) - ENVIRONMENTS.keys())
+    if unknown:
+        raise AssetError(f"unknown environment {unknown[0]!a}; there are {', '.join(ENVIRONMENTS)}")
+    return tuple(recipe for recipe in ENVIRONMENTS.values() if recipe.name in names)
+
+
+def missing_environments(
+    folder: Path, pixels: int | None, names: tuple[str, ...] | None = None
+) -> tuple[EnvironmentRecipe, ...]:
+    """The recipes that a folder lacks: absent, damaged, or of another version or size.
+
+    Args:
+        folder: The folder of the baked surfaces.
+        pixels: Width that they must have; None if any will do.
+        names: Which to look for; None for all.
+
+    Raises:
+        AssetError: A name is unknown.
+    """
+    return tuple(recipe for recipe in chosen_environments(names) if not _is_there(folder, recipe, pixels))
+
+
+def _is_there(folder: Path, recipe: EnvironmentRecipe, pixels: int | None) -> bool:
+    try:
+        record = load_environment(folder, recipe.name).record
+    except AssetError:
+        return False
+    return (record.kind, record.version) == (recipe.kind, recipe.version) and pixels in {None, record.pixels}

@@ -1,0 +1,47 @@
+"""From a recipe to an open scene."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+
+from assets.environments import EnvironmentKind, EnvironmentRecipe, environment_generator
+from blend.environments import factory, laboratory, office, storeroom, switch_room, workshop, yard
+from blend.environments.assembly import Assembly
+from blend.environments.scene import Light, stage
+
+BUILDERS: dict[EnvironmentKind, Callable[[Assembly, np.random.Generator, int], Light]] = {
+    EnvironmentKind.WORKSHOP: workshop.build,
+    EnvironmentKind.LABORATORY: laboratory.build,
+    EnvironmentKind.STOREROOM: storeroom.build,
+    EnvironmentKind.OFFICE: office.build,
+    EnvironmentKind.FACTORY: factory.build,
+    EnvironmentKind.SWITCH_ROOM: switch_room.build,
+    EnvironmentKind.YARD: yard.build,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Built:
+    """An environment's scene.
+
+    Attributes:
+        scene: Blender's, all but its render settings.
+        assembly: what stands in it.
+        light: what lights it apart from its lamps.
+    """
+
+    scene: Any
+    assembly: Assembly
+    light: Light
+
+
+def build_environment(recipe: EnvironmentRecipe) -> Built:
+    """Replace the open file by an empty one and build an environment in it."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    rng = environment_generator(recipe)
+    assembly = Assembly(rng)
+    light = BUILDERS[recipe.kind](assembly, rng, recipe.seed)
+    return Built(stage(assembly, light, rng), assembly, light)

@@ -1,0 +1,354 @@
+"""Tables, chairs, cupboards and shelving."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from blend.environments.assembly import Assembly
+from blend.environments.goods import BENCH, SHELVED, STORED, mug, papers
+from blend.environments.lamps import desk_lamp
+from blend.environments.layout import Piece, clutter, row_on
+from blend.environments.palette import (
+    ALUMINIUM,
+    BLACK,
+    BLUE,
+    DARK_GREY,
+    FABRICS,
+    LIGHT_GREY,
+    ORANGE,
+    PLASTICS,
+    STEEL,
+    STEEL_FURNITURE,
+    WHITE,
+    WOODS,
+    pick,
+    vary,
+)
+from blend.environments.prints import PrintKind, any_of
+from blend.environments.solids import hanging
+
+Rng = np.random.Generator
+
+
+def legs(a: Assembly, size: tuple[float, float, float], material: str, tint: tuple[float, float, float]) -> None:
+    """Four legs under a top of a size (width, depth, height of its underside), its back at y = 0."""
+    for x in (-0.5, 0.5):
+        for y in (0.04, size[1] - 0.04):
+            a.box((x * (size[0] - 0.08), y, 0), (0.05, 0.05, size[2]), material, tint, bevel=0.005)
+
+
+def workbench(a: Assembly, rng: Rng) -> None:
+    """A heavy bench with a drawer block, a shelf below, and whatever lies on it."""
+    width, deep, high = 2.0, 0.75, 0.86
+    frame = vary(rng, pick(rng, STEEL_FURNITURE))
+    legs(a, (width, deep, high), "paint", frame)
+    a.box((0, 0.5 * deep, high), (width, deep, 0.05), "surface:birch_veneer", (0.85, 0.75, 0.62), bevel=0.006)
+    a.box((0, 0.5 * deep, 0.16), (width - 0.1, deep - 0.1, 0.025), "wood", pick(rng, WOODS))
+    drawers(a, rng, 0.62, 0.5, 0.1, deep - 0.06, 4, vary(rng, pick(rng, STEEL_FURNITURE)))
+    with a.at(-0.4, 0.08):
+        row_on(a, rng, STORED, 1.1, 0.19, empty=0.3)
+    clutter(a, rng, BENCH, (width, deep), high + 0.05, density=0.75)
+
+
+def drawers(
+    a: Assembly, rng: Rng, x: float, width: float, low: float, deep: float, count: int, tint: tuple[float, float, float]
+) -> None:
+    """A block of drawers with pulls, its top at 0.84 m."""
+    high = 0.84 - low
+    a.box((x, 0.5 * deep, low), (width, deep, high), "paint", tint, bevel=0.006)
+    for n in range(count):
+        z = low + n * high / count
+        a.box(
+            (x, deep + 0.006, z + 0.008),
+            (width - 0.03, 0.014, high / count - 0.016),
+            "paint",
+            vary(rng, tint, 0.05),
+            bevel=0.004,
+        )
+        a.box((x, deep + 0.026, z + 0.7 * high / count), (0.6 * width, 0.025, 0.016), "metal", ALUMINIUM, bevel=0.004)
+
+
+def steel_cupboard(a: Assembly, rng: Rng) -> None:
+    """A two-door steel cupboard, things on its top."""
+    tint, width, high = vary(rng, pick(rng, STEEL_FURNITURE)), 0.95, 1.95
+    a.box((0, 0.22, 0.06), (width, 0.42, high - 0.06), "paint", tint, bevel=0.008)
+    a.box((0, 0.2, 0), (width - 0.06, 0.36, 0.06), "paint", BLACK)
+    for side in (-1, 1):
+        a.box(
+            (side * 0.25 * width, 0.44, 0.08),
+            (0.5 * width - 0.008, 0.018, high - 0.11),
+            "paint",
+            vary(rng, tint, 0.04),
+            bevel=0.005,
+        )
+        for n in range(4):
+            a.box((side * 0.25 * width, 0.45, high - 0.2 - 0.03 * n), (0.2, 0.004, 0.01), "rubber", BLACK)
+    a.box((0.03, 0.46, 1.0), (0.02, 0.03, 0.14), "chrome", STEEL, bevel=0.006)
+    if rng.random() < 0.8:
+        a.picture((-0.25 * width, 0.4505, 1.2), (0.2, 0.28), any_of(rng, PrintKind.SHEET))
+    if rng.random() < 0.7:
+        with a.at(0, 0.02):
+            row_on(a, rng, STORED, width, high, empty=0.4)
+
+
+def lockers(a: Assembly, rng: Rng) -> None:
+    """Three lockers side by side."""
+    tint = pick(rng, (BLUE, (0.25, 0.3, 0.32), (0.4, 0.42, 0.4), (0.05, 0.2, 0.12)))
+    a.box((0, 0.24, 0.05), (0.92, 0.48, 1.8), "paint", LIGHT_GREY, bevel=0.006)
+    for n in range(3):
+        x = -0.303 + 0.303 * n
+        a.box((x, 0.486, 0.08), (0.292, 0.016, 1.74), "paint", vary(rng, tint, 0.05), bevel=0.005)
+        for z in (0.25, 0.28, 0.31, 1.55, 1.58, 1.61):
+            a.box((x, 0.496, z), (0.14, 0.003, 0.01), "rubber", BLACK)
+        a.box((x + 0.11, 0.505, 0.95), (0.018, 0.025, 0.07), "chrome", STEEL)
+        a.picture((x, 0.495, 1.4), (0.09, 0.05), any_of(rng, PrintKind.LABEL))
+
+
+def steel_shelf(
+    a: Assembly, rng: Rng, pieces: Sequence[Piece] = STORED, *, width: float = 1.2, high: float = 2.1, boards: int = 5
+) -> None:
+    """Open shelving of angle steel, filled."""
+    post = pick(rng, (STEEL, LIGHT_GREY, BLUE, DARK_GREY))
+    for x in (-0.5 * width, 0.5 * width):
+        for y in (0.03, 0.47):
+            a.box((x, y, 0), (0.035, 0.035, high), "paint", post)
+    a.tube([(-0.5 * width, 0.02, 0.1), (0.5 * width, 0.02, high - 0.1)], 0.006, "metal", STEEL)
+    a.tube([(0.5 * width, 0.02, 0.1), (-0.5 * width, 0.02, high - 0.1)], 0.006, "metal", STEEL)
+    for z in np.linspace(0.12, high - 0.04, boards):
+        a.box((0, 0.25, float(z)), (width, 0.48, 0.03), "paint", vary(rng, LIGHT_GREY), bevel=0.004)
+        with a.at(0, 0.02):
+            row_on(a, rng, pieces, width - 0.06, float(z) + 0.03)
+
+
+def book_case(a: Assembly, rng: Rng) -> None:
+    """A wooden case of shelves with binders, books and oddments."""
+    wood, width, high = pick(rng, (*WOODS, WHITE, LIGHT_GREY)), 0.9, rng.choice([1.2, 2.0])
+    for x in (-0.5 * width, 0.5 * width):
+        a.box((x, 0.17, 0), (0.022, 0.34, high), "wood", wood, bevel=0.003)
+    a.box((0, 0.005, 0), (width, 0.01, high), "wood", vary(rng, wood))
+    for z in np.linspace(0.06, high - 0.022, round(high / 0.4) + 1):
+        a.box((0, 0.17, float(z)), (width, 0.33, 0.022), "wood", wood, bevel=0.003)
+        if z < high - 0.1:
+            row_on(a, rng, SHELVED, width - 0.03, float(z) + 0.022, empty=0.18)
+    if high < 1.5:
+        clutter(a, rng, (Piece(plant, 0.3, 0.3), *SHELVED), (width, 0.33), high, density=0.6)
+
+
+def pallet_rack(
+    a: Assembly, rng: Rng, pieces: Sequence[Piece] = STORED, *, width: float = 2.7, levels: int = 3, gap: float = 1.25
+) -> None:
+    """Heavy racking: blue uprights, orange beams, loaded."""
+    deep, upright = 0.95, pick(rng, (BLUE, (0.02, 0.1, 0.05), (0.3, 0.32, 0.34)))
+    high = gap * levels
+    for x in (-0.5 * width, 0.5 * width):
+        for y in (0.05, deep - 0.05):
+            a.box((x, y, 0), (0.09, 0.07, high), "paint", upright, bevel=0.005)
+            a.box((x, y + 0.038, 0.4), (0.03, 0.002, high - 0.6), "rubber", BLACK)
+        for n in range(int(high / 0.6)):
+            ends = [(x, 0.05, 0.2 + 0.6 * n), (x, deep - 0.05, 0.6 + 0.6 * n)]
+            a.tube(
+                ends if n % 2 else [(x, 0.05, 0.6 + 0.6 * n), (x, deep - 0.05, 0.2 + 0.6 * n)], 0.014, "paint", upright
+            )
+        a.box((x, deep + 0.06, 0), (0.14, 0.1, 0.4), "paint", (0.75, 0.5, 0.02), bevel=0.02)
+    for level in range(levels):
+        z = 0.08 + gap * level
+        for y in (0.05, deep - 0.05):
+            a.box((0, y, z), (width - 0.09, 0.05, 0.11), "paint", vary(rng, ORANGE, 0.06), bevel=0.006)
+        a.box((0, 0.5 * deep, z + 0.1), (width - 0.1, deep - 0.1, 0.02), "surface:particle_board", (1, 1, 1))
+        a.picture(
+            (rng.uniform(-1, 1) * 0.3 * width, deep - 0.023, z + 0.02), (0.14, 0.07), any_of(rng, PrintKind.LABEL)
+        )
+        with a.at(0, 0.04, z + 0.12):
+            _loaded(a, rng, pieces, width - 0.2, gap - 0.3)
+
+
+def _loaded(a: Assembly, rng: Rng, pieces: Sequence[Piece], width: float, high: float) -> None:
+    """One level's goods: two rows deep of loose things, or pallets stacked with cartons."""
+    if rng.random() < 0.45:
+        for x in (-0.25, 0.25):
+            with a.at(x * width, 0.0):
+                pallet(a, rng, layers=max(1, int(high / 0.3)) if rng.random() < 0.85 else 0)
+        return
+    with a.at(0, 0.02):
+        row_on(a, rng, pieces, width, 0.0)
+    with a.at(0, 0.42):
+        row_on(a, rng, pieces, width, 0.0, empty=0.25)
+
+
+def pallet(a: Assembly, rng: Rng, layers: int = 3) -> None:
+    """A pallet, with layers of like cartons."""
+    wood = pick(rng, WOODS)
+    for y in (0.06, 0.4, 0.74):
+        a.box((0, y, 0), (1.15, 0.09, 0.1), "wood", vary(rng, wood))
+    for x in np.linspace(-0.52, 0.52, 7):
+        a.box((float(x), 0.4, 0.1), (0.1, 0.8, 0.022), "wood", vary(rng, wood, 0.2), bevel=0.003)
+    tint, high = pick(rng, ((0.42, 0.25, 0.1), (0.5, 0.33, 0.16), (0.62, 0.6, 0.55))), rng.uniform(0.2, 0.3)
+    for layer in range(layers):
+        for x in (-0.37, 0.0, 0.37):
+            for y in (0.2, 0.59):
+                if layer == layers - 1 and rng.random() < 0.3:
+                    continue
+                z = 0.122 + layer * high
+                with a.at(x + rng.normal(0, 0.006), y + rng.normal(0, 0.006), z, turn=rng.normal(0, 1)):
+                    a.box((0, 0, 0), (0.36, 0.38, high - 0.004), "card", vary(rng, tint, 0.08), bevel=0.004)
+                    a.box((0, 0.191, 0), (0.36, 0.002, 0.05), "plastic", (0.4, 0.27, 0.13))
+                    if y > 0.4:
+                        a.picture((rng.uniform(-0.06, 0.06), 0.193, 0.08), (0.14, 0.1), any_of(rng, PrintKind.LABEL))
+
+
+def desk(a: Assembly, rng: Rng) -> None:
+    """An office desk with a computer, papers and a chair before it."""
+    width, deep, wood = 1.5, 0.75, pick(rng, (*WOODS, WHITE, LIGHT_GREY))
+    legs(a, (width, deep, 0.7), "metal", pick(rng, (ALUMINIUM, DARK_GREY)))
+    a.box((0, 0.5 * deep, 0.7), (width, deep, 0.028), "wood", wood, bevel=0.004)
+    a.box((-0.5, 0.36, 0.06), (0.42, 0.6, 0.56), "paint", vary(rng, LIGHT_GREY), bevel=0.006)
+    for n in range(3):
+        a.box((-0.5, 0.665, 0.08 + 0.18 * n), (0.4, 0.014, 0.17), "paint", vary(rng, LIGHT_GREY, 0.06), bevel=0.004)
+        a.box((-0.5, 0.68, 0.2 + 0.18 * n), (0.14, 0.016, 0.012), "metal", ALUMINIUM)
+    a.box((0.55, 0.3, 0.0), (0.19, 0.42, 0.42), "plastic", BLACK, bevel=0.008)
+    for x in (0.0,) if rng.random() < 0.4 else (-0.28, 0.3):
+        with a.at(x, 0.12, 0.728, turn=-25 * x):
+            monitor(a, rng)
+    keyboard(a, 0.02, 0.5, 0.728)
+    for x, maker in ((-0.55, papers), (0.52, papers), (0.42, mug)):
+        with a.at(x, 0.28 + rng.uniform(-0.1, 0.1), 0.728, turn=rng.normal(0, 15)):
+            maker(a, rng)
+    if rng.random() < 0.5:
+        with a.at(-0.6, 0.02, 0.728):
+            desk_lamp(a, rng)
+    if rng.random() < 0.5:
+        with a.at(0.62, 0.02, 0.728):
+            plant(a, rng, 0.5)
+    with a.at(rng.normal(0, 0.1), deep + 0.1, turn=180 + rng.normal(0, 30)):
+        office_chair(a, rng)
+
+
+def monitor(a: Assembly, rng: Rng) -> None:
+    """A flat screen on a foot, most often on."""
+    width, high = rng.choice([0.53, 0.6]), 0.33
+    a.box((0, 0.06, 0), (0.22, 0.18, 0.012), "plastic", BLACK, bevel=0.004)
+    a.box((0, 0.02, 0), (0.05, 0.02, 0.2), "plastic", BLACK)
+    a.box((0, 0.05, 0.14), (width, 0.035, high), "plastic", BLACK, bevel=0.006)
+    if rng.random() < 0.8:
+        tone = rng.uniform(0.8, 1.6)
+        a.picture(
+            (0, 0.0685, 0.155), (width - 0.025, high - 0.03), any_of(rng, PrintKind.SCREEN), "screen", (tone,) * 3
+        )
+    else:
+        a.box((0, 0.068, 0.155), (width - 0.025, 0.001, high - 0.03), "dark glass", (0.008, 0.009, 0.01))
+
+
+def keyboard(a: Assembly, x: float, y: float, z: float) -> None:
+    """A keyboard and a mouse."""
+    a.box((x, y, z), (0.44, 0.14, 0.016), "plastic", BLACK, bevel=0.004)
+    for row in range(5):
+        for column in range(14):
+            key = (x - 0.2 + 0.0305 * column, y - 0.054 + 0.027 * row, z + 0.016)
+            a.box(key, (0.026, 0.022, 0.006), "plastic", DARK_GREY)
+    a.lathe((x - 0.32, y, z), [(0.03, 0.0), (0.03, 0.015), (0.015, 0.03), (0.0, 0.032)], "plastic", BLACK, sides=12)
+
+
+def office_chair(a: Assembly, rng: Rng) -> None:
+    """A swivel chair on castors."""
+    cover = pick(rng, FABRICS)
+    for n in range(5):
+        t = 2 * np.pi * n / 5
+        a.tube([(0, 0, 0.1), (0.3 * np.cos(t), 0.3 * np.sin(t), 0.07)], 0.02, "plastic", BLACK)
+        a.cylinder((0.3 * np.cos(t) - 0.02, 0.3 * np.sin(t), 0.03), 0.03, 0.04, "rubber", BLACK, axis="x", sides=10)
+    a.cylinder((0, 0, 0.08), 0.025, 0.36, "chrome", STEEL)
+    a.box((0, 0, 0.43), (0.5, 0.48, 0.08), "fabric", cover, bevel=0.03)
+    a.box((0, -0.25, 0.5), (0.06, 0.03, 0.3), "plastic", BLACK)
+    with a.at(0, -0.26, 0.58, lean=-6):
+        a.box((0, 0, 0), (0.46, 0.07, rng.uniform(0.42, 0.62)), "fabric", cover, bevel=0.03)
+    for side in (-0.28, 0.28):
+        a.box((side, -0.02, 0.64), (0.05, 0.28, 0.03), "rubber", BLACK, bevel=0.012)
+        a.box((side, 0.0, 0.44), (0.03, 0.05, 0.2), "plastic", BLACK)
+
+
+def stool(a: Assembly, rng: Rng) -> None:
+    """A round stool."""
+    a.cylinder((0, 0.2, 0.6), 0.17, 0.05, "wood" if rng.random() < 0.5 else "rubber", pick(rng, WOODS))
+    for n in range(4):
+        t = np.pi / 4 + np.pi / 2 * n
+        a.tube(
+            [(0.1 * np.cos(t), 0.2 + 0.1 * np.sin(t), 0.6), (0.2 * np.cos(t), 0.2 + 0.2 * np.sin(t), 0)],
+            0.013,
+            "metal",
+            STEEL,
+        )
+    ring = np.linspace(0, 2 * np.pi, 17)
+    a.tube(np.column_stack([0.17 * np.cos(ring), 0.2 + 0.17 * np.sin(ring), np.full(17, 0.22)]), 0.009, "metal", STEEL)
+
+
+def plant(a: Assembly, rng: Rng, size: float = 1.0) -> None:
+    """A pot with leaves."""
+    a.lathe((0, 0.15 * size, 0), [(0.1 * size, 0), (0.14 * size, 0.24 * size)], "plastic", pick(rng, PLASTICS))
+    count = 60
+    angle, lift = rng.uniform(0, 2 * np.pi, count), rng.uniform(0.15, 1.0, count)
+    out = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(count)])
+    side = np.column_stack([-np.sin(angle), np.cos(angle), np.zeros(count)])
+    root = np.array([0, 0.15 * size, 0.24 * size]) + [0, 0, 0.5 * size] * lift[:, None]
+    tip = root + size * (
+        out * rng.uniform(0.15, 0.34, (count, 1)) + np.array([0, 0, 1]) * rng.uniform(-0.1, 0.2, (count, 1))
+    )
+    middle, half = 0.5 * (root + tip) + [0, 0, 0.04 * size], side * 0.035 * size
+    tints = np.array([0.05, 0.16, 0.04]) * rng.uniform(0.5, 1.6, (count, 1))
+    a.quads(np.stack([root, middle + half, tip, middle - half], axis=1), "leaf", tints)
+
+
+def trolley(a: Assembly, rng: Rng) -> None:
+    """A two-decked trolley, loaded."""
+    tint = vary(rng, pick(rng, STEEL_FURNITURE))
+    for z in (0.18, 0.78):
+        a.box((0, 0.3, z), (0.85, 0.5, 0.03), "paint", tint, bevel=0.008)
+        clutter(a, rng, BENCH, (0.8, 0.5), z + 0.03, density=0.7)
+    for x in (-0.4, 0.4):
+        for y in (0.07, 0.53):
+            a.cylinder((x, y, 0.1), 0.014, 0.8, "metal", STEEL, sides=8)
+            a.cylinder((x - 0.02, y, 0.06), 0.06, 0.04, "rubber", BLACK, axis="x")
+    a.tube([(-0.4, 0.07, 0.9), (-0.46, 0.07, 0.95), (-0.46, 0.53, 0.95), (-0.4, 0.53, 0.9)], 0.014, "metal", STEEL)
+
+
+def ladder(a: Assembly, rng: Rng) -> None:
+    """A ladder that leans at a wall."""
+    high = rng.uniform(2.2, 3.0)
+    with a.at(0, 0.55, 0, lean=13):
+        for x in (-0.2, 0.2):
+            a.box((x, 0, 0), (0.025, 0.07, high), "metal", ALUMINIUM)
+        for z in np.arange(0.25, high - 0.1, 0.28):
+            a.box((0, 0, float(z)), (0.4, 0.035, 0.03), "metal", ALUMINIUM)
+
+
+def tool_wall(a: Assembly, rng: Rng) -> None:
+    """A perforated board with tools hung on it, to be placed on a wall."""
+    width, high = 1.9, 0.95
+    a.box((0, 0.012, 0), (width, 0.02, high), "pegboard", vary(rng, pick(rng, (*STEEL_FURNITURE, BLUE))))
+    x = -0.5 * width + 0.06
+    while x < 0.5 * width - 0.06:
+        z, style = rng.uniform(0.5, 0.6), int(rng.integers(5))
+        tint = pick(rng, PLASTICS)
+        if style == 0:
+            a.box((x, 0.035, z - 0.2), (0.022, 0.012, 0.3), "chrome", STEEL, bevel=0.004)
+            a.cylinder((x, 0.03, z + 0.1), 0.024, 0.014, "chrome", STEEL, axis="y", sides=10)
+        elif style == 1:
+            a.cylinder((x, 0.04, z), 0.016, 0.11, "plastic", tint, sides=8)
+            a.cylinder((x, 0.04, z - 0.16), 0.005, 0.16, "chrome", STEEL, sides=6)
+        elif style == 2:
+            a.box((x, 0.04, z - 0.2), (0.03, 0.025, 0.3), "wood", pick(rng, WOODS), bevel=0.008)
+            a.box((x, 0.04, z + 0.08), (0.12, 0.03, 0.035), "metal", DARK_GREY, bevel=0.005)
+            x += 0.05
+        elif style == 3:
+            a.prism([(0.025, z), (0.03, z), (0.03, z + 0.1), (0.025, z + 0.1)], x, 0.36, "chrome", STEEL)
+            a.box((x + 0.2, 0.03, z - 0.02), (0.1, 0.025, 0.13), "plastic", tint, bevel=0.01)
+            x += 0.28
+        else:
+            turns = np.linspace(0, 6 * np.pi, 40)
+            points = np.column_stack([x + 0.09 * np.cos(turns), 0.03 + 0.004 * turns, z + 0.11 * np.sin(turns) - 0.1])
+            a.tube(points, 0.007, "rubber", tint)
+            x += 0.1
+        x += rng.uniform(0.06, 0.13)
+    for n in range(5):
+        with a.at(-0.75 + 0.37 * n, 0.03, 0.02):
+            a.box((0, 0.07, 0), (0.3, 0.12, 0.09), "plastic", pick(rng, PLASTICS), bevel=0.006)
+            a.picture((0, 0.131, 0.025), (0.1, 0.04), any_of(rng, PrintKind.LABEL))
+    a.tube(hanging((-0.6, 0.05, 0.4), (0.3, 0.06, 0.45), 0.3), 0.006, "rubber", tint)

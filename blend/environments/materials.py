@@ -1,0 +1,371 @@
+"""What things are made of, as Cycles shaders that read a solid's tint, its own axes and its UV map.
+
+A material is named by a word, such as `paint`, or by `surface:` and the name of one of `assets.surfaces`.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from assets.bake import recipe_generator
+from assets.surfaces.catalogue import SURFACES
+
+SURFACE_PREFIX = "surface:"
+SURFACE_PIXELS = 1024
+"""Texels along an edge of a surface's tile: a tile of 0.5 m has 0.5 mm, far finer than a panorama shows."""
+
+_SHAPELESS = ("concrete", "asphalt")
+"""Surfaces without courses, that may be shown at any scale."""
+
+
+class Shader:
+    """A material's tree while it is built."""
+
+    def __init__(self, name: str) -> None:
+        self.material = bpy.data.materials.new(name)
+        self.material.use_nodes = True
+        self._tree = self.material.node_tree
+        self._tree.nodes.clear()
+        self.surface = self.node("ShaderNodeBsdfPrincipled")
+        self.tint = self.attribute("tint")
+        self._output = self.node("ShaderNodeOutputMaterial")
+        self.link(self.surface.outputs[0], self._output.inputs["Surface"])
+
+    def node(self, kind: str, **settings: Any) -> Any:
+        """A new node."""
+        node = self._tree.nodes.new(kind)
+        for name, value in settings.items():
+            setattr(node, name, value)
+        return node
+
+    def link(self, source: Any, target: Any) -> None:
+        """Connect two sockets."""
+        self._tree.links.new(source, target)
+
+    def put_out(self, source: Any) -> None:
+        """Make a shader the material's."""
+        self.link(source, self._output.inputs["Surface"])
+
+    def attribute(self, name: str) -> Any:
+        """Node of a mesh's attribute."""
+        return self.node("ShaderNodeAttribute", attribute_name=name)
+
+    def set(self, **values: Any) -> None:
+        """Set inputs of the principled shader; underscores stand for blanks."""
+        for name, value in values.items():
+            self.surface.inputs[name.replace("_", " ").title().replace("Ior", "IOR")].default_value = value
+
+    def noise(self, scale: float, stretch: tuple[float, float, float] = (1, 1, 1), detail: float = 3.0) -> Any:
+        """Noise from 0 to 1 along the solid's own axes; `scale` in waves a metre."""
+        mapping = self.node("ShaderNodeMapping")
+        mapping.inputs["Scale"].default_value = stretch
+        self.link(self.attribute("local").outputs["Vector"], mapping.inputs["Vector"])
+        noise = self.node("ShaderNodeTexNoise")
+        noise.inputs["Scale"].default_value, noise.inputs["Detail"].default_value = scale, detail
+        self.link(mapping.outputs[0], noise.inputs["Vector"])
+        return noise.outputs["Fac"]
+
+    def span(self, value: Any, low: float, high: float, start: float = 0.3, end: float = 0.7) -> Any:
+        """A value from start..end taken to low..high."""
+        node = self.node("ShaderNodeMapRange")
+        for name, number in (("From Min", start), ("From Max", end), ("To Min", low), ("To Max", high)):
+            node.inputs[name].default_value = number
+        self.link(value, node.inputs["Value"])
+        return node.outputs[0]
+
+    def times(self, colour: Any, factor: Any) -> Any:
+        """A colour times a number or another colour."""
+        node = self.node("ShaderNodeVectorMath", operation="MULTIPLY")
+        self.link(colour, node.inputs[0])
+        self.link(factor, node.inputs[1])
+        return node.outputs[0]
+
+    def mixed(self, factor: Any, first: Any, second: Any) -> Any:
+        """Two colours mixed; `second` is a socket or a colour."""
+        node = self.node("ShaderNodeMix", data_type="RGBA")
+        self.link(factor, node.inputs["Factor"])
+        self.link(first, node.inputs[6])
+        if isinstance(second, tuple):
+            node.inputs[7].default_value = (*second, 1.0)
+        else:
+            self.link(second, node.inputs[7])
+        return node.outputs[2]
+
+    def colour(self, socket: Any) -> None:
+        """Set the base colour."""
+        self.link(socket, self.surface.inputs["Base Color"])
+
+    def roughness(self, socket: Any) -> None:
+        """Set the roughness."""
+        self.link(socket, self.surface.inputs["Roughness"])
+
+    def bump(self, height: Any, distance_m: float) -> None:
+        """Relief from a height of 0 to 1."""
+        node = self.node("ShaderNodeBump")
+        node.inputs["Distance"].default_value = distance_m
+        self.link(height, node.inputs["Height"])
+        self.link(node.outputs[0], self.surface.inputs["Normal"])
+
+    def uv(self, scale: float) -> Any:
+        """The UV map, in tiles; `scale` is tiles a metre (1 for pictures of the atlas)."""
+        node = self.node("ShaderNodeMapping")
+        node.inputs["Scale"].default_value = (scale, scale, scale)
+        self.link(self.node("ShaderNodeUVMap", uv_map="uv").outputs[0], node.inputs["Vector"])
+        return node.outputs[0]
+
+    def image(self, image: Any, scale: float = 1.0) -> Any:
+        """An image's colour."""
+        node = self.node("ShaderNodeTexImage", image=image)
+        self.link(self.uv(scale), node.inputs["Vector"])
+        return node.outputs["Color"]
+
+
+def make_material(name: str, atlas: Any) -> Any:
+    """The material of a name; `atlas` is the image with all prints.
+
+    Raises:
+        KeyError: there is no such material.
+    """
+    shader = Shader(name)
+    if name.startswith(SURFACE_PREFIX):
+        _surface(shader, name.removeprefix(SURFACE_PREFIX))
+    elif name in {"print", "screen"}:
+        _shown(shader, atlas, shines=name == "screen")
+    else:
+        _BUILT[name](shader)
+    return shader.material
+
+
+def new_image(name: str, pixels: NDArray[np.uint8], *, colour: bool = True) -> Any:
+    """An image from (H, W, 3) sRGB or (H, W) plain numbers, the top row first."""
+    height, width = pixels.shape[:2]
+    image = bpy.data.images.new(name, width, height, alpha=False)
+    image.colorspace_settings.name = "sRGB" if colour else "Non-Color"
+    rgba = np.ones((height, width, 4), np.float32)
+    rgba[..., :3] = (pixels[::-1] if pixels.ndim == 3 else pixels[::-1, :, None]) / np.float32(255.0)
+    image.pixels.foreach_set(rgba.ravel())
+    image.update()
+    image.pack()
+    return image
+
+
+def _surface(shader: Shader, name: str) -> None:
+    """One of the farm's own surfaces, with stains of a size that hides its repeats."""
+    recipe = SURFACES[name]
+    maps = recipe.build(recipe_generator(recipe), SURFACE_PIXELS)
+    scale = 1.0 / recipe.size_m
+    stains = shader.span(shader.noise(0.45, detail=4.0), 0.72, 1.14)
+    image = new_image(name, maps.colour)
+    colour = shader.image(image, scale)
+    if name.startswith(_SHAPELESS):
+        # A second look at another scale, in patches, so that no spot comes again and again.
+        patches = shader.span(shader.noise(0.8, detail=2.0), 0.0, 1.0, 0.44, 0.56)
+        colour = shader.mixed(patches, colour, shader.image(image, 0.37 * scale))
+    tinted = shader.times(colour, shader.tint.outputs["Color"])
+    shader.colour(shader.times(tinted, stains))
+    shader.roughness(shader.image(new_image(f"{name} roughness", maps.roughness, colour=False), scale))
+    if isinstance(maps.metallic, float):
+        shader.set(metallic=maps.metallic)
+    normal = shader.node("ShaderNodeNormalMap", uv_map="uv")
+    shader.link(shader.image(new_image(f"{name} normal", maps.normal, colour=False), scale), normal.inputs["Color"])
+    shader.link(normal.outputs[0], shader.surface.inputs["Normal"])
+
+
+def _shown(shader: Shader, atlas: Any, *, shines: bool) -> None:
+    colour = shader.times(shader.image(atlas), shader.tint.outputs["Color"])
+    shader.set(roughness=0.5 if not shines else 0.25)
+    if shines:
+        shader.set(base_color=(0.01, 0.01, 0.012, 1.0), emission_strength=1.0)
+        shader.link(colour, shader.surface.inputs["Emission Color"])
+    else:
+        shader.colour(colour)
+
+
+def _paint(shader: Shader) -> None:
+    """Painted metal: uneven, a little dirty, with some worn spots."""
+    tint = shader.times(shader.tint.outputs["Color"], shader.span(shader.noise(3.0), 0.82, 1.06))
+    dirt = shader.span(shader.noise(6.0, (1, 1, 0.25), 5.0), 0.0, 0.55, 0.56, 0.78)
+    shader.colour(shader.mixed(dirt, tint, (0.06, 0.05, 0.04)))
+    shader.roughness(shader.span(shader.noise(14.0), 0.28, 0.55))
+
+
+def _plastic(shader: Shader) -> None:
+    shader.colour(shader.times(shader.tint.outputs["Color"], shader.span(shader.noise(8.0), 0.9, 1.04)))
+    shader.roughness(shader.span(shader.noise(20.0), 0.3, 0.5))
+
+
+def _rubber(shader: Shader) -> None:
+    shader.colour(shader.tint.outputs["Color"])
+    shader.set(roughness=0.75)
+
+
+def _metal(shader: Shader) -> None:
+    """Bare metal, brushed along its longest axis."""
+    brushed = shader.noise(40.0, (0.04, 1.0, 1.0), 4.0)
+    tint = shader.times(shader.tint.outputs["Color"], shader.span(shader.noise(2.5), 0.7, 1.05))
+    shader.colour(shader.times(tint, shader.span(brushed, 0.85, 1.05)))
+    shader.roughness(shader.span(brushed, 0.24, 0.45))
+    shader.set(metallic=1.0)
+
+
+def _chrome(shader: Shader) -> None:
+    shader.colour(shader.tint.outputs["Color"])
+    shader.set(metallic=1.0, roughness=0.12)
+
+
+def _rust(shader: Shader) -> None:
+    patch = shader.span(shader.noise(5.0, detail=6.0), 0.0, 1.0, 0.42, 0.6)
+    shader.colour(shader.mixed(patch, shader.tint.outputs["Color"], (0.12, 0.045, 0.02)))
+    shader.set(roughness=0.75)
+
+
+def _wood(shader: Shader) -> None:
+    grain = shader.noise(22.0, (0.05, 1.0, 1.0), 5.0)
+    tint = shader.times(shader.tint.outputs["Color"], shader.span(shader.noise(2.0, (0.4, 1, 1)), 0.75, 1.08))
+    shader.colour(shader.times(tint, shader.span(grain, 0.62, 1.1)))
+    shader.roughness(shader.span(grain, 0.62, 0.42))
+
+
+def _card(shader: Shader) -> None:
+    fluted = shader.noise(60.0, (0.05, 1.0, 1.0), 2.0)
+    tint = shader.times(shader.tint.outputs["Color"], shader.span(shader.noise(4.0), 0.86, 1.05))
+    shader.colour(shader.times(tint, shader.span(fluted, 0.93, 1.03)))
+    shader.set(roughness=0.85)
+
+
+def _fabric(shader: Shader) -> None:
+    shader.colour(shader.times(shader.tint.outputs["Color"], shader.span(shader.noise(60.0), 0.7, 1.2)))
+    shader.set(roughness=0.95, sheen_weight=0.3)
+
+
+def _wall(shader: Shader) -> None:
+    """Painted plaster with stains and marks."""
+    broad = shader.span(shader.noise(0.6, detail=5.0), 0.86, 1.05)
+    tint = shader.times(shader.tint.outputs["Color"], broad)
+    marks = shader.span(shader.noise(2.2, (1, 0.35, 1), 7.0), 0.0, 0.3, 0.58, 0.75)
+    shader.colour(shader.mixed(marks, tint, (0.1, 0.085, 0.07)))
+    shader.bump(shader.noise(60.0), 0.002)
+    shader.set(roughness=0.8)
+
+
+def _brick(shader: Shader) -> None:
+    brick = shader.node("ShaderNodeTexBrick")
+    for name, value in (("Scale", 1.0), ("Mortar Size", 0.008), ("Brick Width", 0.25), ("Row Height", 0.075)):
+        brick.inputs[name].default_value = value
+    brick.inputs["Mortar"].default_value = (0.32, 0.3, 0.27, 1.0)
+    brick.inputs["Color1"].default_value, brick.inputs["Color2"].default_value = (1, 1, 1, 1), (0.5, 0.45, 0.42, 1)
+    shader.link(shader.uv(1.0), brick.inputs["Vector"])
+    tinted = shader.times(brick.outputs["Color"], shader.tint.outputs["Color"])
+    shader.colour(shader.times(tinted, shader.span(shader.noise(1.2, detail=6.0), 0.65, 1.15)))
+    shader.bump(brick.outputs["Fac"], -0.006)
+    shader.set(roughness=0.9)
+
+
+def _blocks(shader: Shader) -> None:
+    """Painted concrete blocks."""
+    brick = shader.node("ShaderNodeTexBrick")
+    for name, value in (("Scale", 1.0), ("Mortar Size", 0.006), ("Brick Width", 0.4), ("Row Height", 0.2)):
+        brick.inputs[name].default_value = value
+    brick.inputs["Mortar"].default_value = (0.75, 0.75, 0.75, 1.0)
+    brick.inputs["Color1"].default_value, brick.inputs["Color2"].default_value = (1, 1, 1, 1), (0.93, 0.93, 0.93, 1)
+    shader.link(shader.uv(1.0), brick.inputs["Vector"])
+    tinted = shader.times(brick.outputs["Color"], shader.tint.outputs["Color"])
+    shader.colour(shader.times(tinted, shader.span(shader.noise(0.8, detail=6.0), 0.8, 1.08)))
+    shader.bump(brick.outputs["Fac"], -0.006)
+    shader.set(roughness=0.7)
+
+
+def _ribbed(shader: Shader) -> None:
+    """Corrugated sheet: ribs across the longer axis of a panel."""
+    wave = shader.node("ShaderNodeTexWave", wave_type="BANDS", bands_direction="X")
+    wave.inputs["Scale"].default_value = 1.6
+    shader.link(shader.uv(1.0), wave.inputs["Vector"])
+    tint = shader.times(shader.tint.outputs["Color"], shader.span(shader.noise(0.9, (1, 0.3, 1), 5.0), 0.75, 1.08))
+    shader.colour(shader.times(tint, shader.span(wave.outputs["Fac"], 0.72, 1.05, 0.0, 1.0)))
+    shader.bump(wave.outputs["Fac"], 0.03)
+    shader.set(roughness=0.5, metallic=0.3)
+
+
+def _tiles(shader: Shader) -> None:
+    """Square tiles of 0.6 m with fine holes, as of a suspended ceiling."""
+    brick = shader.node("ShaderNodeTexBrick", offset=0.0)
+    for name, value in (("Scale", 1.0), ("Mortar Size", 0.012), ("Brick Width", 0.6), ("Row Height", 0.6)):
+        brick.inputs[name].default_value = value
+    brick.inputs["Mortar"].default_value = (0.62, 0.62, 0.62, 1.0)
+    brick.inputs["Color1"].default_value, brick.inputs["Color2"].default_value = (1, 1, 1, 1), (0.94, 0.94, 0.93, 1)
+    shader.link(shader.uv(1.0), brick.inputs["Vector"])
+    tinted = shader.times(brick.outputs["Color"], shader.tint.outputs["Color"])
+    shader.colour(shader.times(tinted, shader.span(shader.noise(35.0), 0.88, 1.04)))
+    shader.set(roughness=0.9)
+
+
+def _pegboard(shader: Shader) -> None:
+    """Perforated sheet: dark holes 38 mm apart."""
+    voronoi = shader.node("ShaderNodeTexVoronoi")
+    voronoi.inputs["Scale"].default_value, voronoi.inputs["Randomness"].default_value = 26.0, 0.0
+    shader.link(shader.uv(1.0), voronoi.inputs["Vector"])
+    hole = shader.span(voronoi.outputs["Distance"], 1.0, 0.0, 0.16, 0.24)
+    shader.colour(shader.mixed(hole, shader.tint.outputs["Color"], (0.015, 0.015, 0.015)))
+    shader.set(roughness=0.55)
+
+
+def _ground(shader: Shader) -> None:
+    shader.colour(shader.times(shader.tint.outputs["Color"], shader.span(shader.noise(3.0, detail=9.0), 0.55, 1.3)))
+    shader.set(roughness=1.0)
+
+
+def _leaf(shader: Shader) -> None:
+    shader.colour(shader.tint.outputs["Color"])
+    shader.set(roughness=0.6)
+
+
+def _glass(shader: Shader) -> None:
+    """A thin pane: what is behind, tinted, and a reflection."""
+    clear, shiny, mix = (shader.node(f"ShaderNode{kind}") for kind in ("BsdfTransparent", "BsdfGlossy", "MixShader"))
+    shader.link(shader.tint.outputs["Color"], clear.inputs["Color"])
+    shiny.inputs["Roughness"].default_value = 0.04
+    rim = shader.node("ShaderNodeFresnel")
+    rim.inputs["IOR"].default_value = 1.4
+    shader.link(rim.outputs[0], mix.inputs["Fac"])
+    shader.link(clear.outputs[0], mix.inputs[1])
+    shader.link(shiny.outputs[0], mix.inputs[2])
+    shader.put_out(mix.outputs[0])
+
+
+def _dark_glass(shader: Shader) -> None:
+    shader.colour(shader.tint.outputs["Color"])
+    shader.set(roughness=0.06, ior=1.6)
+
+
+def _glow(shader: Shader) -> None:
+    """What shines: its tint is its radiance."""
+    emission = shader.node("ShaderNodeEmission")
+    shader.link(shader.tint.outputs["Color"], emission.inputs["Color"])
+    shader.put_out(emission.outputs[0])
+
+
+_BUILT: dict[str, Callable[[Shader], None]] = {
+    "paint": _paint,
+    "plastic": _plastic,
+    "rubber": _rubber,
+    "metal": _metal,
+    "chrome": _chrome,
+    "rust": _rust,
+    "wood": _wood,
+    "card": _card,
+    "fabric": _fabric,
+    "wall": _wall,
+    "brick": _brick,
+    "blocks": _blocks,
+    "ribbed": _ribbed,
+    "tiles": _tiles,
+    "pegboard": _pegboard,
+    "ground": _ground,
+    "leaf": _leaf,
+    "glass": _glass,
+    "dark glass": _dark_glass,
+    "glow": _glow,
+}

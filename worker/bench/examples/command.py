@@ -1,0 +1,57 @@
+"""`python -m worker.bench examples`: contact sheets of every surface, environment and kind of cable."""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.progress import track
+
+from farm.job import Job
+from worker.bench.examples.groups import GROUPS, Example
+from worker.bench.examples.sheet import draw_sheet
+from worker.bench.terminal import bench_console, blender_writes_to
+from worker.studio import open_studio
+
+DEFAULT_EACH = 4
+
+RESOLUTION = 256
+
+_PAGE = 10
+"""Rows of a sheet, of two examples each."""
+
+
+def run(out: Path, *, seed: int, each: int | None, groups: Sequence[str], only: Sequence[str]) -> int:
+    """Render the examples and write `examples-<group>-<page>.jpg` into `out`.
+
+    Args:
+        out: a folder that is there.
+        seed: of the scenes.
+        each: pictures of an example.
+        groups: some of `GROUPS`; all if empty.
+        only: labels of the examples to make; all if empty.
+
+    Raises:
+        FarmError: if a picture can't be made.
+    """
+    console = bench_console()
+    for group in groups or GROUPS:
+        chosen = [example for example in GROUPS[group](seed) if not only or example.label in only]
+        rows: list[tuple[str, list[NDArray[np.uint8]]]] = []
+        for example in track(chosen, group, console=console, transient=True):
+            with blender_writes_to(out / "examples.log"):
+                rows.append((example.label, list(_pictures(example, each or DEFAULT_EACH))))
+        for page, start in enumerate(range(0, len(rows), 2 * _PAGE), start=1):
+            path = out / f"examples-{group}-{page}.jpg"
+            path.write_bytes(draw_sheet(rows[start : start + 2 * _PAGE]))
+            console.print(f"{path}")
+    return 0
+
+
+def _pictures(example: Example, each: int) -> Iterator[NDArray[np.uint8]]:
+    header = example.header.model_copy(
+        update={"spec": example.header.spec.model_copy(update={"resolution": 2 * RESOLUTION})}
+    )
+    studio = open_studio(header, device="cpu", threads=0, assets=None)
+    for index in range(each):
+        yield studio.make(Job(category=example.category, index=index), header).image

@@ -1,0 +1,36 @@
+"""A sheet of examples: two to a row, each with its name beneath. Pillow."""
+
+import io
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+EDGE_PX = 200
+_GAP_PX = 3
+_LABEL_PX = 18
+_BETWEEN_PX = 14
+_JPEG_QUALITY = 88
+
+
+def draw_sheet(examples: Sequence[tuple[str, Sequence[NDArray[np.uint8]]]]) -> bytes:
+    """Draw a JPEG.
+
+    Args:
+        examples: names and pictures (H, W, 3), equally many of each.
+    """
+    each = max(len(pictures) for _, pictures in examples)
+    width = each * (EDGE_PX + _GAP_PX) + _BETWEEN_PX
+    height = EDGE_PX + _LABEL_PX + _GAP_PX
+    sheet = Image.new("RGB", (2 * width - _BETWEEN_PX, (len(examples) + 1) // 2 * height), "white")
+    pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(13)
+    for number, (label, pictures) in enumerate(examples):
+        left, top = number % 2 * width, number // 2 * height
+        for column, picture in enumerate(pictures):
+            small = Image.fromarray(picture).resize((EDGE_PX, EDGE_PX), Image.Resampling.LANCZOS)
+            sheet.paste(small, (left + column * (EDGE_PX + _GAP_PX), top))
+        pen.text((left + 2, top + EDGE_PX + 1), label, fill="black", font=font)
+    encoded = io.BytesIO()
+    sheet.save(encoded, "JPEG", quality=_JPEG_QUALITY)
+    return encoded.getvalue()

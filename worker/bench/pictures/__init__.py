@@ -1,0 +1,1 @@
+"""What the pictures of a style look like, in figures, beside published examples and photographs."""

@@ -1,0 +1,75 @@
+"""`python -m worker.bench pictures`: what the pictures of each style look like, in figures and to the eye."""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import track
+
+from farm.contact_sheet import make_contact_sheet
+from farm.dataset import Dataset, open_dataset, parse_destination
+from farm.errors import SpecError, VerificationError
+from worker.bench.pictures.making import NamedDataset, make
+from worker.bench.pictures.plot import write_plot
+from worker.bench.pictures.promises import promises_of
+from worker.bench.pictures.report import figures_table, promises_table, spread_table, write_json
+from worker.bench.pictures.survey import MeasuredPicture, groups, summarize, survey
+from worker.bench.terminal import bench_console
+
+_SHEET_COLUMNS = 6
+_SHEET_EDGE_PX = 256
+
+
+def run(out: Path, *, seed: int, images: int, styles: Sequence[str], datasets: Sequence[NamedDataset]) -> int:
+    """Measure, print the tables, write `pictures.json`, `pictures.png` and a `sheet-NAME.jpg` each into `out`.
+
+    Args:
+        out: a folder that is there; datasets are made, and kept, in `pictures` below it.
+        seed: of the datasets that are made.
+        images: of each dataset that is made.
+        styles: make pictures of these.
+        datasets: measure these too.
+
+    Raises:
+        SpecError: if there is nothing to measure, or two datasets have one name.
+        VerificationError: if a style does not keep what it promises; everything is written before.
+        FarmError: that with which `farm run` ended.
+    """
+    names = [*styles, *(named.name for named in datasets)]
+    if images < 1 or not names or len(set(names)) < len(names):
+        raise SpecError("give at least 1 of --images, and each --style and --dataset a name of its own")
+    console = bench_console()
+    measured: dict[str, list[MeasuredPicture]] = {}
+    for name, dataset in _datasets(console, out / "pictures", images, seed, styles, datasets):
+        sheet = make_contact_sheet(dataset, columns=_SHEET_COLUMNS, edge_px=_SHEET_EDGE_PX)
+        (out / f"sheet-{name}.jpg").write_bytes(sheet)
+        total = dataset.header.spec.total
+        measured[name] = list(track(survey(dataset), name, total=total, console=console, transient=True))
+    summaries = {
+        name: {group: summarize(pictures) for group, pictures in groups(every).items()}
+        for name, every in measured.items()
+    }
+    promises = [promise for name, summary in summaries.items() for promise in promises_of(name, summary)]
+    for name, summary in summaries.items():
+        console.print(figures_table(name, summary))
+    console.print(spread_table(summaries))
+    if promises:
+        console.print(promises_table(promises))
+    write_json(out / "pictures.json", seed, measured, summaries, promises)
+    write_plot(out / "pictures.png", measured)
+    missed = sum(not promise.kept for promise in promises)
+    if missed:
+        raise VerificationError(f"{missed} of {len(promises)} promises about the pictures are missed; see the table")
+    return 0
+
+
+def _datasets(
+    console: Console, folder: Path, images: int, seed: int, styles: Sequence[str], datasets: Sequence[NamedDataset]
+) -> Iterator[tuple[str, Dataset]]:
+    """Those that are there first, as a wrong path must not be told after an hour."""
+    for named in datasets:
+        yield named.name, open_dataset(parse_destination(named.place))
+    for style in styles:
+        with console.status(f"{style}: {images} images"):
+            dataset = make(style, images, seed, folder)
+        yield style, dataset

@@ -1,0 +1,1 @@
+"""What each floor surface costs to render, beside a plain one."""

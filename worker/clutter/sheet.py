@@ -1,0 +1,44 @@
+"""Sheets: what each kind is drawn by, and where it lies. Pure numpy."""
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from farm.clutter import Sheet, SheetKind
+from worker.clutter.canvas import Print
+from worker.clutter.ground import draw_painted_line, draw_seam, draw_slot
+from worker.clutter.paper import draw_label, draw_paper
+from worker.clutter.ruler import draw_ruler
+from worker.clutter.solid import Array
+from worker.clutter.tape import draw_hazard_tape, draw_tape
+
+_ARTISTS: Mapping[SheetKind, Callable[[Sheet, np.random.Generator], Print]] = {
+    SheetKind.TAPE: draw_tape,
+    SheetKind.HAZARD_TAPE: draw_hazard_tape,
+    SheetKind.PAPER: draw_paper,
+    SheetKind.LABEL: draw_label,
+    SheetKind.RULER: draw_ruler,
+    SheetKind.PAINTED_LINE: draw_painted_line,
+    SheetKind.SLOT: draw_slot,
+    SheetKind.SEAM: draw_seam,
+}
+
+
+def print_sheet(sheet: Sheet) -> Print:
+    """The images of a sheet, the same for the same sheet."""
+    return _ARTISTS[sheet.kind](sheet, np.random.default_rng(sheet.pattern_seed))
+
+
+def sheet_corners(sheet: Sheet, margin_m: float = 0.0) -> Array:
+    """Corners (4, 2) on the floor, metres, anticlockwise from where its length and its width begin.
+
+    Args:
+        sheet: as drawn.
+        margin_m: by which its image reaches over its edges.
+    """
+    along, across = sheet.length_m / 2 + margin_m, sheet.width_m / 2 + margin_m
+    turn = np.radians(sheet.rotation_deg)
+    rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    corners = np.array([(-along, -across), (along, -across), (along, across), (-along, across)])
+    placed: Array = corners @ rotation.T + [sheet.x_m, sheet.y_m]
+    return placed

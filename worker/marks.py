@@ -1,0 +1,252 @@
+"""Stains, scratches and dust on a floor, in its own metres. Numpy and OpenCV.
+
+They lie about the origin, so they have the same size whatever the texture's texels and scale are, and do not repeat
+with its tiles.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from farm.scene import Wear
+from worker.grain import Field, rough_noise, smooth_step
+
+EDGE_M = 0.8
+"""Of the square about the origin in which marks are drawn; beyond it they are mirrored."""
+
+CELL_M = 1.25e-3
+"""Of the grid on which stains and dust are drawn. They are smooth there; their edges are found at the texels."""
+
+CELLS = round(EDGE_M / CELL_M)
+
+STAIN_RADII_M = (0.004, 0.032)
+MOST_STAINS = 400
+SCRATCH_LENGTHS_M = (0.004, 0.07)
+SCRATCH_WIDTHS_M = (0.1e-3, 0.4e-3)
+
+
+@dataclass(frozen=True, slots=True)
+class Marks:
+    """How far a texel is under each mark, (H, W) each; None: there are none of them.
+
+    Attributes:
+        stain: 0 to 1, how much of its light is missing, in parts of the most that may.
+        scratch: -1 to 1: dark or bright.
+        dust: 0 to 1.
+    """
+
+    stain: Field | None
+    scratch: Field | None
+    dust: Field | None
+
+    @property
+    def any(self) -> bool:
+        """Whether there are any."""
+        return not (self.stain is None and self.scratch is None and self.dust is None)
+
+
+def marks_on(wear: Wear, rows: int, columns: int, to_floor: NDArray[np.float64]) -> Marks:
+    """The marks on a window of a texture.
+
+    Args:
+        wear: of the floor.
+        rows: of the window's texels.
+        columns: of them.
+        to_floor: (2, 3), what takes a texel's column and row to metres on the floor.
+    """
+    stain, scratch, dust = (np.random.default_rng((wear.pattern_seed, kind)) for kind in range(3))
+    window = _Window(rows, columns, to_floor)
+    return Marks(
+        stain=_stains(wear.stains, stain, window) if wear.stains > 0 else None,
+        scratch=_scratches(wear.scratches, scratch, window) if wear.scratches > 0 else None,
+        dust=_dust(wear.dust, dust, window) if wear.dust > 0 else None,
+    )
+
+
+def sized(marks: Marks, rows: int, columns: int) -> Marks:
+    """The same marks on maps of another size."""
+
+    def fit(field: Field | None) -> Field | None:
+        if field is None or field.shape == (rows, columns):
+            return field
+        fitted: Field = cv2.resize(field, (columns, rows), interpolation=cv2.INTER_AREA)
+        return fitted
+
+    return Marks(stain=fit(marks.stain), scratch=fit(marks.scratch), dust=fit(marks.dust))
+
+
+@dataclass(frozen=True, slots=True)
+class _Window:
+    rows: int
+    columns: int
+    to_floor: NDArray[np.float64]
+
+    def look_up(self, grid: Field) -> Field:
+        """A grid (CELLS, CELLS) at the texels."""
+        to_grid = self.to_floor / CELL_M
+        to_grid[:, 2] += CELLS / 2 - 0.5
+        flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+        size = (self.columns, self.rows)
+        seen: Field = cv2.warpAffine(grid, to_grid, size, flags=flags, borderMode=cv2.BORDER_REFLECT)
+        return seen
+
+    def texels_of(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Columns and rows (N, 2) of points (N, 2) of the floor."""
+        back = np.linalg.inv(self.to_floor[:, :2])
+        return (points_m - self.to_floor[:, 2]) @ back.T
+
+    @property
+    def texels_per_m(self) -> float:
+        return float(1 / np.sqrt(abs(np.linalg.det(self.to_floor[:, :2]))))
+
+
+def _stains(share: float, rng: np.random.Generator, window: _Window) -> Field:
+    """Dried puddles: paler in the middle, where they dried last, than at the rim."""
+    depth, strength = stain_grids(share, rng)
+    depth_here, strength_here = window.look_up(depth), window.look_up(strength)
+    grain = _grain(window)
+    # Depth is in metres from the puddle's edge; wobble it by less than half a millimetre, so that the rim is not drawn
+    # with a compass.
+    depth_here += np.float32(0.25e-3) * grain
+    inside = smooth_step(depth_here, -0.2e-3, 0.25e-3)
+    rim = np.exp(-np.square((depth_here - np.float32(0.7e-3)) * np.float32(1 / 0.8e-3)))
+    stain: Field = strength_here * inside * (0.42 + 0.5 * rim + 0.05 * grain)
+    return np.clip(stain, 0, 1)
+
+
+def stain_grids(share: float, rng: np.random.Generator) -> tuple[Field, Field]:
+    """Puddles until they cover a share of the square: how deep in one each cell is, metres, and how strong it is.
+
+    Args:
+        share: of the square.
+        rng: draws places, sizes and outlines.
+
+    Returns:
+        (CELLS, CELLS) each; the first is negative outside, -1 far away.
+    """
+    depth = np.full((CELLS, CELLS), -1.0, np.float32)
+    strength = np.zeros((CELLS, CELLS), np.float32)
+    low, high = np.log(STAIN_RADII_M)
+    for _ in range(MOST_STAINS):
+        if np.count_nonzero(depth > 0) >= share * depth.size:
+            break
+        radius = float(np.exp(rng.uniform(low, high)))
+        # The last puddles are small, so that the share is met and not passed.
+        left = share * EDGE_M**2 - np.count_nonzero(depth > 0) * CELL_M**2
+        radius = min(radius, float(np.sqrt(left / np.pi)) + CELL_M)
+        _spill(depth, strength, radius, rng)
+    return depth, cv2.GaussianBlur(strength, (0, 0), 1.5)
+
+
+def _spill(depth: Field, strength: Field, radius_m: float, rng: np.random.Generator) -> None:
+    """One puddle with an uneven outline, and some drops beside it, in place."""
+    middle = rng.uniform(0, CELLS, 2)
+    weight = float(rng.uniform(0.35, 1.0))
+    waves = rng.normal(0, 1, (2, 6)) * (0.16 / np.arange(1, 7))
+    drops = [(middle, radius_m, waves)]
+    for _ in range(int(rng.poisson(1.5))):
+        away = radius_m * float(rng.uniform(1.1, 1.9)) / CELL_M
+        angle = float(rng.uniform(0, 2 * np.pi))
+        place = middle + away * np.array([np.cos(angle), np.sin(angle)])
+        drops.append((place, radius_m * float(rng.uniform(0.05, 0.2)), waves * 0.3))
+    for (x, y), size, wave in drops:
+        reach = int(1.8 * size / CELL_M) + 3
+        top, left = max(0, int(y) - reach), max(0, int(x) - reach)
+        rows, columns = (
+            np.arange(top, min(CELLS, int(y) + reach), dtype=np.float32)[:, None],
+            np.arange(left, min(CELLS, int(x) + reach), dtype=np.float32)[None],
+        )
+        if rows.size == 0 or columns.size == 0:
+            continue
+        down, across = (rows - np.float32(y)) * CELL_M, (columns - np.float32(x)) * CELL_M
+        angle_here = np.arctan2(down, across)
+        outline = np.ones_like(angle_here)
+        for order in range(wave.shape[1]):
+            outline += wave[0, order] * np.cos((order + 1) * angle_here) + wave[1, order] * np.sin(
+                (order + 1) * angle_here
+            )
+        here = (size * np.maximum(outline, 0.35) - np.hypot(down, across)).astype(np.float32)
+        part = (slice(top, top + rows.size), slice(left, left + columns.size))
+        strength[part] = np.where(here > -3 * CELL_M, np.maximum(strength[part], weight), strength[part])
+        depth[part] = np.maximum(depth[part], here)
+
+
+def _scratches(density: float, rng: np.random.Generator, window: _Window) -> Field:
+    """Fine lines, some of them in sheaves, fading at their ends."""
+    bright, dark = (np.zeros((window.rows, window.columns), np.uint8) for _ in range(2))
+    for points_m, width_m, strength in scratch_lines(density, rng):
+        points = window.texels_of(points_m)
+        if (points.max(axis=0) < 0).any() or (points.min(axis=0) > [window.columns, window.rows]).any():
+            continue
+        width = width_m * window.texels_per_m
+        level = round(255 * abs(strength) * min(1.0, max(width, 0.25)))
+        place = np.rint(points * 16).astype(np.int32)
+        canvas = bright if strength > 0 else dark
+        count = len(place)
+        for start, end, share in ((0, count, 0.4), (count // 6, count - count // 6, 1.0)):
+            cv2.polylines(
+                canvas, [place[start:end]], False, round(level * share), max(1, round(width)), cv2.LINE_AA, shift=4
+            )
+    both = cv2.subtract(bright, dark, dtype=cv2.CV_32F)
+    both *= np.float32(1 / 255) * (0.75 + 0.25 * np.clip(_grain(window), -1.5, 1.5))
+    return np.clip(both, -1, 1)
+
+
+def scratch_lines(density: float, rng: np.random.Generator) -> Iterator[tuple[NDArray[np.float64], float, float]]:
+    """The scratches of the square: points (13, 2), width, both in metres, and strength, -1 dark to 1 bright.
+
+    Args:
+        density: of them, a square decimetre.
+        rng: draws them.
+    """
+    left = round(density * EDGE_M**2 / 1e-2)
+    low, high = np.log(SCRATCH_LENGTHS_M)
+    t = np.linspace(-0.5, 0.5, 13)
+    while left > 0:
+        sheaf = min(left, int(rng.geometric(0.6)) if rng.random() < 0.8 else int(rng.integers(3, 9)))
+
+        left -= sheaf
+        length = float(np.exp(rng.uniform(low, high)))
+        bearing, bend = float(rng.uniform(0, np.pi)), float(rng.normal(0, 0.25))
+        middle = rng.uniform(-EDGE_M / 2, EDGE_M / 2, 2)
+        bright = rng.random() < 0.6
+        for _ in range(sheaf):
+            turn = bearing + float(rng.normal(0, 0.06)) + bend * t
+            long = length * float(rng.uniform(0.5, 1.2))
+            points = middle + rng.normal(0, 0.0025, 2) * (sheaf > 1)
+            points = points + (long * t)[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+            width = float(rng.uniform(*SCRATCH_WIDTHS_M)) * float(rng.uniform(0.4, 1))
+            strength = float(rng.uniform(0.4, 1.0))
+            yield points, width, strength if bright else -strength
+
+
+def _dust(share: float, rng: np.random.Generator, window: _Window) -> Field:
+    """A film with soft edges, thicker in its middle, of visible grains and some fibres."""
+    film = rough_noise(rng, CELLS, CELLS, 60.0, 5)
+    start = float(np.quantile(film[::4, ::4], 1 - share))
+    here = smooth_step(window.look_up(film), start - 0.35, start + 0.9)
+    dust: Field = here * np.clip(0.62 + 0.3 * _grain(window), 0, 1)
+    return dust
+
+
+def _grain(window: _Window) -> Field:
+    """Noise of the size of a fifth of a millimetre, but never finer than texels; the same for every floor."""
+    tile = _grain_tile()
+    texels = max(1.0, 0.2e-3 * window.texels_per_m)
+    edge = round(len(tile) * texels)
+    grown = tile if edge == len(tile) else cv2.resize(tile, (edge, edge), interpolation=cv2.INTER_LINEAR)
+    repeats = (-(-window.rows // edge), -(-window.columns // edge))
+    grain: Field = np.tile(grown, repeats)[: window.rows, : window.columns]
+    return grain
+
+
+@lru_cache(maxsize=1)
+def _grain_tile() -> Field:
+    noise = np.random.default_rng(0).standard_normal((509, 509)).astype(np.float32)
+    tile: Field = 0.7 * noise + 2.0 * cv2.GaussianBlur(noise, (0, 0), 1.5)
+    tile.setflags(write=False)
+    return tile

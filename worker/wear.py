@@ -1,0 +1,109 @@
+"""What a floor has been through, laid over the texels that the camera sees. Numpy and OpenCV."""
+
+from functools import lru_cache
+
+import cv2
+import numpy as np
+
+from farm.scene import Wear
+from worker.grain import Field
+from worker.marks import Marks
+from worker.texture_window import Texels, light_of
+
+STAIN_LEAVES = (0.58, 0.50, 0.40)
+"""Of red, green and blue light, where a puddle's rim was thickest."""
+
+DUST_COLOUR = (0.44, 0.40, 0.34)
+"""Of house dust, linear."""
+
+DUST_COVERS = 0.42
+DUST_ROUGHNESS = 0.85
+
+LUMA = np.array([0.2126, 0.7152, 0.0722], np.float32)
+
+_ROOTS = 4096
+"""Entries of the table from the square root of light to levels."""
+
+
+def worn_colour(texels: Texels, wear: Wear, marks: Marks) -> Texels:
+    """A window's colour after all that.
+
+    Args:
+        texels: (H, W, 3) sRGB levels, or (H, W) where they are grey.
+        wear: brightness, tint, saturation, and contrast about the window's mean.
+        marks: on the window.
+
+    Returns:
+        (H, W, 3) sRGB levels.
+    """
+    coloured = texels if texels.ndim == 3 else cv2.cvtColor(texels, cv2.COLOR_GRAY2RGB)
+    mean = np.array(cv2.mean(cv2.resize(light_of(coloured[::4, ::4]), (64, 64), interpolation=cv2.INTER_AREA))[:3])
+    grey = LUMA[None, :] * np.ones((3, 1))
+    mix = wear.saturation * np.eye(3) + (1 - wear.saturation) * grey
+    gain = wear.brightness * np.array(wear.tint)[:, None]
+    # colour = gain * (mean + contrast * (mix light - mix mean)), one matrix with an offset.
+    matrix = np.hstack([gain * wear.contrast * mix, gain * ((1 - wear.contrast) * mix @ mean)[:, None]])
+    light = cv2.transform(light_of(coloured), matrix.astype(np.float32))
+    if marks.stain is not None:
+        for channel, left in enumerate(STAIN_LEAVES):
+            light[:, :, channel] *= 1 - np.float32(1 - left) * marks.stain
+    if marks.scratch is not None:
+        light *= (1 + 0.9 * marks.scratch)[:, :, None]
+        light += (0.1 * np.maximum(marks.scratch, 0))[:, :, None]
+    if marks.dust is not None:
+        cover = np.float32(DUST_COVERS) * marks.dust
+        for channel, dust in enumerate(DUST_COLOUR):
+            light[:, :, channel] += cover * (np.float32(dust) - light[:, :, channel])
+    return _levels_of(light)
+
+
+def worn_roughness(texels: Texels, marks: Marks) -> Texels:
+    """A window's roughness (H, W): puddles dry smoother at times, scratches and dust are rough."""
+    rough = (texels if texels.ndim == 2 else texels[:, :, 0]).astype(np.float32)
+    if marks.stain is not None:
+        rough *= 1 - 0.15 * marks.stain
+    if marks.scratch is not None:
+        rough += 60 * np.abs(marks.scratch)
+    if marks.dust is not None:
+        rough += marks.dust * (255 * np.float32(DUST_ROUGHNESS) - rough)
+    return _rounded(rough)
+
+
+def worn_metallic(texels: Texels, marks: Marks) -> Texels:
+    """A window's metal (H, W): under stains and dust it shows less."""
+    metal = (texels if texels.ndim == 2 else texels[:, :, 0]).astype(np.float32)
+    if marks.stain is not None:
+        metal *= 1 - 0.5 * marks.stain
+    if marks.dust is not None:
+        metal *= 1 - np.float32(DUST_COVERS) * marks.dust
+    return _rounded(metal)
+
+
+def turned_over(texels: Texels, *, normal: bool) -> Texels:
+    """A tile's texels with left and right swapped; a normal map's slopes swap theirs too."""
+    turned = texels[:, ::-1]
+    if normal and turned.ndim == 3:
+        turned = turned.copy()
+        turned[:, :, 0] = 255 - turned[:, :, 0]
+    return turned
+
+
+def _levels_of(light: Field) -> Texels:
+    """Levels (sRGB) of linear light, by a table over its square root: a power a texel took ten times as long."""
+    root = cv2.sqrt(np.clip(light, 0, 1))
+    levels: Texels = _level_table()[(root * np.float32(_ROOTS - 1) + np.float32(0.5)).astype(np.uint16)]
+    return levels
+
+
+@lru_cache(maxsize=1)
+def _level_table() -> Texels:
+    light = np.square(np.arange(_ROOTS) / (_ROOTS - 1))
+    levels = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
+    table: Texels = np.round(255 * levels).astype(np.uint8)
+    table.setflags(write=False)
+    return table
+
+
+def _rounded(values: Field) -> Texels:
+    texels: Texels = np.clip(values + np.float32(0.5), 0, 255).astype(np.uint8)
+    return texels
