@@ -75,7 +75,7 @@ def draw_skin(skin: Skin, length_m: float, diameter_m: float, pixel_m: float) ->
     if skin.sheath is Sheath.PLAIN and skin.roughness > _UNEVEN_SHOWS:
         canvas.height_m = None
     return SkinImages(
-        colour=cv2.merge([_bytes(plane) for plane in canvas.colour]),
+        colour=_merged(*(_bytes(plane) for plane in canvas.colour)),
         roughness=_bytes(canvas.roughness),
         normal=None if canvas.height_m is None else _normals(canvas.height_m, canvas.texel_m),
         metallic=canvas.metallic,
@@ -97,7 +97,8 @@ def _blank(length_m: float, around_m: float, texel_m: float) -> Canvas:
 
 
 def _bytes(values: Field) -> NDArray[np.uint8]:
-    return cv2.multiply(values, 255.0, dtype=cv2.CV_8U)  # rounds, and stops at 0 and 255
+    levels: NDArray[np.uint8] = cv2.convertScaleAbs(np.maximum(values, 0.0), alpha=255.0)  # rounds, and stops at 255
+    return levels
 
 
 def _normals(height_m: Field, texel_m: tuple[float, float]) -> NDArray[np.uint8]:
@@ -105,4 +106,8 @@ def _normals(height_m: Field, texel_m: tuple[float, float]) -> NDArray[np.uint8]
     along = np.gradient(height_m, axis=1) / np.float32(texel_m[1])
     around = (np.roll(height_m, 1, axis=0) - np.roll(height_m, -1, axis=0)) / np.float32(2 * texel_m[0])
     up = np.float32(0.5) / np.sqrt(1.0 + along * along + around * around)
-    return cv2.merge([_bytes(0.5 - along * up), _bytes(0.5 - around * up), _bytes(0.5 + up)])
+    return _merged(_bytes(0.5 - along * up), _bytes(0.5 - around * up), _bytes(0.5 + up))
+
+
+def _merged(*planes: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    return cv2.merge(planes).astype(np.uint8, copy=False)
