@@ -70,12 +70,14 @@ class Convex:
         rings: (rings, points of each, 3) metres, clockwise as seen by who looks back from the last to the first.
         place_m: (3,) by whose height it lies above or below what it meets.
         surface: what is seen of it.
+        around: whether it goes around cables, which come out of its ends and hide those.
     """
 
     instance: int
     rings: NDArray[np.float64]
     place_m: NDArray[np.float64]
     surface: Plain
+    around: bool = False
 
     @property
     def top_m(self) -> float:

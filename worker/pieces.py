@@ -15,7 +15,7 @@ from farm.scene import Cable, Scene
 from worker.piece import Piece, Plain, Substance, Surface, Tubular
 from worker.shapes import Points
 from worker.strands import places, strand_radius, turning
-from worker.tie import solids_of
+from worker.tie import is_clear, solids_of
 
 _CONDUCTOR = 0.55
 """Radius of a conductor over that of its sheath: 1.0 of 1.8 mm, say."""
@@ -32,6 +32,9 @@ _MOST_BARE = 0.4
 
 _FINE_LAY = 14.0
 """Length of a turn of a conductor's fine strands over its diameter: 10 to 16 in flexible wires."""
+
+_SHIFTS_M = tuple(sign * step / 1000 for step in range(0, 61, 4) for sign in (1, -1))
+"""By which a tie is moved along its bundle, tried one after the other, to keep clear of other cables."""
 
 _COPPER = (184, 115, 81)
 _TIN = (190, 190, 186)
@@ -68,13 +71,15 @@ def pieces_of(scene: Scene, curves: Sequence[Points]) -> list[Piece]:
         curves: the settled centrelines, finely sampled (N, 3), metres, one for each cable.
 
     Returns:
-        The pieces. Instances count from 1, cable by cable and strand by strand; ties are occluders.
+        The pieces. Instances count from 1, cable by cable and strand by strand; ties are occluders. The fall knows
+        nothing of ties: one that would cut another cable is moved along its bundle, or left out if there is no room.
     """
     pieces: list[Piece] = []
     instance = 1
-    for cable, curve in zip(scene.cables, curves, strict=True):
+    for number, (cable, curve) in enumerate(zip(scene.cables, curves, strict=True)):
         if isinstance(cable.material, Bundle):
-            pieces += _bundle(cable, cable.material, curve, instance)
+            others = [(curves[k], scene.cables[k].diameter_m / 2) for k in range(len(curves)) if k != number]
+            pieces += _bundle(cable, cable.material, curve, others, instance)
             instance += len(cable.material.strands)
         else:
             strand = _Strand(instance, curve, cable.diameter_m / 2, cable.material, (0.0, 0.0))
@@ -83,7 +88,9 @@ def pieces_of(scene: Scene, curves: Sequence[Points]) -> list[Piece]:
     return pieces
 
 
-def _bundle(cable: Cable, bundle: Bundle, curve: Points, instance: int) -> list[Piece]:
+def _bundle(
+    cable: Cable, bundle: Bundle, curve: Points, others: Sequence[tuple[Points, float]], instance: int
+) -> list[Piece]:
     count = len(bundle.strands)
     wanted_m, envelope_m = bundle.strand_diameter_m / 2, cable.diameter_m / 2
     radius_m = strand_radius(count, wanted_m, envelope_m, bundle.lay_m)
@@ -95,9 +102,14 @@ def _bundle(cable: Cable, bundle: Bundle, curve: Points, instance: int) -> list[
         cut_m = (_uneven(skin, number, 0) * 3 * radius_m, _uneven(skin, number, 1) * 3 * radius_m)
         pieces += _with_ends(_Strand(instance + number, line, radius_m, skin, cut_m), cable)
     for tie in bundle.ties:
-        pieces += solids_of(
-            tie, curve, cable.length_m, offsets_m, radius_m, lay_m=bundle.lay_m, phase_deg=bundle.phase_deg
-        )
+        for shift_m in _SHIFTS_M:
+            moved = tie.model_copy(update={"along": tie.along + shift_m / cable.length_m})
+            solids = solids_of(
+                moved, curve, cable.length_m, offsets_m, radius_m, lay_m=bundle.lay_m, phase_deg=bundle.phase_deg
+            )
+            if all(is_clear(solids, other, thick_m) for other, thick_m in others):
+                pieces += solids
+                break
     return pieces
 
 

@@ -64,7 +64,10 @@ def silhouettes(pieces: Sequence[Piece], view: View, sides: int) -> Silhouettes:
 
 
 def _outline(solid: Convex, view: View) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The convex hull of a solid's corners as seen, in quads that share a corner, all at the height of the solid."""
+    """The convex hull of a solid's corners as seen, in quads that share a corner, all at the height of the solid.
+
+    Of one around cables that is the height of its lowest corner; what is seen of its side lies above the cables.
+    """
     corners = solid.rings.reshape(-1, 3)
     if corners[:, 2].max() >= view.position_m[2]:
         return np.zeros((0, 4, 2)), np.zeros(0)
@@ -72,7 +75,19 @@ def _outline(solid: Convex, view: View) -> tuple[NDArray[np.float64], NDArray[np
     hull = seen[cv2.convexHull(seen.astype(np.float32), returnPoints=False)[:, 0]]
     starts = np.arange(1, len(hull) - 1, 2)
     fan = np.stack([np.zeros_like(starts), starts, starts + 1, np.minimum(starts + 2, len(hull) - 1)], axis=1)
-    return hull[fan], np.full(len(fan), solid.place_m[2])
+    if not solid.around:
+        return hull[fan], np.full(len(fan), solid.place_m[2])
+    side = _side(seen.reshape(*solid.rings.shape[:2], 2))
+    heights = np.repeat([corners[:, 2].min(), solid.place_m[2]], [len(fan), len(side)])
+    return np.concatenate([hull[fan], side]), heights
+
+
+def _side(rings_px: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The quads between rings as seen (rings, points of each, 2) that face the camera."""
+    beside = np.roll(rings_px, -1, axis=1)
+    quads = np.stack([rings_px[:-1], rings_px[1:], beside[1:], beside[:-1]], axis=2).reshape(-1, 4, 2)
+    one, other = quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1]
+    return quads[one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0] < 0]  # rows are counted downwards
 
 
 def _silhouette(

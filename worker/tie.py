@@ -1,5 +1,7 @@
 """Cable ties: a band around strands, the head that locks it, and the stub of its tail. Pure numpy."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -56,14 +58,25 @@ def solids_of(
     outline = outermost + reach[:, None, None] * outward
     rings = centre[:, None] + outline[..., :1] * across[:, None] + outline[..., 1:] * up[:, None]
     surface = Plain(Substance.PLASTIC, tie.colour)
-    highest = float((under @ [0.0, 1.0]).max())
-    band = Convex(OCCLUDER, rings, centre[1] + (highest + 1e-5) * up[1], surface)
+    highest = float(under[:, 1].max())
+    band = Convex(OCCLUDER, rings, centre[1] + (highest + 1e-5) * up[1], surface, around=True)
     # Ties are pulled tight from above, so heads are on the upper side, each elsewhere.
     lean = np.pi / 2 + 1.1 * np.sin(2 * np.pi * (_GOLDEN * (7 * tie.along + phase_deg / 360)))
     direction = np.array([np.cos(lean), np.sin(lean)])
     foot = under[np.argmax(under @ direction)] + (strand_m + 0.6 * _THICKNESS_M) * direction
     frame = (centre[1:3].mean(axis=0), across[1], up[1])
     return [band, *_head(tie.width_m, foot, direction, frame, surface)]
+
+
+def is_clear(solids: Sequence[Convex], curve: Points, radius_m: float) -> bool:
+    """Whether solids keep clear of a round cable, each taken as the ball around it."""
+    for solid in solids:
+        corners = solid.rings.reshape(-1, 3)
+        middle = corners.mean(axis=0)
+        reach = np.linalg.norm(corners - middle, axis=1).max()
+        if np.linalg.norm(curve - middle, axis=1).min() < reach + radius_m:
+            return False
+    return True
 
 
 def _head(

@@ -86,12 +86,13 @@ def studio(header: DatasetHeader, baked: Path, monkeypatch: pytest.MonkeyPatch) 
 def test_the_mask_of_bundles_ties_and_ends_is_that_of_a_render(
     studio: Studio, header: DatasetHeader, index: int
 ) -> None:
-    """White cables and black ties, 64 samples: edges within half a pixel, save in gaps between cables."""
+    """White cables and black ties, 64 samples: all but a few pixels that differ are about half covered."""
     made = studio.make(Job(category=Category.CLOSE_CONCENTRATED, index=index), header)
     assert made.instances.max() == 3 + 2 * index + 2
-    agreement = compare(made.instances, render_coverage(samples=64))
-    assert agreement.iou > 0.97
-    assert agreement.edge_error_px <= 0.5
+    rendered = render_coverage(samples=64)
+    assert compare(made.instances, rendered).iou > 0.985
+    differs = (made.mask > 0) != (rendered >= 0.5)
+    assert np.count_nonzero(differs & (np.abs(rendered - 0.5) > 0.2)) <= 3
 
 
 def test_a_backdrop_takes_ties_for_what_covers(studio: Studio, header: DatasetHeader) -> None:

@@ -91,12 +91,23 @@ def test_a_tie_is_no_instance_and_goes_around_all_strands() -> None:
 
 def test_a_tie_lies_above_the_strands_and_below_what_crosses_them() -> None:
     """In the order of heights by which hiding goes."""
-    found = pieces(cable(material=bundle(3, TIE)), cable())
+    found = pieces_of(scene_of(cable(material=bundle(3, TIE)), cable()), [line(0.002), line(0.012)])
     band = next(piece for piece in found if isinstance(piece, Convex))
     strands = [piece for piece in found if isinstance(piece, Tubular) and piece.instance <= 3]
     above = next(piece for piece in found if isinstance(piece, Tubular) and piece.instance == 4)
     under = [strand.curve[np.abs(strand.curve[:, 0]) < 0.0015, 2].max() for strand in strands]
     assert max(under) < band.place_m[2] < above.curve[:, 2].min()
+
+
+def test_a_tie_keeps_clear_of_a_cable_that_crosses_its_bundle() -> None:
+    """It moves along the bundle; where there is no room all along, there is none."""
+    across = line(0.006)[:, [1, 0, 2]]
+    scene = scene_of(cable(material=bundle(3, TIE)), cable())
+    moved = [piece for piece in pieces_of(scene, [line(0.002), across]) if isinstance(piece, Convex)]
+    assert moved
+    for solid in moved:
+        assert cdist(solid.rings.reshape(-1, 3), across).min() > 0.002
+    assert not any(isinstance(piece, Convex) for piece in pieces_of(scene, [line(0.002), line(0.006)]))
 
 
 def test_a_stripped_end_shows_copper() -> None:
