@@ -233,7 +233,7 @@ def _decode(file: TextureFile, *, reduced: bool) -> tuple[Texels | None, int]:
     if pixels is None:
         raise AssetError(f"{file.path}: can't decode this image; replace the file")
     if reduced and pixels.dtype == np.uint16:
-        pixels = (pixels >> 8).astype(np.uint8)
+        pixels = (pixels // 256).astype(np.uint8)
     if reduced and pixels.ndim == 3 and pixels.shape[2] == 4:
         pixels = pixels[:, :, :3]
     if pixels.dtype != np.uint8 or (pixels.ndim == 3 and pixels.shape[2] != 3):

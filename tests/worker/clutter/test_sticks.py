@@ -46,7 +46,7 @@ def test_a_label_of_the_outline_covers_the_rendered_mesh(kind: StickKind, seed: 
     seen = np.zeros((512, 512), np.uint8)
     start = 0
     for size in solid.sizes:
-        cv2.fillConvexPoly(seen, np.rint((corners[start : start + size] - 0.5) * 256).astype(np.int32), 1, shift=8)
+        cv2.fillConvexPoly(seen, np.rint((corners[start : start + size] - 0.5) * 256).astype(np.int32), (1,), shift=8)
         start += size
     pieces = stick_outline(stick, nodes)
     drawn = silhouettes([curve for curve, _ in pieces], np.array([radius for _, radius in pieces]), view, SIDES)
