@@ -34,7 +34,7 @@ def remove_cables() -> None:
 
 
 def shadow_slope(lamps: Sequence[Lamp]) -> float:
-    """How far the longest shadow reaches, in the height of what throws it; that of a lamp at the horizon is cut short."""
+    """How far the longest shadow reaches, in the height of what throws it; a lamp at the horizon's is cut short."""
     elevations_deg = [max(lamp.elevation_deg, 1.0) for lamp in lamps if isinstance(lamp, StudioLamp)]
     return max([SHADOW_SLOPE, *(1.0 / math.tan(math.radians(elevation)) for elevation in elevations_deg)])
 
