@@ -114,8 +114,10 @@ def _add_mesh(name: str, tube: Tube, material: Any, *, smooth: bool) -> None:
 def _material(name: str, piece: Piece, view: View, shelf: ImageShelf) -> Any:
     if isinstance(piece.surface, CableMaterial):
         return _published(name, piece.surface)
-    if isinstance(piece, Convex) or isinstance(piece.surface, Plain):
+    if isinstance(piece.surface, Plain):
         return _drawn(name, draw_plain(piece.surface), shelf)
+    if isinstance(piece, Convex):
+        raise TypeError(f"{name}: only tubes have sheaths")
     diameter_m = 2 * float(np.max(piece.radius_m))
     return _drawn(name, draw_skin(piece.surface, piece.whole_m, diameter_m, 1.0 / view.pixels_per_m), shelf)
 
