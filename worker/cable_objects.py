@@ -1,5 +1,6 @@
 """Cables in the open picture: a mesh for each piece, a material for each surface."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -7,6 +8,7 @@ import bpy
 import numpy as np
 
 from blend import names
+from farm.lights import Lamp, StudioLamp
 from farm.looks import CableMaterial, Rgb
 from worker.images import ImageShelf
 from worker.piece import Convex, Piece, Plain, Tubular
@@ -20,7 +22,7 @@ DIRT_EDGE = 0.05
 """Distance of the two stops of the dirt ramp: how soft the edge of a spot is."""
 
 SHADOW_SLOPE = 3.0
-"""How far a shadow reaches, in the height of what throws it: that of the lowest lamp, 15 m away at a height of 5."""
+"""How far a shadow reaches, in the height of what throws it: that of the lowest published lamp, 15 m away at 5 m."""
 
 
 def remove_cables() -> None:
@@ -31,7 +33,15 @@ def remove_cables() -> None:
             collection.remove(block)
 
 
-def add_cables(pieces: Sequence[Piece], sides: int, view: View, shelf: ImageShelf, *, whole: bool) -> None:
+def shadow_slope(lamps: Sequence[Lamp]) -> float:
+    """How far the longest shadow reaches, in the height of what throws it; a lamp at the horizon's is cut short."""
+    elevations_deg = [max(lamp.elevation_deg, 1.0) for lamp in lamps if isinstance(lamp, StudioLamp)]
+    return max([SHADOW_SLOPE, *(1.0 / math.tan(math.radians(elevation)) for elevation in elevations_deg)])
+
+
+def add_cables(
+    pieces: Sequence[Piece], sides: int, view: View, shelf: ImageShelf, *, slope: float, whole: bool
+) -> None:
     """Add a settled scene's cables; of those that leave the view, what is seen or may throw a shadow into it.
 
     Args:
@@ -39,12 +49,13 @@ def add_cables(pieces: Sequence[Piece], sides: int, view: View, shelf: ImageShel
         sides: corners of a tube's cross-section.
         view: the camera.
         shelf: takes the images of skins.
+        slope: how far shadows reach, in the height of what throws them.
         whole: whether to add them wholly, wherever they go.
     """
     materials: dict[object, Any] = {}
     for number, piece in enumerate(pieces):
         name = f"{names.CABLE}.{piece.instance}.{number}"
-        made = list(_meshes(piece, sides, None if whole else view))
+        made = list(_meshes(piece, sides, None if whole else view, slope))
         if not made:
             continue
         key = _identity(piece)
@@ -61,7 +72,7 @@ def _identity(piece: Piece) -> object:
     return piece.instance
 
 
-def _meshes(piece: Piece, sides: int, view: View | None) -> list[tuple[int, Tube]]:
+def _meshes(piece: Piece, sides: int, view: View | None, slope: float) -> list[tuple[int, Tube]]:
     """The meshes of a piece, each with where in the piece it starts."""
     if isinstance(piece, Convex):
         return [(0, loft(piece.rings))]
@@ -71,7 +82,7 @@ def _meshes(piece: Piece, sides: int, view: View | None) -> list[tuple[int, Tube
     else:
         half_m = float(np.abs(view.floor_corners_m()[:, :2]).max())
         widest_m = 2 * float(np.max(piece.radius_m))
-        parts = parts_near(curve, half_m + SHADOW_SLOPE * float(curve[:, 2].max()) + widest_m)
+        parts = parts_near(curve, half_m + slope * float(curve[:, 2].max()) + widest_m)
     return [(part.start, _tube(piece, part, sides)) for part in parts]
 
 

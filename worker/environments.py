@@ -44,6 +44,9 @@ FADE_DEG = 2.0
 
 RENDER_SEED = 0
 
+SEAM_SHARE = 0.1
+"""How much darker one side of the seam may be than the other to count as the denoiser's doing."""
+
 
 def render_environments(
     folder: Path, *, pixels: int, names: tuple[str, ...] | None, device: str, threads: int
@@ -69,7 +72,7 @@ def render_environments(
         raise AssetError(f"pixels: {pixels} is no even number from {SMALLEST_WIDTH} to {LARGEST_WIDTH}; try 4096")
     for recipe in missing_environments(folder, pixels, names):
         # An empty file has factory settings, so the device is chosen afresh for each.
-        light = normalised(render_panorama(recipe, pixels, device, threads))
+        light = normalised(without_seam(render_panorama(recipe, pixels, device, threads)))
         write_environment(folder, recipe, light)
         yield recipe.name
 
@@ -147,6 +150,25 @@ def configure(scene: Any, device: str, threads: int) -> None:
     cycles.denoising_quality = "HIGH"
     image = render.image_settings
     image.file_format, image.color_mode, image.color_depth, image.exr_codec = "OPEN_EXR", "RGB", "32", "NONE"
+
+
+def without_seam(light: NDArray[np.float32]) -> NDArray[np.float32]:
+    """A panorama whose first and last columns meet: the denoiser, which does not know that, shades them apart.
+
+    Their small difference, smoothed along the seam, is shared out over a few columns on both sides.
+    """
+    reach, beside = max(2, light.shape[1] // 128), max(1, light.shape[1] // 1024)
+    left, right = light[:, :beside].mean(axis=1), light[:, -beside:].mean(axis=1)
+    step = cv2.blur((left - right)[:, None, :], (1, 2 * reach + 1))[:, 0]
+    # Where the scene itself changes at the seam there is nothing to mend.
+    most = SEAM_SHARE * np.minimum(left, right)
+    step = np.where(np.abs(step) <= most, step, 0.0)
+    fading = 0.5 * (1 - (np.arange(reach) + 0.5) / reach)
+    change = step[:, None, :] * fading[None, :, None]
+    mended = light.copy()
+    mended[:, :reach] -= change
+    mended[:, : -reach - 1 : -1] += change
+    return mended
 
 
 def normalised(light: NDArray[np.float32]) -> NDArray[np.float32]:

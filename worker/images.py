@@ -10,6 +10,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from assets.files import read_bounded
+from assets.plates import decode_plate
 from farm.errors import AssetError
 from worker.texture_window import Texels, TextureWindow
 
@@ -87,6 +89,20 @@ class ImageShelf:
 
         light: NDArray[np.float32] = self._hold((str(path), "radiance"), read)
         return light
+
+    def photograph(self, path: Path) -> NDArray[np.uint8]:
+        """A photograph as (H, W, 3) sRGB, the top row first; don't write to it.
+
+        Raises:
+            AssetError: if it can't be decoded.
+        """
+
+        def read() -> tuple[NDArray[np.uint8], int]:
+            pixels = decode_plate(path, read_bounded(path))
+            return pixels, pixels.nbytes
+
+        pixels: NDArray[np.uint8] = self._hold((str(path), "photograph"), read)
+        return pixels
 
     def texels(self, file: TextureFile, *, reduced: bool = False) -> Texels | None:
         """A map's texels, (H, W) or (H, W, 3) with red first, the top row first; don't write to them.
@@ -217,7 +233,7 @@ def _decode(file: TextureFile, *, reduced: bool) -> tuple[Texels | None, int]:
     if pixels is None:
         raise AssetError(f"{file.path}: can't decode this image; replace the file")
     if reduced and pixels.dtype == np.uint16:
-        pixels = (pixels >> 8).astype(np.uint8)
+        pixels = (pixels // 256).astype(np.uint8)
     if reduced and pixels.ndim == 3 and pixels.shape[2] == 4:
         pixels = pixels[:, :, :3]
     if pixels.dtype != np.uint8 or (pixels.ndim == 3 and pixels.shape[2] != 3):

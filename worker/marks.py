@@ -73,7 +73,7 @@ def sized(marks: Marks, rows: int, columns: int) -> Marks:
     def fit(field: Field | None) -> Field | None:
         if field is None or field.shape == (rows, columns):
             return field
-        fitted: Field = cv2.resize(field, (columns, rows), interpolation=cv2.INTER_AREA)
+        fitted: Field = cv2.resize(field, (columns, rows), interpolation=cv2.INTER_AREA).astype(np.float32, copy=False)
         return fitted
 
     return Marks(stain=fit(marks.stain), scratch=fit(marks.scratch), dust=fit(marks.dust))
@@ -91,13 +91,14 @@ class _Window:
         to_grid[:, 2] += CELLS / 2 - 0.5
         flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
         size = (self.columns, self.rows)
-        seen: Field = cv2.warpAffine(grid, to_grid, size, flags=flags, borderMode=cv2.BORDER_REFLECT)
-        return seen
+        seen = cv2.warpAffine(grid, to_grid, size, flags=flags, borderMode=cv2.BORDER_REFLECT)
+        return seen.astype(np.float32, copy=False)
 
     def texels_of(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """Columns and rows (N, 2) of points (N, 2) of the floor."""
         back = np.linalg.inv(self.to_floor[:, :2])
-        return (points_m - self.to_floor[:, 2]) @ back.T
+        from_origin = points_m - self.to_floor[:, 2]
+        return np.einsum("ij,nj->ni", back, from_origin)
 
     @property
     def texels_per_m(self) -> float:
@@ -139,7 +140,7 @@ def stain_grids(share: float, rng: np.random.Generator) -> tuple[Field, Field]:
         left = share * EDGE_M**2 - np.count_nonzero(depth > 0) * CELL_M**2
         radius = min(radius, float(np.sqrt(left / np.pi)) + CELL_M)
         _spill(depth, strength, radius, rng)
-    return depth, cv2.GaussianBlur(strength, (0, 0), 1.5)
+    return depth, cv2.GaussianBlur(strength, (0, 0), 1.5).astype(np.float32, copy=False)
 
 
 def _spill(depth: Field, strength: Field, radius_m: float, rng: np.random.Generator) -> None:
@@ -188,12 +189,11 @@ def _scratches(density: float, rng: np.random.Generator, window: _Window) -> Fie
         canvas = bright if strength > 0 else dark
         count = len(place)
         for start, end, share in ((0, count, 0.4), (count // 6, count - count // 6, 1.0)):
-            cv2.polylines(
-                canvas, [place[start:end]], False, round(level * share), max(1, round(width)), cv2.LINE_AA, shift=4
-            )
-    both = cv2.subtract(bright, dark, dtype=cv2.CV_32F)
+            cv2.polylines(canvas, [place[start:end]], False, (level * share,), max(1, round(width)), cv2.LINE_AA, 4)
+    both: Field = cv2.subtract(bright, dark, dtype=cv2.CV_32F).astype(np.float32, copy=False)
     both *= np.float32(1 / 255) * (0.75 + 0.25 * np.clip(_grain(window), -1.5, 1.5))
-    return np.clip(both, -1, 1)
+    scratches: Field = np.clip(both, -1, 1)
+    return scratches
 
 
 def scratch_lines(density: float, rng: np.random.Generator) -> Iterator[tuple[NDArray[np.float64], float, float]]:
@@ -240,8 +240,8 @@ def _grain(window: _Window) -> Field:
     edge = round(len(tile) * texels)
     grown = tile if edge == len(tile) else cv2.resize(tile, (edge, edge), interpolation=cv2.INTER_LINEAR)
     repeats = (-(-window.rows // edge), -(-window.columns // edge))
-    grain: Field = np.tile(grown, repeats)[: window.rows, : window.columns]
-    return grain
+    grain = np.tile(grown, repeats)[: window.rows, : window.columns]
+    return grain.astype(np.float32, copy=False)
 
 
 @lru_cache(maxsize=1)

@@ -1,26 +1,11 @@
 """A scene made real in the open template: cables, floor, light, world and camera. Sets everything, every time."""
 
-<<<<<<< HEAD
 from assets.hdris import LUMINANCE
 from farm.category import Background, CategoryTraits
 from farm.lights import HdriWorld
-=======
-import math
-from typing import Any
-
-import bpy
-import numpy as np
-
-from blend import names
-from assets.hdris import LUMINANCE
-from farm.category import Background, CategoryTraits
-from farm.lights import HdriWorld
-from farm.lights import Lamp, StudioLamp
-from farm.looks import CableMaterial, Rgb
->>>>>>> h-camera
 from farm.rendering import CableDetail, Economy
 from farm.scene import Scene
-from worker.cable_objects import add_cables, remove_cables
+from worker.cable_objects import add_cables, remove_cables, shadow_slope
 from worker.camera import has_round_aperture, set_camera
 from worker.clutter.place import add_clutter
 from worker.floor import set_floor, set_unseen_floor
@@ -34,15 +19,6 @@ from worker.shapes import CableShapes, smooth
 from worker.surroundings import backdrop_of, set_grey_world, set_hdri_world, set_lamps
 from worker.view import View
 
-<<<<<<< HEAD
-=======
-DIRT_EDGE = 0.05
-"""Distance of the two stops of the dirt ramp: how soft the edge of a spot is."""
-
-SHADOW_SLOPE = 3.0
-"""How far a shadow reaches, in the height of what throws it: that of the lowest published lamp, 15 m away at 5 m."""
-
->>>>>>> h-camera
 PLATE_LUMINANCE = 0.3
 """Mean luminance of a photograph behind the cables, where the surroundings that light them tell none."""
 
@@ -81,16 +57,10 @@ def realize(
         shelf.forget()
     remove_cables()
     view = View.of(scene.camera, resolution).undistorted()
-<<<<<<< HEAD
     curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
     pieces = pieces_of(scene, curves)
-    add_cables(pieces, detail.sides, view, shelf, whole=not economy.cables_in_view)
-=======
-    curves = [smooth(nodes, detail.points_per_segment) for nodes in nodes_m]
-    slope = _shadow_slope(scene.lamps)
-    for number, (cable, curve) in enumerate(zip(scene.cables, curves, strict=True), start=1):
-        _add_cable(number, cable, curve, detail, view if economy.cables_in_view else None, slope)
->>>>>>> h-camera
+    slope = shadow_slope(scene.lamps)
+    add_cables(pieces, detail.sides, view, shelf, slope=slope, whole=not economy.cables_in_view)
     if scene.floor is None:
         set_unseen_floor(shelf)
     else:
@@ -108,79 +78,7 @@ def realize(
     set_hdri_world(scene.hdri_world, library, shelf, only_lights=economy.upper_world and not is_seen)
     if light is None:
         return None
-<<<<<<< HEAD
     return Backdrop(light, covered_by(pieces, view, lens_radius_m(scene.camera), detail.sides))
-=======
-    radii_m = np.array([cable.diameter_m / 2 for cable in scene.cables])
-    return Backdrop(light, covered_by(curves, radii_m, view, lens_radius_m(scene.camera), detail.sides))
-
-
-def remove_cables() -> None:
-    """Remove the cables of the picture before."""
-    prefix = f"{names.CABLE}."
-    for collection in (bpy.data.objects, bpy.data.meshes, bpy.data.materials):
-        for block in [block for block in collection if block.name.startswith(prefix)]:
-            collection.remove(block)
-
-
-def _shadow_slope(lamps: tuple[Lamp, ...]) -> float:
-    """How far the longest shadow reaches, in the height of what throws it; a lamp at the horizon's is cut short."""
-    elevations_deg = [max(lamp.elevation_deg, 1.0) for lamp in lamps if isinstance(lamp, StudioLamp)]
-    return max([SHADOW_SLOPE, *(1.0 / math.tan(math.radians(elevation)) for elevation in elevations_deg)])
-
-
-def _add_cable(
-    number: int, cable: Cable, curve: Points, detail: CableDetail, view: View | None, shadow_slope: float
-) -> None:
-    """Add a cable; of one that leaves the view, the parts that are seen or may throw a shadow into it."""
-    if not isinstance(cable.material, CableMaterial):
-        raise NotImplementedError  # until skins are drawn
-    material = _cable_material(f"{names.CABLE}.{number}", cable.material)
-    if view is None:
-        parts = [slice(0, len(curve))]
-    else:
-        half_m = float(np.abs(view.floor_corners_m()[:, :2]).max())
-        parts = parts_near(curve, half_m + shadow_slope * float(curve[:, 2].max()) + cable.diameter_m)
-    for part in parts:
-        start_m = cable.length_m * part.start / (len(curve) - 1)
-        tube = sweep(curve[part], cable.diameter_m / 2, detail.sides, start_m=start_m)
-        _add_tube(f"{names.CABLE}.{number}.{part.start}", tube, material)
-
-
-def _add_tube(name: str, tube: Tube, material: Any) -> None:
-    mesh = bpy.data.meshes.new(name)
-    mesh.vertices.add(len(tube.vertices_m))
-    mesh.vertices.foreach_set("co", tube.vertices_m.ravel())
-    mesh.loops.add(len(tube.corners))
-    mesh.loops.foreach_set("vertex_index", tube.corners)
-    mesh.polygons.add(len(tube.face_starts))
-    mesh.polygons.foreach_set("loop_start", tube.face_starts)
-    mesh.uv_layers.new(name="along").uv.foreach_set("vector", tube.uvs.ravel())
-    mesh.update(calc_edges=True)
-    mesh.materials.append(material)
-    bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
-
-
-def _cable_material(name: str, wanted: CableMaterial) -> Any:
-    material = bpy.data.materials[names.CABLE].copy()
-    material.name = name
-    nodes = material.node_tree.nodes
-    nodes[names.CABLE_MAPPING].inputs["Location"].default_value = wanted.dirt_mapping
-    nodes[names.CABLE_NOISE].inputs["W"].default_value = wanted.dirt_offset
-    clean, dirty = nodes[names.CABLE_COLOUR_RAMP].color_ramp.elements
-    clean.position = wanted.dirt_position
-    clean.color = _linear(wanted.colour)
-    dirty.position = min(1.0, wanted.dirt_position + DIRT_EDGE)
-    dirty.color = _linear(wanted.dirt_colour)
-    nodes[names.CABLE_REFLECTION_RAMP].color_ramp.elements[1].position = wanted.reflection_position
-    return material
-
-
-def _linear(colour: Rgb) -> tuple[float, float, float, float]:
-    """Levels as shares of linear light, which is how the published set-up reads them: the colours come out pastel."""
-    red, green, blue = (level / 255.0 for level in colour)
-    return (red, green, blue, 1.0)
->>>>>>> h-camera
 
 
 def _behind(

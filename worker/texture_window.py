@@ -133,8 +133,8 @@ def window_on(
 
 def light_of(levels: Texels) -> NDArray[np.float32]:
     """Linear light, 0 to 1, of 8-bit sRGB levels."""
-    light: NDArray[np.float32] = cv2.LUT(np.ascontiguousarray(levels), _LIGHT_OF_LEVEL)
-    return light
+    light = cv2.LUT(np.ascontiguousarray(levels), _LIGHT_OF_LEVEL)
+    return light.astype(np.float32, copy=False).reshape(levels.shape)
 
 
 def _coarsen(texels: Texels, factor: int, *, colour: bool) -> Texels:

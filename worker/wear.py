@@ -36,14 +36,14 @@ def worn_colour(texels: Texels, wear: Wear, marks: Marks) -> Texels:
     Returns:
         (H, W, 3) sRGB levels.
     """
-    coloured = texels if texels.ndim == 3 else cv2.cvtColor(texels, cv2.COLOR_GRAY2RGB)
-    mean = np.array(cv2.mean(cv2.resize(light_of(coloured[::4, ::4]), (64, 64), interpolation=cv2.INTER_AREA))[:3])
+    coloured = texels if texels.ndim == 3 else np.repeat(texels[:, :, None], 3, axis=2)
+    mean = light_of(coloured[::4, ::4]).mean(axis=(0, 1), dtype=np.float64)
     grey = LUMA[None, :] * np.ones((3, 1))
     mix = wear.saturation * np.eye(3) + (1 - wear.saturation) * grey
     gain = wear.brightness * np.array(wear.tint)[:, None]
     # colour = gain * (mean + contrast * (mix light - mix mean)), one matrix with an offset.
     matrix = np.hstack([gain * wear.contrast * mix, gain * ((1 - wear.contrast) * mix @ mean)[:, None]])
-    light = cv2.transform(light_of(coloured), matrix.astype(np.float32))
+    light: Field = cv2.transform(light_of(coloured), matrix.astype(np.float32)).astype(np.float32, copy=False)
     if marks.stain is not None:
         for channel, left in enumerate(STAIN_LEAVES):
             light[:, :, channel] *= 1 - np.float32(1 - left) * marks.stain
@@ -90,7 +90,7 @@ def turned_over(texels: Texels, *, normal: bool) -> Texels:
 
 def _levels_of(light: Field) -> Texels:
     """Levels (sRGB) of linear light, by a table over its square root: a power a texel took ten times as long."""
-    root = cv2.sqrt(np.clip(light, 0, 1))
+    root: Field = cv2.sqrt(np.clip(light, 0, 1)).astype(np.float32, copy=False)
     levels: Texels = _level_table()[(root * np.float32(_ROOTS - 1) + np.float32(0.5)).astype(np.uint16)]
     return levels
 

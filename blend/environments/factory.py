@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 
-from blend.environments import furniture, lamps, machines, services
+from blend.environments import furniture, lamps, machines, services, storage
 from blend.environments.assembly import Assembly
 from blend.environments.layout import Piece, line_up
 from blend.environments.palette import DARK_GREY, LIGHT_GREY, MACHINES, ORANGE, STEEL, WHITE, YELLOW, pick, vary
@@ -81,7 +81,7 @@ def fenced_robot(a: Assembly, rng: Rng) -> None:
     with a.at(1.4, 2.15, 1.15):
         machines.control_box(a, rng)
     with a.at(-1.2, 0.6):
-        furniture.pallet(a, rng, 2)
+        storage.pallet(a, rng, 2)
 
 
 PIECES = (
@@ -92,9 +92,9 @@ PIECES = (
     Piece(machines.tank, 1.5, 1.4),
     Piece(machines.conveyor, 3.1, 0.9),
     Piece(furniture.workbench, 2.1, 0.8),
-    Piece(furniture.steel_shelf, 1.3, 0.5),
+    Piece(storage.steel_shelf, 1.3, 0.5),
     Piece(machines.compressor, 1.5, 0.7),
-    Piece(furniture.pallet, 1.4, 0.9),
+    Piece(storage.pallet, 1.4, 0.9),
 )
 
 
@@ -148,11 +148,11 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
         lift_truck(a, rng)
     for x, y, thing in (
         (2.9, -1.5, furniture.trolley),
-        (-2.6, 1.6, furniture.pallet),
+        (-2.6, 1.6, storage.pallet),
         (3.4, 1.6, machines.drum),
         (4.1, 1.9, machines.drum),
         (-5.3, 2.1, furniture.trolley),
-        (1.3, 2.4, furniture.pallet),
+        (1.3, 2.4, storage.pallet),
         (-1.2, -2.1, furniture.stool),
     ):
         with a.at(x, y, turn=rng.uniform(0, 360)):

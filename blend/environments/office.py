@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from blend.environments import furniture, lamps, services
+from blend.environments import furniture, lamps, services, storage
 from blend.environments.assembly import Assembly
 from blend.environments.goods import CARTONS
 from blend.environments.layout import Piece, line_up
@@ -103,14 +103,14 @@ def coat_stand(a: Assembly, rng: Rng) -> None:
 
 
 PIECES = (
-    Piece(furniture.book_case, 0.95, 0.4),
-    Piece(furniture.book_case, 0.95, 0.4),
+    Piece(storage.book_case, 0.95, 0.4),
+    Piece(storage.book_case, 0.95, 0.4),
     Piece(filing_cabinet, 0.5, 0.65),
     Piece(printer, 0.7, 0.7),
     Piece(sofa, 1.8, 0.85),
     Piece(furniture.plant, 0.6, 0.5),
     Piece(coat_stand, 0.55, 0.5),
-    Piece(furniture.steel_cupboard, 1.0, 0.5),
+    Piece(storage.steel_cupboard, 1.0, 0.5),
 )
 
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from blend.environments import furniture, lamps, machines, services
+from blend.environments import furniture, lamps, machines, services, storage
 from blend.environments.assembly import Assembly
 from blend.environments.goods import CARTONS, STORED
-from blend.environments.layout import Piece, line_up
+from blend.environments.layout import Piece, line_up, row_on
 from blend.environments.palette import (
     BLACK,
     DARK_GREY,
@@ -75,7 +75,7 @@ def packing_table(a: Assembly, rng: Rng) -> None:
         a.box((x, 0.05, 0.88), (0.05, 0.05, 1.0), "paint", LIGHT_GREY)
     a.box((0, 0.15, 1.55), (1.85, 0.3, 0.025), "paint", LIGHT_GREY)
     with a.at(0, 0.02):
-        furniture.row_on(a, rng, CARTONS, 1.8, 1.575, empty=0.2)
+        row_on(a, rng, CARTONS, 1.8, 1.575, empty=0.2)
     a.cylinder((-0.85, 0.25, 1.15), 0.12, 0.6, "card", (0.6, 0.45, 0.28), axis="x", sides=20)
     with a.at(0.5, 0.12, 0.88):
         furniture.monitor(a, rng)
@@ -83,7 +83,7 @@ def packing_table(a: Assembly, rng: Rng) -> None:
     with a.at(-0.4, 0.3, 0.88):
         CARTONS[0].build(a, rng)
     with a.at(0.0, 0.2, 0.1):
-        furniture.row_on(a, rng, CARTONS, 1.7, 0.0)
+        row_on(a, rng, CARTONS, 1.7, 0.0)
 
 
 def build(a: Assembly, rng: Rng, variant: int) -> Light:
@@ -122,14 +122,14 @@ def _warehouse(a: Assembly, rng: Rng) -> Light:
             if (y in {3.9, -2.9} and abs(x + 1.5) < 1.7) or rng.random() < 0.06:
                 continue
             with a.at(float(x), y, turn=turn):
-                furniture.pallet_rack(a, rng, levels=3 if rng.random() < 0.8 else 4, gap=1.35)
+                storage.pallet_rack(a, rng, levels=3 if rng.random() < 0.8 else 4, gap=1.35)
     with a.at(4.6, 0.5, turn=70):
         lift_truck(a, rng)
     with a.at(-4.3, -0.5, turn=-50):
         pallet_truck(a, rng)
     for x, y in ((-3.1, 1.9), (2.8, -1.6), (7.6, -1.2), (-6.5, 1.7), (-2.0, 5.0), (1.4, 2.4)):
         with a.at(x, y, turn=rng.uniform(-12, 12) + 90 * float(rng.integers(2))):
-            furniture.pallet(a, rng, int(rng.integers(1, 5)))
+            storage.pallet(a, rng, int(rng.integers(1, 5)))
     with room.along(a, Wall.WEST, 1.2):
         packing_table(a, rng)
     for wall, u in ((Wall.WEST, 5.2), (Wall.EAST, 5.3), (Wall.EAST, -6.1)):
@@ -172,24 +172,24 @@ def _storeroom(a: Assembly, rng: Rng) -> Light:
     )
     room.build(a)
     shelves = (
-        Piece(furniture.steel_shelf, 1.25, 0.5),
-        Piece(furniture.steel_shelf, 1.25, 0.5),
-        Piece(lambda b, r: furniture.steel_shelf(b, r, STORED, width=1.6, high=2.5, boards=5), 1.66, 0.5),
-        Piece(lambda b, r: furniture.pallet_rack(b, r, width=2.4, levels=2, gap=1.2), 2.55, 1.0),
+        Piece(storage.steel_shelf, 1.25, 0.5),
+        Piece(storage.steel_shelf, 1.25, 0.5),
+        Piece(lambda b, r: storage.steel_shelf(b, r, STORED, width=1.6, high=2.5, boards=5), 1.66, 0.5),
+        Piece(lambda b, r: storage.pallet_rack(b, r, width=2.4, levels=2, gap=1.2), 2.55, 1.0),
     )
     with room.along(a, Wall.NORTH):
         line_up(a, rng, shelves, -4.4, 4.4)
     with room.along(a, Wall.SOUTH):
         line_up(a, rng, (*shelves, Piece(machines.drum, 0.65)), -4.2, 4.5)
     with room.along(a, Wall.EAST):
-        line_up(a, rng, (*shelves[:2], Piece(furniture.steel_cupboard, 1.0), Piece(furniture.ladder, 0.6)), -2.2, 2.2)
+        line_up(a, rng, (*shelves[:2], Piece(storage.steel_cupboard, 1.0), Piece(furniture.ladder, 0.6)), -2.2, 2.2)
     with room.along(a, Wall.WEST):
         line_up(a, rng, shelves[:2], 0.7, 2.9)
         line_up(a, rng, (Piece(furniture.ladder, 0.6), Piece(machines.gas_bottles, 0.95)), -2.6, -1.1)
     for x, y, thing in (
         (2.3, -0.8, furniture.trolley),
-        (-2.1, 0.7, furniture.pallet),
-        (2.2, 1.3, furniture.pallet),
+        (-2.1, 0.7, storage.pallet),
+        (2.2, 1.3, storage.pallet),
         (-1.9, -1.3, pallet_truck),
         (0.9, 1.6, furniture.stool),
     ):

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from blend.environments import furniture, lamps, services
+from blend.environments import furniture, lamps, services, storage
 from blend.environments.assembly import Assembly
-from blend.environments.goods import BENCH, coil, meter, papers, tool_box
+from blend.environments.goods import coil, papers, tool_box
 from blend.environments.layout import Piece, clutter, line_up
 from blend.environments.palette import (
     ALUMINIUM,
@@ -28,6 +28,7 @@ from blend.environments.prints import PrintKind, any_of
 from blend.environments.room import Room, Style, Wall, door, windows
 from blend.environments.scene import Light
 from blend.environments.solids import hanging
+from blend.environments.tools import BENCH, meter
 
 Rng = np.random.Generator
 CABINETS = palette("c9cac5 b5b8b6 d6d3c6 8d979c a9aca4")
@@ -250,7 +251,7 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
     with room.along(a, Wall.WEST):
         half = 0.5 * room.length(Wall.WEST)
         if not close:
-            line_up(a, rng, (Piece(furniture.steel_shelf, 1.25), Piece(services.fuse_board, 0.9)), -half + 0.5, 0.4)
+            line_up(a, rng, (Piece(storage.steel_shelf, 1.25), Piece(services.fuse_board, 0.9)), -half + 0.5, 0.4)
             with a.at(-1.0, 0.0, 1.6):
                 services.pin_board(a, rng)
     _loose(a, rng, room, close=close)

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from blend.environments import furniture, lamps, machines, services
+from blend.environments import furniture, lamps, machines, services, storage
 from blend.environments.assembly import Assembly
-from blend.environments.goods import BENCH, STORED
-from blend.environments.layout import Piece, clutter, line_up
+from blend.environments.goods import STORED
+from blend.environments.layout import Piece, clutter, line_up, row_on
 from blend.environments.palette import (
     DARK_GREY,
     LIGHT_GREY,
@@ -20,6 +20,7 @@ from blend.environments.palette import (
 )
 from blend.environments.room import Room, Style, Wall, door, gate, windows
 from blend.environments.scene import Light
+from blend.environments.tools import BENCH
 
 Rng = np.random.Generator
 
@@ -28,9 +29,9 @@ LOWER = palette("4a6a5a 5a6a78 8a8478 6a7a70 3f5668")
 
 FLOOR_PIECES = (
     Piece(furniture.workbench, 2.05, 0.8),
-    Piece(furniture.steel_cupboard, 1.0, 0.5),
-    Piece(furniture.steel_shelf, 1.25, 0.5),
-    Piece(furniture.lockers, 0.95, 0.5),
+    Piece(storage.steel_cupboard, 1.0, 0.5),
+    Piece(storage.steel_shelf, 1.25, 0.5),
+    Piece(storage.lockers, 0.95, 0.5),
     Piece(machines.drill_press, 0.7, 0.8),
     Piece(machines.lathe, 2.2, 0.9),
     Piece(machines.milling_machine, 1.5, 1.1),
@@ -120,7 +121,7 @@ def _walls(a: Assembly, rng: Rng, room: Room) -> None:
         a.box((0.6, 0.2, 0.0), (6.0, 0.36, 0.03), "wood", WOODS[1])
         with a.at(0.6, 0.02):
             from_left = (*STORED,)
-            furniture.row_on(a, rng, from_left, 5.9, 0.03, empty=0.2)
+            row_on(a, rng, from_left, 5.9, 0.03, empty=0.2)
 
 
 def _middle(a: Assembly, rng: Rng) -> None:
@@ -132,7 +133,7 @@ def _middle(a: Assembly, rng: Rng) -> None:
     for x, y, thing in (
         (1.0, -2.6, furniture.stool),
         (-2.3, -1.6, furniture.trolley),
-        (-2.9, 1.9, furniture.pallet),
+        (-2.9, 1.9, storage.pallet),
         (2.7, 1.7, furniture.stool),
         (-1.6, 2.6, machines.drum),
         (2.6, 2.4, furniture.trolley),

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from blend.environments import furniture, machines, outdoors
+from blend.environments import machines, outdoors, storage
 from blend.environments.assembly import Assembly
 from blend.environments.palette import DARK_GREY, LIGHT_GREY, ORANGE, WHITE, YELLOW, pick, vary
 from blend.environments.scene import Light
@@ -40,7 +40,7 @@ def _works(a: Assembly, rng: Rng) -> Light:
         lift_truck(a, rng)
     for x, y in ((-3.3, 6.5), (-1.9, 6.8), (-7.5, 7.0), (4.2, 3.9), (-8.6, 1.0), (2.9, 4.4)):
         with a.at(x, y, turn=rng.uniform(-10, 10)):
-            furniture.pallet(a, rng, int(rng.integers(0, 5)))
+            storage.pallet(a, rng, int(rng.integers(0, 5)))
     for x, y in ((5.4, -1.5), (5.9, -0.8), (5.2, -0.4), (-6.5, -2.6), (3.9, 1.9)):
         with a.at(x, y):
             machines.drum(a, rng)

@@ -4,7 +4,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
+from pydantic import ValidationError
 
+from assets.environments import ENVIRONMENTS
+from farm.asset_source import InstalledAssets
 from farm.catalogue import Inputs, make_header
 from farm.description import describe
 from farm.errors import AssetError, SpecError, TemplateError
@@ -29,6 +32,10 @@ class Shelf:
     def builtin_hdris(self) -> Sequence[HdriRef]:
         """One of Blender's."""
         return [HdriRef(name="city", path=None, sha256=SHA, dark=False)]
+
+    def environments(self) -> Sequence[HdriRef]:
+        """One of our own."""
+        return [HdriRef(name="workshop", path=None, dark=False, recipe_version=1)]
 
     def hdris_in(self, folder: Path) -> Sequence[HdriRef]:
         """One called as its folder."""
@@ -86,6 +93,48 @@ def test_one_photograph_twice(spec: DatasetSpec, template: Path) -> None:
     """Two of one name, from two folders, are refused."""
     with pytest.raises(AssetError, match="2 photographs are called 'lab'; rename one"):
         make_header(spec, Inputs(template, backgrounds=(Path("a/lab"), Path("b/lab"))), Shelf())
+
+
+def test_environments_take_part_in_the_wide_style(spec: DatasetSpec, template: Path) -> None:
+    """They come after Blender's own, unless they are left out; the published style has none."""
+    wide = spec.model_copy(update={"style": Style.WIDE})
+
+    def names(spec: DatasetSpec, *, environments: bool = True) -> list[str]:
+        header = make_header(spec, Inputs(template, environments=environments), Shelf())
+        return [hdri.name for hdri in header.hdris]
+
+    assert names(wide) == ["city", "workshop"]
+    assert names(wide, environments=False) == names(spec) == ["city"]
+
+
+def test_environments_of_this_program() -> None:
+    """All of the registry's, each by its version, as another machine renders other bytes."""
+    references = InstalledAssets().environments()
+    assert {hdri.name: hdri.recipe_version for hdri in references} == {
+        name: recipe.version for name, recipe in ENVIRONMENTS.items()
+    }
+    assert {hdri.sha256 for hdri in references} == {None}
+
+
+def test_an_environment_is_none_of_blenders_own(spec: DatasetSpec, template: Path) -> None:
+    """Names are unique among all that are installed."""
+    names = [hdri.name for hdri in make_header(spec, Inputs(template, environments=True), InstalledAssets()).hdris]
+    assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize(
+    "fields",
+    [
+        {"path": None},
+        {"path": None, "sha256": SHA, "recipe_version": 1},
+        {"path": "/room.exr", "recipe_version": 1},
+        {"path": None, "recipe_version": 0},
+    ],
+)
+def test_an_hdri_is_either_a_file_or_an_environment(fields: dict[str, object]) -> None:
+    """A file has a checksum, an environment a version and no path."""
+    with pytest.raises(ValidationError):
+        HdriRef.model_validate({"name": "room", "dark": False, **fields})
 
 
 def test_one_name_twice(spec: DatasetSpec, template: Path) -> None:

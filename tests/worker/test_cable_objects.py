@@ -89,7 +89,7 @@ def test_the_mask_of_bundles_ties_and_ends_is_that_of_a_render(
     """White cables and black ties, 64 samples: all but a few pixels that differ are about half covered."""
     made = studio.make(Job(category=Category.CLOSE_CONCENTRATED, index=index), header)
     assert made.instances.max() == 3 + 2 * index + 2
-    rendered = render_coverage(samples=64)
+    rendered = render_coverage(made.scene.camera, samples=64)
     assert compare(made.instances, rendered).iou > 0.985
     differs = (made.mask > 0) != (rendered >= 0.5)
     assert np.count_nonzero(differs & (np.abs(rendered - 0.5) > 0.2)) <= 3

@@ -72,7 +72,7 @@ def render_white(scene: Scene, shapes: CableShapes) -> NDArray[np.float64]:
     settings = PictureSettings(cycles=CyclesSettings(samples=64, denoiser=Denoiser.NONE))
     realize(
         scene,
-        shapes.nodes_m,
+        shapes,
         AssetLibrary(make_header(), None),
         ImageShelf(),
         traits=Category.CLOSE_CONCENTRATED.traits,

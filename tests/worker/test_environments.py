@@ -25,7 +25,7 @@ from blend.environments.build import Built, build_environment
 from blend.environments.scene import Light, stage
 from farm.errors import AssetError, RenderError
 from worker import environments
-from worker.environments import normalised, render_environments, write_environment
+from worker.environments import normalised, render_environments, without_seam, write_environment
 
 pytestmark = pytest.mark.blender
 
@@ -164,6 +164,17 @@ def test_the_band_about_the_horizon_is_the_finer(monkeypatch: pytest.MonkeyPatch
     assert sizes == [(256, 0, 128), (1024, 171, 341)]
     rows = (np.arange(512) + 0.5) / 512
     assert light[2:-2, 0, 0] == pytest.approx(rows[2:-2], abs=2e-3)
+
+
+def test_the_seam_is_mended() -> None:
+    """A small step between the first and the last column goes, an object's edge stays, the middle is not touched."""
+    light = np.ones((64, 256, 3), np.float32)
+    light[:32, :128] = 1.06
+    light[32:, :128] = 3.0
+    mended = without_seam(light)
+    assert np.abs(mended[4:28, 0] - mended[4:28, -1]).max() < 0.02
+    assert np.array_equal(mended[40:], light[40:])
+    assert np.array_equal(mended[:, 8:-8], light[:, 8:-8])
 
 
 def test_bright_lamps_are_clipped_and_the_mean_is_kept() -> None:

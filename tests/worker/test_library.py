@@ -5,9 +5,10 @@ from pathlib import Path
 import pytest
 
 from assets.bake import bake_surfaces
+from assets.environments import EnvironmentKind, EnvironmentRecord, environment_directory
 from assets.files import sha256
 from farm.errors import AssetError
-from farm.header import BuiltinSurfaceRef, DatasetHeader, PlateRef
+from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, PlateRef
 from worker.library import AssetLibrary
 
 SHOWN, OTHER = "stucco", "galvanised_steel"
@@ -62,3 +63,36 @@ def test_a_photograph_is_checked(header: DatasetHeader, tmp_path: Path, change: 
     path.unlink() if change is None else path.write_bytes(change)
     with pytest.raises(AssetError, match=r"lab\.jpg: (can't be read|has changed since)"):
         AssetLibrary(with_plate, tmp_path).plate("lab")
+
+
+def with_environment(header: DatasetHeader, folder: Path, version: int) -> AssetLibrary:
+    """A library of a header that names an environment of some version, where version 1 is on disk."""
+    directory = environment_directory(folder, "yard_1")
+    directory.mkdir(parents=True)
+    (directory / "panorama.exr").write_bytes(b"light")
+    record = EnvironmentRecord(
+        name="yard_1", kind=EnvironmentKind.YARD, version=1, pixels=64, sha256=sha256(b"light"), mean_luminance=0.8
+    )
+    (directory / "environment.json").write_text(record.model_dump_json())
+    hdri = HdriRef(name="yard_1", path=None, dark=False, recipe_version=version)
+    return AssetLibrary(header.model_copy(update={"hdris": (hdri,)}), folder)
+
+
+def test_an_environment_is_found_by_its_name(header: DatasetHeader, tmp_path: Path) -> None:
+    """Beside the surfaces."""
+    path = with_environment(header, tmp_path, 1).hdri("yard_1")
+    assert path == tmp_path / "environments" / "yard_1" / "panorama.exr"
+
+
+def test_another_version_of_an_environment_is_refused(header: DatasetHeader, tmp_path: Path) -> None:
+    """It would show another place than the dataset's other pictures."""
+    with pytest.raises(AssetError, match=r"'yard_1' is of version 1, not 2; run `farm assets build`"):
+        with_environment(header, tmp_path, 2).hdri("yard_1")
+
+
+def test_a_damaged_environment_is_refused(header: DatasetHeader, tmp_path: Path) -> None:
+    """When a scene shows it."""
+    library = with_environment(header, tmp_path, 1)
+    (environment_directory(tmp_path, "yard_1") / "panorama.exr").write_bytes(b"dark")
+    with pytest.raises(AssetError, match=r"panorama\.exr: differs from its checksum"):
+        library.hdri("yard_1")

@@ -1,6 +1,7 @@
 """What sheets are drawn on: an image of their colour, with roughness, relief and coverage. Numpy, OpenCV, Pillow."""
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import cv2
 import numpy as np
@@ -42,7 +43,7 @@ def pixels_of(length_m: float, texel_m: float = TEXEL_M) -> int:
     return max(4, round(length_m / texel_m))
 
 
-def levels(colour: Field) -> Levels:
+def levels(colour: NDArray[Any]) -> Levels:
     """Floats from 0 to 255 as 8 bits."""
     rounded: Levels = np.clip(np.rint(colour), 0, 255).astype(np.uint8)
     return rounded
@@ -108,7 +109,7 @@ def lines(cover: Field, points: NDArray[np.float64], width_px: float, *, closed:
     drawn = np.zeros(cover.shape, np.uint8)
     place = np.rint(points * 16).astype(np.int32)
     strength = 255 if width_px >= 1 else max(40, round(255 * width_px))
-    cv2.polylines(drawn, [place], closed, strength, max(1, round(width_px)), cv2.LINE_AA, shift=4)
+    cv2.polylines(drawn, [place], closed, (strength,), max(1, round(width_px)), cv2.LINE_AA, 4)
     np.maximum(cover, drawn.astype(np.float32) / np.float32(255), out=cover)
 
 

@@ -239,5 +239,5 @@ def _rounded(rows: int, columns: int, radius: float) -> np.typing.NDArray[np.uin
     cv2.rectangle(mask, (0, r), (columns - 1, rows - 1 - r), 255, -1)
     for x in (r, columns - 1 - r):
         for y in (r, rows - 1 - r):
-            cv2.circle(mask, (x, y), r, 255, -1, cv2.LINE_AA)
+            cv2.circle(mask, (x, y), r, (255,), -1, cv2.LINE_AA)
     return mask

@@ -10,9 +10,10 @@ from blend.nodes import add_node, link
 from farm.clutter import Part, Sheet, Stick
 from farm.looks import Rgb
 from farm.scene import Scene
+from worker.clutter.canvas import Print
 from worker.clutter.fit import parts_that_fit
 from worker.clutter.parts import part_solid
-from worker.clutter.sheet import Print, print_sheet, sheet_corners
+from worker.clutter.sheet import print_sheet, sheet_corners
 from worker.clutter.solid import Finish, Solid
 from worker.clutter.sticks import placed_on, stick_solid
 from worker.images import ImageShelf
@@ -45,8 +46,8 @@ def add_clutter(scene: Scene, sticks_m: tuple[Points, ...], curves: list[Points]
     sticks = scene.sticks[: len(sticks_m)]
     for number, (stick, nodes) in enumerate(zip(sticks, sticks_m, strict=True)):
         _add_stick(f"{PREFIX}.stick.{number}", stick, nodes)
-    radii = np.array([each.diameter_m / 2 for each in (*scene.cables, *sticks)])
-    for number, part in enumerate(parts_that_fit(scene.parts, [*curves, *sticks_m], radii)):
+    diameters = [*(cable.diameter_m for cable in scene.cables), *(stick.diameter_m for stick in sticks)]
+    for number, part in enumerate(parts_that_fit(scene.parts, [*curves, *sticks_m], np.array(diameters) / 2)):
         _add_part(f"{PREFIX}.part.{number}", part)
 
 

@@ -170,7 +170,8 @@ def box(low_m: Sequence[float], high_m: Sequence[float], bevel_m: float, finish:
 def polygon(corners: int, inscribed_radius_m: float) -> Array:
     """A regular polygon (corners, 2) about the origin, by the radius of the circle in it."""
     angle = 2 * np.pi * (np.arange(corners) + 0.5) / corners
-    return inscribed_radius_m / np.cos(np.pi / corners) * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    corners_m: Array = inscribed_radius_m / np.cos(np.pi / corners) * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return corners_m
 
 
 def inset(outline_m: Array, by_m: float) -> Array:
@@ -180,7 +181,8 @@ def inset(outline_m: Array, by_m: float) -> Array:
     before = np.roll(edge, 1, axis=0)
     normal, normal_before = (np.stack([-each[:, 1], each[:, 0]], axis=1) for each in (edge, before))
     bisector = normal + normal_before
-    return outline_m + by_m * 2 * bisector / np.sum(bisector**2, axis=1, keepdims=True)
+    moved: Array = outline_m + by_m * 2 * bisector / np.sum(bisector**2, axis=1, keepdims=True)
+    return moved
 
 
 def strap(curve_m: Array, width_m: float, thickness_m: float, finish: int) -> Solid:

@@ -85,7 +85,8 @@ def _end(rng: np.random.Generator, rows: int) -> NDArray[np.float64]:
     else:
         missing = slant
     missing = np.asarray(missing, np.float64)
-    return missing - missing.min()
+    cut: NDArray[np.float64] = missing - missing.min()
+    return cut
 
 
 def _wrinkles(rng: np.random.Generator, rows: int, columns: int) -> Field:
@@ -95,6 +96,6 @@ def _wrinkles(rng: np.random.Generator, rows: int, columns: int) -> Field:
     for _ in range(int(rng.poisson(columns * TEXEL_M / 0.06))):
         middle, lean = float(rng.uniform(0, columns)), float(rng.uniform(-0.8, 0.8)) * rows
         ends = np.array([[middle - lean, -2], [middle + 0.2 * lean, rows / 2], [middle + lean, rows + 2]])
-        cv2.polylines(creases, [np.rint(ends).astype(np.int32)], False, float(rng.uniform(0.4, 1.2)), 2)
+        cv2.polylines(creases, [np.rint(ends).astype(np.int32)], False, (float(rng.uniform(0.4, 1.2)),), 2)
     height += cv2.GaussianBlur(creases, (0, 0), 1.6) * 2.0
     return height.astype(np.float32, copy=False)

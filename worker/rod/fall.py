@@ -53,7 +53,8 @@ def drop_cables(scene: Scene, fall: RodFall) -> CableShapes:
     except DivergedError as error:
         raise SceneError(f"the rod solver diverged {error}") from error
     cables = range(len(scene.cables))
-    heights = [each.start_height_m for each in (*scene.cables, *scene.sticks)]
+    heights = [cable.start_height_m for cable in scene.cables]
+    heights += [stick.start_height_m for stick in scene.sticks]
     return CableShapes(
         nodes_m=tuple(simulation.nodes_m(k) for k in cables),
         radii_m=np.array([cable.diameter_m / 2 for cable in scene.cables]),

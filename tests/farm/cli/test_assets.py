@@ -1,11 +1,20 @@
 """`farm assets`."""
 
+import importlib
+from collections.abc import Callable
 from pathlib import Path
 
+import pytest
 from PIL import Image
+from rich.console import Console
 
+from assets.bake import BakedSet
+from assets.environments import ENVIRONMENTS
+from farm.cli import baking
 from farm.errors import AssetError, SpecError
+from farm.header import HdriRef
 from tests.farm.cli.result import Farm, assert_refused
+from tests.stand_in import stand_in_header
 
 
 def test_assets_to_check(farm: Farm) -> None:
@@ -28,3 +37,65 @@ def test_assets_are_listed(farm: Farm) -> None:
     assert result.returncode == 0
     assert "not yet" in result.stdout
     assert "CC0" in result.stdout
+
+
+def test_environments_are_listed(farm: Farm) -> None:
+    """With what they show."""
+    result = farm("assets", "list")
+    assert "switch_room_2" in result.stdout
+    assert "switch room" in result.stdout
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
+    """What the worker's program is asked for; no surface is drawn."""
+    calls: list[list[str]] = []
+    monkeypatch.setattr(
+        importlib.import_module("farm.cli.assets"),
+        "bake",
+        lambda *_: BakedSet(directory=Path("none"), surfaces=(), drawn=()),
+    )
+
+    def note(arguments: list[str], _header: object, _logs: object, told: Callable[[str], None]) -> None:
+        calls.append(arguments)
+        told("workshop_1")
+
+    monkeypatch.setattr(baking, "ask_worker", note)
+    monkeypatch.setattr(baking, "require_blender", lambda: None)
+    return calls
+
+
+def test_a_build_renders_the_environments(farm: Farm, asked: list[list[str]], monkeypatch: pytest.MonkeyPatch) -> None:
+    """All that are missing, at the size asked for, in the folder of the surfaces."""
+    monkeypatch.setattr(importlib.import_module("farm.cli.assets"), "blender_is_installed", lambda: True)
+    result = farm("assets", "build", "--assets", "here", "--pixels", "128")
+    assert result.returncode == 0, result.stderr
+    (arguments,) = asked
+    assert arguments[:5] == ["environments", "--out", "here", "--pixels", "128"]
+    assert [arguments[place + 1] for place, word in enumerate(arguments) if word == "--name"] == list(ENVIRONMENTS)
+    assert f"{len(ENVIRONMENTS)} of them rendered now" in result.stdout
+
+
+def test_a_build_without_environments(farm: Farm, asked: list[list[str]]) -> None:
+    """They can be left out."""
+    assert farm("assets", "build", "--no-environments").returncode == 0
+    assert asked == []
+
+
+def test_a_build_without_blender(farm: Farm, asked: list[list[str]], monkeypatch: pytest.MonkeyPatch) -> None:
+    """A coordinator that renders nothing needs no environments; it is told so."""
+    monkeypatch.setattr(importlib.import_module("farm.cli.assets"), "blender_is_installed", lambda: False)
+    result = farm("assets", "build")
+    assert result.returncode == 0
+    assert "left out" in result.stdout
+    assert asked == []
+
+
+def test_a_dataset_gets_the_environments_that_it_names(asked: list[list[str]], tmp_path: Path) -> None:
+    """And no others, before it is rendered."""
+    room = HdriRef(name="office_2", path=None, dark=False, recipe_version=1)
+    header = stand_in_header(far=1)
+    baking.bake_for(header.model_copy(update={"hdris": (*header.hdris, room)}), tmp_path, Console(quiet=True))
+    (arguments,) = asked
+    assert arguments[-2:] == ["--name", "office_2"]
+    assert arguments.count("--name") == 1

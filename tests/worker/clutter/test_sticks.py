@@ -9,9 +9,11 @@ import pytest
 from farm.clutter import StickKind
 from tests.worker.clutter.test_solid import volume_m3
 from tests.worker.clutter.things import make_stick
+from tests.worker.scenes import tubular
 from worker.clutter.sticks import PENCIL_CORNER, SIDES, placed_on, stick_outline, stick_solid
 from worker.coverage import cover
-from worker.silhouette import View, silhouettes
+from worker.silhouette import silhouettes
+from worker.view import View
 
 SEEDS = range(4)
 
@@ -46,10 +48,10 @@ def test_a_label_of_the_outline_covers_the_rendered_mesh(kind: StickKind, seed: 
     seen = np.zeros((512, 512), np.uint8)
     start = 0
     for size in solid.sizes:
-        cv2.fillConvexPoly(seen, np.rint((corners[start : start + size] - 0.5) * 256).astype(np.int32), 1, shift=8)
+        cv2.fillConvexPoly(seen, np.rint((corners[start : start + size] - 0.5) * 256).astype(np.int32), (1,), shift=8)
         start += size
     pieces = stick_outline(stick, nodes)
-    drawn = silhouettes([curve for curve, _ in pieces], np.array([radius for _, radius in pieces]), view, SIDES)
+    drawn = silhouettes([tubular(curve, radius) for curve, radius in pieces], view, SIDES)
     label = cover(drawn.quads_px, np.ones(len(drawn.quads_px), np.int64), 512, 512) > 0
     # OpenCV fills every pixel that a polygon touches: half a pixel more all round.
     edge = len(cv2.findContours(seen, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)[0][0])
