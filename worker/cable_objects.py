@@ -153,6 +153,7 @@ def _drawn(name: str, images: SkinImages, shelf: ImageShelf) -> Any:
     surface.inputs["Metallic"].default_value = images.metallic
     surface.inputs["Coat Weight"].default_value = images.coat
     surface.inputs["Coat Roughness"].default_value = images.coat_roughness
+    surface.inputs["Sheen Weight"].default_value = images.haze
     return material
 
 

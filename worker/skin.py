@@ -20,6 +20,9 @@ _FINEST_M = 0.00005
 _FEWEST_ROWS, _MOST_ROWS = 16, 256
 _MOST_COLUMNS = 4096
 
+_HAZE = 0.45
+"""Of clear plastic: one looks through more of it towards the sides."""
+
 _UNEVEN_SHOWS = 0.5
 """Roughness below which the relief of a plain sheath is seen."""
 
@@ -36,6 +39,7 @@ class SkinImages:
         metallic: 0 to 1.
         coat: weight of a clear glossy layer over it, 0 to 1.
         coat_roughness: of that layer.
+        haze: weight of a milky film that shows where one looks along the surface, 0 to 1.
     """
 
     colour: NDArray[np.uint8]
@@ -44,6 +48,7 @@ class SkinImages:
     metallic: float
     coat: float
     coat_roughness: float
+    haze: float = 0.0
 
 
 def draw_skin(skin: Skin, length_m: float, diameter_m: float, pixel_m: float) -> SkinImages:
@@ -81,6 +86,7 @@ def draw_skin(skin: Skin, length_m: float, diameter_m: float, pixel_m: float) ->
         metallic=canvas.metallic,
         coat=canvas.coat,
         coat_roughness=float(np.clip(skin.roughness, 0.03, 0.5)),
+        haze=_HAZE * canvas.coat,
     )
 
 
