@@ -101,14 +101,16 @@ def _bundle(
     for number, (line, skin) in enumerate(zip(lines, bundle.strands, strict=True)):
         cut_m = (_uneven(skin, number, 0) * 3 * radius_m, _uneven(skin, number, 1) * 3 * radius_m)
         pieces += _with_ends(_Strand(instance + number, line, radius_m, skin, cut_m), cable)
+    taken = list(others)
     for tie in bundle.ties:
         for shift_m in _SHIFTS_M:
             moved = tie.model_copy(update={"along": tie.along + shift_m / cable.length_m})
             solids = solids_of(
                 moved, curve, cable.length_m, offsets_m, radius_m, lay_m=bundle.lay_m, phase_deg=bundle.phase_deg
             )
-            if all(is_clear(solids, other, thick_m) for other, thick_m in others):
+            if all(is_clear(solids, other, thick_m) for other, thick_m in taken):
                 pieces += solids
+                taken.append((solids[0].rings.mean(axis=(0, 1))[None], tie.width_m))
                 break
     return pieces
 

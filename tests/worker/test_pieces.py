@@ -110,6 +110,15 @@ def test_a_tie_keeps_clear_of_a_cable_that_crosses_its_bundle() -> None:
     assert not any(isinstance(piece, Convex) for piece in pieces_of(scene, [line(0.002), line(0.006)]))
 
 
+def test_ties_do_not_sit_on_each_other() -> None:
+    """Two that were drawn at one place end up side by side."""
+    bands = [
+        piece for piece in pieces(cable(material=bundle(3, TIE, TIE))) if isinstance(piece, Convex) and piece.around
+    ]
+    one, other = (band.rings.mean(axis=(0, 1)) for band in bands)
+    assert np.linalg.norm(one - other) > TIE.width_m
+
+
 def test_a_stripped_end_shows_copper() -> None:
     """Of the bared length, thinner than the sheath, which is that much shorter."""
     ends = (CableEnd(kind=EndKind.STRIPPED, bare_m=0.01), CableEnd())
