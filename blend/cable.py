@@ -85,6 +85,7 @@ def add_skin() -> None:
     relief = add_node(tree, "ShaderNodeNormalMap", "relief", (-400, -350))
     surface = add_node(tree, "ShaderNodeBsdfPrincipled", names.SKIN_SURFACE, (-100, 0))
     surface.inputs["Coat IOR"].default_value = 1.5
+    surface.inputs["Sheen Roughness"].default_value = 0.3
     output = add_node(tree, "ShaderNodeOutputMaterial", "output", (200, 0))
     link(tree, colour, "Color", surface, "Base Color")
     link(tree, roughness, "Color", surface, "Roughness")

@@ -112,12 +112,12 @@ def _add_mesh(name: str, tube: Tube, material: Any, *, smooth: bool) -> None:
 
 
 def _material(name: str, piece: Piece, view: View, shelf: ImageShelf) -> Any:
-    if isinstance(piece.surface, CableMaterial):
-        return _published(name, piece.surface)
+    if isinstance(piece, Convex):
+        return _drawn(name, draw_plain(piece.surface), shelf)
     if isinstance(piece.surface, Plain):
         return _drawn(name, draw_plain(piece.surface), shelf)
-    if isinstance(piece, Convex):
-        raise TypeError(f"{name}: only tubes have sheaths")
+    if isinstance(piece.surface, CableMaterial):
+        return _published(name, piece.surface)
     diameter_m = 2 * float(np.max(piece.radius_m))
     return _drawn(name, draw_skin(piece.surface, piece.whole_m, diameter_m, 1.0 / view.pixels_per_m), shelf)
 
@@ -153,6 +153,7 @@ def _drawn(name: str, images: SkinImages, shelf: ImageShelf) -> Any:
     surface.inputs["Metallic"].default_value = images.metallic
     surface.inputs["Coat Weight"].default_value = images.coat
     surface.inputs["Coat Roughness"].default_value = images.coat_roughness
+    surface.inputs["Sheen Weight"].default_value = images.haze
     return material
 
 

@@ -35,7 +35,8 @@ def field(rng: np.random.Generator, shape: tuple[int, int], cell: tuple[float, f
     finer = cv2.resize(closed, (cells * fine_right, len(closed) * fine_down), interpolation=cv2.INTER_CUBIC)
     large = cv2.resize(finer, (cells * right, len(closed) * down), interpolation=cv2.INTER_LINEAR)
     inner = large[_MARGIN * down : _MARGIN * down + rows, _MARGIN * right : _MARGIN * right + columns]
-    return inner * np.float32(_NORMED)
+    normed: Field = inner * np.float32(_NORMED)
+    return normed
 
 
 def _steps(down: int, right: int) -> tuple[int, int]:

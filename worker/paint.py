@@ -13,6 +13,9 @@ from worker.noise import Field, field, patches
 
 _OVERSAMPLED = 4
 
+_TOP = 0.25
+"""Where, as the texture coordinate around a cable counts, it faces up; see `worker.tube.sweep`."""
+
 _TRACKING = 0.06
 """Extra room between letters, in their height: ink-jet printing is spaced wide."""
 
@@ -48,11 +51,11 @@ def print_marking(canvas: Canvas, marking: Marking, rng: np.random.Generator) ->
         text = text[::-1, ::-1]
     step = max(marking.repeat_m / columns_m, 1.15 * text.shape[1])
     ink = np.zeros((3 * rows, columns), np.float32)
-    # The cable's own twist turns the line of text slowly around it.
-    around, twist = rng.random(), rng.normal(0.0, 0.8) * columns_m
+    # The cable's own twist turns the line of text slowly around it. It starts near the top, else few would be seen.
+    around, twist = rng.normal(_TOP, 0.1), rng.normal(0.0, 0.6) * columns_m
     start = -rng.random() * step
     while start < columns:
-        middle = (around + twist * (start + 0.5 * text.shape[1])) % 1.0
+        middle = (1.0 - around - twist * (start + 0.5 * text.shape[1] - 0.5 * columns)) % 1.0
         top = round(rows + middle * rows - 0.5 * text.shape[0] + rng.normal(0.0, 0.03) * high)
         _stamp(ink, text, max(0, min(top, 3 * rows - text.shape[0])), round(start))
         start += step

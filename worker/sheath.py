@@ -9,8 +9,11 @@ from worker.noise import Field, field, fractal
 _STRAND_M = 0.00035
 """Of a conductor's fine strands, as wide as the clear plastic makes them look."""
 
-_COPPER = tone(0.90, 0.56, 0.36)
-_COPPER_SHADE = tone(0.20, 0.09, 0.05)
+_COPPER = tone(0.96, 0.68, 0.53)
+_TINNED = tone(0.84, 0.83, 0.80)
+
+_TINNED_SHARE = 0.25
+"""Of clear cables: of the two strands of a speaker's cable one is often tinned."""
 
 _CARRIER_M = 0.0008
 """Width of a braid's carriers: the flat strands that cross."""
@@ -42,14 +45,15 @@ def draw_translucent(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> No
     strand = np.floor(place).astype(np.int32) % count
     across = 2.0 * (place - np.floor(place)) - 1.0
     bulge = np.sqrt(np.maximum(1.0 - 0.92 * across * across, 0.0)).astype(np.float32)
-    shine = (1.0 + 0.09 * rng.standard_normal(count)).astype(np.float32)[strand]
+    shine = (1.0 + 0.12 * rng.standard_normal(count)).astype(np.float32)[strand]
     shine *= 1.0 + 0.05 * field(rng, canvas.shape, canvas.cells(0.0008, 0.006))
-    canvas.colour[:] = _COPPER_SHADE + bulge * shine * (_COPPER - _COPPER_SHADE)
-    milk = 0.16 + 0.05 * fractal(rng, canvas.shape, canvas.cells(0.003, 0.02), 2)
+    metal = _TINNED if rng.random() < _TINNED_SHARE else _COPPER
+    canvas.colour[:] = metal * np.minimum((0.12 + 0.88 * bulge) * shine, 1.0)
+    milk = 0.13 + 0.05 * fractal(rng, canvas.shape, canvas.cells(0.003, 0.02), 2)
     canvas.blend(np.clip(milk, 0.0, 0.4), pigment(skin.colour))
-    canvas.roughness[:] = 0.34
-    canvas.height_m = np.float32(0.25 * wide_m) * bulge
-    canvas.metallic, canvas.coat = 0.6, 1.0
+    canvas.roughness[:] = 0.30
+    canvas.height_m = np.float32(0.22 * wide_m) * bulge
+    canvas.metallic, canvas.coat = 0.8, 1.0
 
 
 def draw_braid(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:

@@ -87,7 +87,8 @@ def _side(rings_px: NDArray[np.float64]) -> NDArray[np.float64]:
     beside = np.roll(rings_px, -1, axis=1)
     quads = np.stack([rings_px[:-1], rings_px[1:], beside[1:], beside[:-1]], axis=2).reshape(-1, 4, 2)
     one, other = quads[:, 2] - quads[:, 0], quads[:, 3] - quads[:, 1]
-    return quads[one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0] < 0]  # rows are counted downwards
+    facing: NDArray[np.float64] = quads[one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0] < 0]  # rows count downwards
+    return facing
 
 
 def _silhouette(

@@ -20,6 +20,9 @@ _FINEST_M = 0.00005
 _FEWEST_ROWS, _MOST_ROWS = 16, 256
 _MOST_COLUMNS = 4096
 
+_HAZE = 0.45
+"""Of clear plastic: one looks through more of it towards the sides."""
+
 _UNEVEN_SHOWS = 0.5
 """Roughness below which the relief of a plain sheath is seen."""
 
@@ -36,6 +39,7 @@ class SkinImages:
         metallic: 0 to 1.
         coat: weight of a clear glossy layer over it, 0 to 1.
         coat_roughness: of that layer.
+        haze: weight of a milky film that shows where one looks along the surface, 0 to 1.
     """
 
     colour: NDArray[np.uint8]
@@ -44,6 +48,7 @@ class SkinImages:
     metallic: float
     coat: float
     coat_roughness: float
+    haze: float = 0.0
 
 
 def draw_skin(skin: Skin, length_m: float, diameter_m: float, pixel_m: float) -> SkinImages:
@@ -75,12 +80,13 @@ def draw_skin(skin: Skin, length_m: float, diameter_m: float, pixel_m: float) ->
     if skin.sheath is Sheath.PLAIN and skin.roughness > _UNEVEN_SHOWS:
         canvas.height_m = None
     return SkinImages(
-        colour=cv2.merge([_bytes(plane) for plane in canvas.colour]),
+        colour=_merged(*(_bytes(plane) for plane in canvas.colour)),
         roughness=_bytes(canvas.roughness),
         normal=None if canvas.height_m is None else _normals(canvas.height_m, canvas.texel_m),
         metallic=canvas.metallic,
         coat=canvas.coat,
         coat_roughness=float(np.clip(skin.roughness, 0.03, 0.5)),
+        haze=_HAZE * canvas.coat,
     )
 
 
@@ -97,7 +103,8 @@ def _blank(length_m: float, around_m: float, texel_m: float) -> Canvas:
 
 
 def _bytes(values: Field) -> NDArray[np.uint8]:
-    return cv2.multiply(values, 255.0, dtype=cv2.CV_8U)  # rounds, and stops at 0 and 255
+    levels: NDArray[np.uint8] = cv2.convertScaleAbs(np.maximum(values, 0.0), alpha=255.0)  # rounds, and stops at 255
+    return levels
 
 
 def _normals(height_m: Field, texel_m: tuple[float, float]) -> NDArray[np.uint8]:
@@ -105,4 +112,8 @@ def _normals(height_m: Field, texel_m: tuple[float, float]) -> NDArray[np.uint8]
     along = np.gradient(height_m, axis=1) / np.float32(texel_m[1])
     around = (np.roll(height_m, 1, axis=0) - np.roll(height_m, -1, axis=0)) / np.float32(2 * texel_m[0])
     up = np.float32(0.5) / np.sqrt(1.0 + along * along + around * around)
-    return cv2.merge([_bytes(0.5 - along * up), _bytes(0.5 - around * up), _bytes(0.5 + up)])
+    return _merged(_bytes(0.5 - along * up), _bytes(0.5 - around * up), _bytes(0.5 + up))
+
+
+def _merged(*planes: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    return cv2.merge(planes).astype(np.uint8, copy=False)

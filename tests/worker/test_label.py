@@ -95,7 +95,8 @@ def test_a_solid_covers_the_hull_of_its_corners() -> None:
     rings = np.stack([np.stack([x, y, np.full(4, z)], axis=1) for z in (0.0101, 0.0102)])
     box = Convex(OCCLUDER, rings, np.array([0.0, 0.0, 0.0102]), Plain(Substance.PLASTIC, (0, 0, 0)))
     wide = tubular(bar(z=0.005), 0.01)
-    open_px, left_px = (np.count_nonzero(label_cables(them, VIEW, SIDES).mask) for them in ([wide], [wide, box]))
+    open_px = np.count_nonzero(label_cables([wide], VIEW, SIDES).mask)
+    left_px = np.count_nonzero(label_cables([wide, box], VIEW, SIDES).mask)
     expected = 0.02 * 0.01 * (VIEW.resolution * 50 / 36 / (VIEW.height_m - 0.0102)) ** 2
     assert open_px - left_px == pytest.approx(expected, rel=0.03)
 

@@ -32,7 +32,8 @@ def share_of(images: SkinImages, colour: Rgb, other: Rgb) -> float:
 def nearer(images: SkinImages, colour: Rgb, other: Rgb) -> NDArray[np.bool_]:
     """Where the surface is nearer to one colour than to the other."""
     one, two = (np.linalg.norm(images.colour - 255.0 * pigment(c).ravel(), axis=2) for c in (colour, other))
-    return one < two
+    is_nearer: NDArray[np.bool_] = one < two
+    return is_nearer
 
 
 EVERYTHING = {
