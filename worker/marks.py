@@ -97,8 +97,8 @@ class _Window:
     def texels_of(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """Columns and rows (N, 2) of points (N, 2) of the floor."""
         back = np.linalg.inv(self.to_floor[:, :2])
-        from_origin = points_m - self.to_floor[:, 2]
-        return np.einsum("ij,nj->ni", back, from_origin)
+        texels: NDArray[np.float64] = np.einsum("ij,nj->ni", back, points_m - self.to_floor[:, 2])
+        return texels
 
     @property
     def texels_per_m(self) -> float:
