@@ -121,27 +121,22 @@ def on_floor(drawn: Print, reach_m: float, depth: float) -> Print:
         reach_m: how far the shade is seen.
         depth: share of light that is missing right beside the edge.
     """
-    texel = TEXEL_M
-    pad = max(2, round(reach_m / texel))
+    pad = max(2, round(reach_m / TEXEL_M))
     rows, columns = drawn.roughness.shape
-    alpha = np.full((rows, columns), 255, np.uint8) if drawn.alpha is None else drawn.alpha
-    alpha = np.pad(alpha, pad)
+    alpha = np.pad(np.full((rows, columns), 255, np.uint8) if drawn.alpha is None else drawn.alpha, pad)
     away = cv2.distanceTransform((alpha < 128).astype(np.uint8), cv2.DIST_L2, 5)
-    shade = depth * 255 * np.clip(1 - away / pad, 0, 1) ** 2
-    covered = alpha.astype(np.float32) / 255
-    colour = np.pad(drawn.colour, ((pad, pad), (pad, pad), (0, 0)), mode="edge").astype(np.float32)
-    colour *= (covered / np.maximum(covered + (1 - covered) * shade / 255, 1e-3))[:, :, None]
-    return replace(
-        drawn,
-        colour=levels(colour),
-        roughness=np.pad(drawn.roughness, pad, mode="edge"),
-        alpha=levels(255 * covered + (1 - covered) * shade),
-        normal=None
-        if drawn.normal is None
-        else np.where(
-            (covered > 0)[:, :, None],
-            np.pad(drawn.normal, ((pad, pad), (pad, pad), (0, 0)), mode="edge"),
-            np.array([128, 128, 255], np.uint8),
-        ),
-        margin_m=pad * texel,
-    )
+    shade = np.float32(depth) * np.square(np.clip(1 - away / np.float32(pad), 0, 1))
+    colour = np.pad(drawn.colour, ((pad, pad), (pad, pad), (0, 0)))
+    thin = alpha < 255
+    own = alpha[thin].astype(np.float32) / 255
+    # Shade and sheet make one alpha: the sheet's share of it has its colour, and the shade's is black.
+    both = own + (1 - own) * shade[thin]
+    colour[thin] = levels(colour[thin] * (own / np.maximum(both, 1e-3))[:, None])
+    alpha[thin] = levels(255 * both)
+    normal = drawn.normal
+    if normal is not None:
+        flat = np.full((*alpha.shape, 3), (128, 128, 255), np.uint8)
+        flat[pad : pad + rows, pad : pad + columns] = normal
+        normal = flat
+    roughness = np.pad(drawn.roughness, pad, mode="edge")
+    return replace(drawn, colour=colour, roughness=roughness, alpha=alpha, normal=normal, margin_m=pad * TEXEL_M)
