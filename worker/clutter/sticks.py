@@ -105,6 +105,8 @@ def _radius_along(each: Section, places: Array) -> Array:
     """How far a section reaches to either side of the axis at places along it; 0 where it is not."""
     along = each.along_m if each.along_m.ndim == 1 else each.along_m.mean(axis=1)
     radius = each.radius_m if each.radius_m.ndim == 1 else each.radius_m.max(axis=1)
+    if each.rippled:
+        radius = np.full_like(radius, radius.mean())
     if along[0] > along[-1]:
         along, radius = along[::-1], radius[::-1]
     return np.interp(places, along, radius, left=0.0, right=0.0)
@@ -170,7 +172,9 @@ def _button_pen(stick: Stick, rng: np.random.Generator) -> Turned:
             section([(0.3 * r, 0.42 * r), (0.045 * length, 0.42 * r)], 1),
             section([(0.045 * length, 0.42 * r), (0.045 * length, 0.8 * barrel), (0.055 * length, barrel)], 1),
             section([(0.055 * length, barrel), (grip, barrel)], 0),
-            Section(ribs, barrel * (0.97 + 0.03 * np.abs(np.sin(np.linspace(0, 8 * np.pi, len(ribs))))), 2),
+            Section(
+                ribs, barrel * (0.97 + 0.03 * np.abs(np.sin(np.linspace(0, 8 * np.pi, len(ribs))))), 2, rippled=True
+            ),
             section([(cone - 0.02 * length, 0.95 * barrel), (cone, 0.9 * barrel), (0.975 * length, 0.3 * r)], 1),
             section([(0.975 * length, 0.3 * r), (0.975 * length, 0.14 * r)], 1),
             section([(0.975 * length, 0.14 * r), (0.994 * length, 0.12 * r), (length, 0.04 * r), (length, 0.0)], 1),
@@ -215,7 +219,7 @@ def _pencil(stick: Stick, rng: np.random.Generator) -> Turned:
         tail = [
             section(_dome(0.0, 0.4 * r, 0.93 * r, 0.6), 4),
             section([(0.4 * r, 0.93 * r), (2.0 * r, 0.93 * r)], 4),
-            Section(collar, rings, 3),
+            Section(collar, rings, 3, rippled=True),
         ]
     else:
         tail = [
@@ -269,7 +273,7 @@ def _rod(stick: Stick, rng: np.random.Generator) -> Turned:
         pitch = max(0.0005, 0.3 * r)
         turns = int((length - 2 * edge) / pitch)
         along = edge + (length - 2 * edge) * np.linspace(0, 1, 4 * turns + 1)
-        middle = Section(along, r * np.tile([0.88, 0.94, 1.0, 0.94], turns + 1)[: len(along)], 0)
+        middle = Section(along, r * np.tile([0.88, 0.94, 1.0, 0.94], turns + 1)[: len(along)], 0, rippled=True)
     else:
         middle = section([(edge, r), (length - edge, r)], 0)
     return Turned(
