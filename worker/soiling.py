@@ -63,6 +63,7 @@ def _scuffs(canvas: Canvas, share: float, rng: np.random.Generator) -> Field:
     levels = rng.integers(70, 220, count)
     for start, run, level in zip(starts, runs, levels, strict=True):
         a, b = (16 * start).astype(int), (16 * (start + run)).astype(int)
-        cv2.line(drawn, a.tolist(), b.tolist(), int(level), 1, lineType=cv2.LINE_AA, shift=4)
+        ends = (int(a[0]), int(a[1])), (int(b[0]), int(b[1]))
+        cv2.line(drawn, *ends, (int(level),), 1, lineType=cv2.LINE_AA, shift=4)
     around: Field = drawn.reshape(3, rows, columns).max(axis=0) / np.float32(255)
     return around

@@ -68,7 +68,7 @@ def relief(height_texels: Field) -> Levels:
     down = cv2.Sobel(height_texels, cv2.CV_32F, 0, 1, scale=1 / 8)
     scale = np.float32(127.5) / np.sqrt(1 + across * across + down * down)
     normal = np.empty((*height_texels.shape, 3), np.uint8)
-    for channel, slope in enumerate((-across, down, np.float32(1.0))):
+    for channel, slope in enumerate((-across, down, np.ones_like(across))):
         normal[:, :, channel] = 128 + slope * scale
     return normal
 
