@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field
 
 
 def in_order(bounds: tuple[float, float]) -> tuple[float, float]:
@@ -19,6 +19,11 @@ def in_order(bounds: tuple[float, float]) -> tuple[float, float]:
 def _counts_in_order(bounds: tuple[int, int]) -> tuple[int, int]:
     in_order(bounds)
     return bounds
+
+
+def _both_ends(value: object) -> object:
+    """One number stands for a range without width."""
+    return (value, value) if isinstance(value, int | float) and not isinstance(value, bool) else value
 
 
 Fraction = Annotated[float, Field(ge=0, le=1)]
@@ -53,8 +58,13 @@ LevelRange = Annotated[tuple[Level, Level], AfterValidator(_counts_in_order)]
 CableCountRange = Annotated[tuple[CableCount, CableCount], AfterValidator(_counts_in_order)]
 CountRange = Annotated[tuple[Count, Count], AfterValidator(_counts_in_order)]
 JpegQualityRange = Annotated[tuple[JpegQuality, JpegQuality], AfterValidator(_counts_in_order)]
-DiameterRange = Annotated[tuple[Diameter, Diameter], AfterValidator(in_order)]
-CableLengthRange = Annotated[tuple[CableLength, CableLength], AfterValidator(in_order)]
+# Before a validator of one's own JSON's lists are no longer taken for tuples, unless that is allowed.
+DiameterRange = Annotated[
+    tuple[Diameter, Diameter], Field(strict=False), BeforeValidator(_both_ends), AfterValidator(in_order)
+]
+CableLengthRange = Annotated[
+    tuple[CableLength, CableLength], Field(strict=False), BeforeValidator(_both_ends), AfterValidator(in_order)
+]
 BendRange = Annotated[tuple[Bend, Bend], AfterValidator(in_order)]
 TemperatureRange = Annotated[tuple[Temperature, Temperature], AfterValidator(in_order)]
 ElevationRange = Annotated[tuple[Elevation, Elevation], AfterValidator(in_order)]

@@ -123,7 +123,7 @@ class CableRanges(Model):
     """How many cables, how thick (ours: one value), how long (ours), how heavy and stiff, and their surface.
 
     Of `count_draws` even draws of the count the largest holds: with two, eight cables at most are six on average.
-    Far cables have a length of their own: over a floor that is not seen, one that ends in the picture seems to float.
+    Far cables may have a length of their own: over a floor that is not seen, one that ends in the picture floats.
     Diameters are drawn evenly in their logarithm; one wider than `widest_share` of the picture is made so thin.
 
     `vertex_mass` is the published setting of the cloth. Young's modulus (drawn evenly in its logarithm), density and
@@ -136,7 +136,7 @@ class CableRanges(Model):
     diameter_m: DiameterRange = (0.0023, 0.0023)
     widest_share: Fraction = 1.0
     length_m: CableLengthRange = (0.40, 0.40)
-    far_length_m: CableLengthRange = (0.40, 0.40)
+    far_length_m: CableLengthRange | None = None
     vertex_mass: PositiveRange = (0.3, 0.5)
     youngs_modulus_pa: ModulusRange = (1e6, 3e7)
     density_kg_m3: DensityRange = (1200.0, 2500.0)

@@ -6,6 +6,9 @@ from numpy.typing import NDArray
 
 Field = NDArray[np.float32]
 
+_ENOUGH_PX = 8
+"""Pixels between independent numbers, when there need be no more."""
+
 
 def smooth_noise(rng: np.random.Generator, rows: int, columns: int, grain: tuple[float, float]) -> Field:
     """A field (rows, columns) of mean 0 and deviation 1, about.
@@ -16,15 +19,19 @@ def smooth_noise(rng: np.random.Generator, rows: int, columns: int, grain: tuple
         columns: of the field.
         grain: pixels, down and across, between independent numbers.
     """
-    high, wide = (max(2, int(np.ceil(edge / step)) + 3) for edge, step in zip((rows, columns), grain, strict=True))
-    coarse = rng.standard_normal((high, wide)).astype(np.float32)
-    down, across = (np.float32(max(step, 1e-6)) for step in grain)
+    # What is smooth over many pixels is found at fewer, and drawn out once more.
+    fewer = [max(1, int(step / _ENOUGH_PX)) for step in grain]
+    high, wide = (max(1, -(-edge // less)) for edge, less in zip((rows, columns), fewer, strict=True))
+    down, across = (step / less for step, less in zip(grain, fewer, strict=True))
+    coarse = rng.standard_normal((int(high / down) + 4, int(wide / across) + 4)).astype(np.float32)
+    # Resizing finds its weights exactly; OpenCV's warps round places to a 32nd of a cell, which shows as steps.
+    size = (max(1, round(coarse.shape[1] * across)), max(1, round(coarse.shape[0] * down)))
+    top, left = int(1.5 * down), int(1.5 * across)
+    part = cv2.resize(coarse, size, interpolation=cv2.INTER_CUBIC)[top : top + high, left : left + wide]
+    if part.shape != (rows, columns):
+        part = cv2.resize(part, (columns, rows), interpolation=cv2.INTER_CUBIC)
     # Cubic interpolation between independent numbers leaves 0.85 of their deviation.
-    place = np.array([[1 / across, 0, 1.0], [0, 1 / down, 1.0]], np.float32)
-    flags = cv2.INTER_CUBIC | cv2.WARP_INVERSE_MAP
-    fine = cv2.warpAffine(coarse, place, (columns, rows), flags=flags, borderMode=cv2.BORDER_REFLECT_101)
-    field: Field = (fine / np.float32(0.85)).astype(np.float32, copy=False)
-    return field
+    return (part * np.float32(1 / 0.85)).astype(np.float32, copy=False)
 
 
 def rough_noise(rng: np.random.Generator, rows: int, columns: int, grain: float, octaves: int) -> Field:

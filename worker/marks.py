@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from farm.scene import Wear
 from worker.grain import Field, rough_noise, smooth_step
 
-EDGE_M = 0.8
+EDGE_M = 0.6
 """Of the square about the origin in which marks are drawn; beyond it they are mirrored."""
 
 CELL_M = 1.25e-3
@@ -23,8 +23,8 @@ CELL_M = 1.25e-3
 
 CELLS = round(EDGE_M / CELL_M)
 
-STAIN_RADII_M = (0.004, 0.032)
-MOST_STAINS = 400
+STAIN_RADII_M = (0.003, 0.022)
+MOST_STAINS = 1000
 SCRATCH_LENGTHS_M = (0.004, 0.07)
 SCRATCH_WIDTHS_M = (0.1e-3, 0.4e-3)
 
@@ -97,8 +97,8 @@ class _Window:
     def texels_of(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """Columns and rows (N, 2) of points (N, 2) of the floor."""
         back = np.linalg.inv(self.to_floor[:, :2])
-        from_origin = points_m - self.to_floor[:, 2]
-        return np.einsum("ij,nj->ni", back, from_origin)
+        texels: NDArray[np.float64] = np.einsum("ij,nj->ni", back, points_m - self.to_floor[:, 2])
+        return texels
 
     @property
     def texels_per_m(self) -> float:
@@ -108,15 +108,17 @@ class _Window:
 def _stains(share: float, rng: np.random.Generator, window: _Window) -> Field:
     """Dried puddles: paler in the middle, where they dried last, than at the rim."""
     depth, strength = stain_grids(share, rng)
-    depth_here, strength_here = window.look_up(depth), window.look_up(strength)
-    grain = _grain(window)
-    # Depth is in metres from the puddle's edge; wobble it by less than half a millimetre, so that the rim is not drawn
-    # with a compass.
-    depth_here += np.float32(0.25e-3) * grain
-    inside = smooth_step(depth_here, -0.2e-3, 0.25e-3)
-    rim = np.exp(-np.square((depth_here - np.float32(0.7e-3)) * np.float32(1 / 0.8e-3)))
-    stain: Field = strength_here * inside * (0.42 + 0.5 * rim + 0.05 * grain)
-    return np.clip(stain, 0, 1)
+    depth_here = window.look_up(depth)
+    # Most of the floor is dry, so the rest is done where it is not.
+    wet = np.flatnonzero(depth_here > -1e-3)
+    grain = _grain(window).ravel()[wet]
+    # Wobbled by half a millimetre, so that the rim is not drawn with a compass.
+    deep = depth_here.ravel()[wet] + np.float32(0.25e-3) * grain
+    rim = np.exp(-np.square((deep - np.float32(0.7e-3)) * np.float32(1 / 0.8e-3)))
+    stain = np.zeros(depth_here.size, np.float32)
+    stain[wet] = window.look_up(strength).ravel()[wet] * smooth_step(deep, -0.2e-3, 0.25e-3)
+    stain[wet] *= 0.42 + 0.5 * rim + 0.05 * grain
+    return np.clip(stain, 0, 1).reshape(depth_here.shape)
 
 
 def stain_grids(share: float, rng: np.random.Generator) -> tuple[Field, Field]:
@@ -132,48 +134,49 @@ def stain_grids(share: float, rng: np.random.Generator) -> tuple[Field, Field]:
     depth = np.full((CELLS, CELLS), -1.0, np.float32)
     strength = np.zeros((CELLS, CELLS), np.float32)
     low, high = np.log(STAIN_RADII_M)
+    wanted = round(share * depth.size)
     for _ in range(MOST_STAINS):
-        if np.count_nonzero(depth > 0) >= share * depth.size:
+        if wanted <= 0:
             break
-        radius = float(np.exp(rng.uniform(low, high)))
         # The last puddles are small, so that the share is met and not passed.
-        left = share * EDGE_M**2 - np.count_nonzero(depth > 0) * CELL_M**2
-        radius = min(radius, float(np.sqrt(left / np.pi)) + CELL_M)
-        _spill(depth, strength, radius, rng)
+        radius = min(float(np.exp(rng.uniform(low, high))), CELL_M * (float(np.sqrt(wanted / np.pi)) + 1))
+        wanted -= _spill(depth, strength, radius, rng)
     return depth, cv2.GaussianBlur(strength, (0, 0), 1.5).astype(np.float32, copy=False)
 
 
-def _spill(depth: Field, strength: Field, radius_m: float, rng: np.random.Generator) -> None:
-    """One puddle with an uneven outline, and some drops beside it, in place."""
+def _spill(depth: Field, strength: Field, radius_m: float, rng: np.random.Generator) -> int:
+    """One puddle with an uneven outline, and some drops beside it, in place; returns how many cells got wet."""
     middle = rng.uniform(0, CELLS, 2)
-    weight = float(rng.uniform(0.35, 1.0))
+    weight = float(rng.uniform(0.5, 1.0))
     waves = rng.normal(0, 1, (2, 6)) * (0.16 / np.arange(1, 7))
-    drops = [(middle, radius_m, waves)]
-    for _ in range(int(rng.poisson(1.5))):
+    angle = np.arange(1, 7)[:, None] * np.linspace(-np.pi, np.pi, 65)
+    outline = np.maximum(1 + waves[0] @ np.cos(angle) + waves[1] @ np.sin(angle), 0.35)
+    wet = _wet(depth, strength, middle, radius_m * outline, weight)
+    for _ in range(int(rng.poisson(1.0))):
         away = radius_m * float(rng.uniform(1.1, 1.9)) / CELL_M
-        angle = float(rng.uniform(0, 2 * np.pi))
-        place = middle + away * np.array([np.cos(angle), np.sin(angle)])
-        drops.append((place, radius_m * float(rng.uniform(0.05, 0.2)), waves * 0.3))
-    for (x, y), size, wave in drops:
-        reach = int(1.8 * size / CELL_M) + 3
-        top, left = max(0, int(y) - reach), max(0, int(x) - reach)
-        rows, columns = (
-            np.arange(top, min(CELLS, int(y) + reach), dtype=np.float32)[:, None],
-            np.arange(left, min(CELLS, int(x) + reach), dtype=np.float32)[None],
-        )
-        if rows.size == 0 or columns.size == 0:
-            continue
-        down, across = (rows - np.float32(y)) * CELL_M, (columns - np.float32(x)) * CELL_M
-        angle_here = np.arctan2(down, across)
-        outline = np.ones_like(angle_here)
-        for order in range(wave.shape[1]):
-            outline += wave[0, order] * np.cos((order + 1) * angle_here) + wave[1, order] * np.sin(
-                (order + 1) * angle_here
-            )
-        here = (size * np.maximum(outline, 0.35) - np.hypot(down, across)).astype(np.float32)
-        part = (slice(top, top + rows.size), slice(left, left + columns.size))
-        strength[part] = np.where(here > -3 * CELL_M, np.maximum(strength[part], weight), strength[part])
-        depth[part] = np.maximum(depth[part], here)
+        bearing = float(rng.uniform(0, 2 * np.pi))
+        place = middle + away * np.array([np.cos(bearing), np.sin(bearing)])
+        wet += _wet(depth, strength, place, radius_m * float(rng.uniform(0.08, 0.2)) * np.sqrt(outline), weight)
+    return wet
+
+
+def _wet(
+    depth: Field, strength: Field, middle: NDArray[np.float64], outline_m: NDArray[np.float64], weight: float
+) -> int:
+    """Wet the cells within an outline, radii (65,) at bearings from -pi to pi, in place; returns how many were dry."""
+    reach = int(outline_m.max() / CELL_M) + 4
+    (top, bottom), (left, right) = ((max(0, int(at) - reach), min(CELLS, int(at) + reach)) for at in middle[::-1])
+    if top >= bottom or left >= right:
+        return 0
+    down = (np.arange(top, bottom)[:, None] - middle[1]) * CELL_M
+    across = (np.arange(left, right)[None] - middle[0]) * CELL_M
+    edge = np.interp(np.arctan2(down, across), np.linspace(-np.pi, np.pi, len(outline_m)), outline_m)
+    here = (edge - np.hypot(down, across)).astype(np.float32)
+    part = (slice(top, bottom), slice(left, right))
+    strength[part] = np.where(here > -3 * CELL_M, np.maximum(strength[part], weight), strength[part])
+    dry = np.count_nonzero((depth[part] <= 0) & (here > 0))
+    depth[part] = np.maximum(depth[part], here)
+    return dry
 
 
 def _scratches(density: float, rng: np.random.Generator, window: _Window) -> Field:
@@ -190,10 +193,12 @@ def _scratches(density: float, rng: np.random.Generator, window: _Window) -> Fie
         count = len(place)
         for start, end, share in ((0, count, 0.4), (count // 6, count - count // 6, 1.0)):
             cv2.polylines(canvas, [place[start:end]], False, (level * share,), max(1, round(width)), cv2.LINE_AA, 4)
-    both: Field = cv2.subtract(bright, dark, dtype=cv2.CV_32F).astype(np.float32, copy=False)
-    both *= np.float32(1 / 255) * (0.75 + 0.25 * np.clip(_grain(window), -1.5, 1.5))
-    scratches: Field = np.clip(both, -1, 1)
-    return scratches
+    both = bright.astype(np.float32) - dark
+    drawn = np.flatnonzero(both)
+    worn = np.zeros(both.size, np.float32)
+    grain = np.clip(_grain(window).ravel()[drawn], -1.5, 1.5)
+    worn[drawn] = np.clip(both.ravel()[drawn] / 255 * (0.75 + 0.25 * grain), -1, 1)
+    return worn.reshape(both.shape)
 
 
 def scratch_lines(density: float, rng: np.random.Generator) -> Iterator[tuple[NDArray[np.float64], float, float]]:

@@ -50,7 +50,7 @@ def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
             substances,
             camera,
             streams,
-            length_m=ranges.cable.length_m if is_floor else ranges.cable.far_length_m,
+            length_m=ranges.cable.length_m if is_floor else ranges.cable.far_length_m or ranges.cable.length_m,
             lowest_m=max(ranges.placement.drop_height_m, above),
         ),
         vertex_mass=vertex_mass,

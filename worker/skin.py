@@ -103,8 +103,8 @@ def _blank(length_m: float, around_m: float, texel_m: float) -> Canvas:
 
 
 def _bytes(values: Field) -> NDArray[np.uint8]:
-    levels = cv2.convertScaleAbs(np.maximum(values, 0.0), alpha=255.0)  # rounds, and stops at 255
-    return levels.astype(np.uint8, copy=False)
+    # It rounds, and stops at 255.
+    return np.asarray(cv2.convertScaleAbs(np.maximum(values, 0.0), alpha=255.0), np.uint8)
 
 
 def _normals(height_m: Field, texel_m: tuple[float, float]) -> NDArray[np.uint8]:

@@ -61,9 +61,9 @@ def _scuffs(canvas: Canvas, share: float, rng: np.random.Generator) -> Field:
     runs = lengths[:, None] * np.stack([np.cos(slopes), np.sin(slopes)], axis=1) / canvas.texel_m[::-1]
     runs[:, 1] = np.clip(runs[:, 1], -0.9 * rows, 0.9 * rows)
     levels = rng.integers(70, 220, count)
-    # OpenCV counts in sixteenths of a pixel.
-    ends = np.rint(16 * np.concatenate([starts, starts + runs], axis=1)).astype(int).tolist()
-    for (x0, y0, x1, y1), level in zip(ends, levels.tolist(), strict=True):
-        cv2.line(drawn, (x0, y0), (x1, y1), (level,), lineType=cv2.LINE_AA, shift=4)
+    for start, run, level in zip(starts, runs, levels, strict=True):
+        a, b = (16 * start).astype(int), (16 * (start + run)).astype(int)
+        ends = (int(a[0]), int(a[1])), (int(b[0]), int(b[1]))
+        cv2.line(drawn, *ends, (int(level),), 1, lineType=cv2.LINE_AA, shift=4)
     around: Field = drawn.reshape(3, rows, columns).max(axis=0) / np.float32(255)
     return around

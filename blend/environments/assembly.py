@@ -195,7 +195,8 @@ class Assembly:
         self.daylight.append(Daylight(self.frame.copy(), width, height))
 
     def _placed(self, points: Points) -> Points:
-        return points @ self.frame[:3, :3].T + self.frame[:3, 3]
+        placed: Points = points @ self.frame[:3, :3].T + self.frame[:3, 3]
+        return placed
 
     def _add(
         self,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from blend.environments.assembly import Assembly
+from blend.environments.assembly import Assembly, Points
 from blend.environments.palette import (
     ALUMINIUM,
     BINS,
@@ -192,7 +192,7 @@ def bush(a: Assembly, rng: Rng, width: float = 1.6, high: float = 1.0) -> None:
     _leaves(a, rng, place, 0.075, (0.05, 0.12, 0.03))
 
 
-def _leaves(a: Assembly, rng: Rng, place: np.ndarray, size: float, tint: Colour) -> None:
+def _leaves(a: Assembly, rng: Rng, place: Points, size: float, tint: Colour) -> None:
     count = len(place)
     one, two = rng.normal(0, 1, (2, count, 3))
     one *= size / np.linalg.norm(one, axis=1, keepdims=True)

@@ -138,6 +138,6 @@ def swept(points: Points, radius: float, sides: int = 7) -> Solid:
 def hanging(start: Sequence[float], end: Sequence[float], sag: float, count: int = 9) -> Points:
     """Points (count, 3) of a cable that sags between two ends."""
     share = np.linspace(0.0, 1.0, count)[:, None]
-    points = np.array(start) * (1 - share) + np.array(end) * share
+    points: Points = np.array(start) * (1 - share) + np.array(end) * share
     points[:, 2] -= 4 * sag * (share * (1 - share))[:, 0]
     return points

@@ -281,7 +281,7 @@ def _loose(a: Assembly, rng: Rng, room: Room, *, close: bool) -> None:
     if close:
         with a.at(-1.5, -0.7, turn=60):
             furniture.trolley(a, rng)
-        spots = ((0.9, 0.45), (-0.9, 0.75), (0.7, -0.7))
+        spots: tuple[tuple[float, float], ...] = ((0.9, 0.45), (-0.9, 0.75), (0.7, -0.7))
     else:
         with a.at(2.2, 0.35, turn=100):
             furniture.trolley(a, rng)

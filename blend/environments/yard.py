@@ -19,20 +19,25 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
 def _works(a: Assembly, rng: Rng) -> Light:
     a.box((0, 0, -0.2), (90, 90, 0.2), "surface:asphalt", (1.0, 0.98, 0.95))
     a.box((-6, 6, 0.0), (14, 9, 0.012), "surface:concrete_cracked", (0.95, 0.93, 0.9))
-    for x, y, turn, width in ((2, 14, 180, 18), (-13, 3, -90, 14), (15, -3, 90, 16)):
+    for x, y, turn, width in ((2.0, 14.0, 180.0, 18.0), (-13.0, 3.0, -90.0, 14.0), (15.0, -3.0, 90.0, 16.0)):
         with a.at(x, y, turn=turn):
             outdoors.shed(a, rng, width, rng.uniform(5, 7))
-    for x, y, turn in ((-4, -13, 0), (6, -14, 0)):
+    for x, y, turn in ((-4.0, -13.0, 0.0), (6.0, -14.0, 0.0)):
         with a.at(x, y, turn=turn):
             outdoors.house(a, rng, 9.5, int(rng.integers(2, 4)))
-    for x, y, z, turn in ((6.5, 7.0, 0, 182), (6.6, 7.1, 2.6, 181), (-9.0, -6.5, 0, 20), (9.5, 3.0, 0, 95)):
+    for x, y, z, turn in (
+        (6.5, 7.0, 0.0, 182.0),
+        (6.6, 7.1, 2.6, 181.0),
+        (-9.0, -6.5, 0.0, 20.0),
+        (9.5, 3.0, 0.0, 95.0),
+    ):
         with a.at(x, y, z, turn=turn):
             outdoors.container(a, rng)
     for x, y, turn, van in (
-        (-5.0, -7.5, 80, False),
-        (-1.5, -7.8, 95, True),
-        (2.2, -7.4, 85, False),
-        (8.5, -5.0, 10, True),
+        (-5.0, -7.5, 80.0, False),
+        (-1.5, -7.8, 95.0, True),
+        (2.2, -7.4, 85.0, False),
+        (8.5, -5.0, 10.0, True),
     ):
         with a.at(x, y, turn=turn):
             outdoors.car(a, rng, van=van)
@@ -47,7 +52,7 @@ def _works(a: Assembly, rng: Rng) -> Light:
     for n in range(6):
         with a.at(-10.0, -3.0 + 0.75 * n, turn=-90):
             outdoors.wheeled_bin(a, rng)
-    for x, y, turn in ((12.0, 9.5, 30), (-12.0, -9.0, 100)):
+    for x, y, turn in ((12.0, 9.5, 30.0), (-12.0, -9.0, 100.0)):
         with a.at(x, y, turn=turn):
             outdoors.tree(a, rng)
     with a.at(0, -10.2):
@@ -55,7 +60,7 @@ def _works(a: Assembly, rng: Rng) -> Light:
     for x in np.arange(-12.0, 13.0, 1.7):
         with a.at(float(x), -10.9):
             outdoors.bush(a, rng, 1.9, rng.uniform(0.7, 1.5))
-    for x, y, turn in ((-1.0, -9.6, 0), (11.0, 6.0, 90)):
+    for x, y, turn in ((-1.0, -9.6, 0.0), (11.0, 6.0, 90.0)):
         with a.at(x, y, turn=turn):
             outdoors.lamp_post(a, rng)
     outdoors.wires(a, rng, (-20, -11.5, 7.0), (18, -9.5, 7.2))
@@ -112,7 +117,7 @@ def _street(a: Assembly, rng: Rng) -> Light:
                 thing(a, rng)
     for x in np.arange(-40.0, 40.0, 4.0):
         a.box((float(x), 0.0, -0.05), (2.0, 0.12, 0.004), "paint", WHITE)
-    for x, turn in ((-40.0, -90), (40.0, 90)):
+    for x, turn in ((-40.0, -90.0), (40.0, 90.0)):
         for y in (-9.0, 3.0):
             with a.at(x, y + 3.0, turn=turn):
                 outdoors.house(a, rng, 12.0, 4, 8.0)

@@ -13,5 +13,5 @@ def ranges(
     style: Annotated[Style, typer.Option(help="Whose ranges to print.")] = DEFAULT_STYLE,
 ) -> None:
     """Print every range that pictures are drawn from, as TOML: change some and name the file to farm run or submit."""
-    drawn_from = {"style": style.value, "ranges": RANGES_OF[style].model_dump(mode="json")}
+    drawn_from = {"style": style.value, "ranges": RANGES_OF[style].model_dump(mode="json", exclude_none=True)}
     typer.echo(tomli_w.dumps(drawn_from), nl=False)

@@ -7,9 +7,9 @@ from farm.ranges import Ranges
 from farm.spec import parse_spec
 
 
-def with_ranges(**ranges: object) -> None:
+def with_ranges(**ranges: object) -> Ranges:
     """Parse a description with these ranges."""
-    parse_spec({"images": 6, "ranges": ranges}, source="spec.toml")
+    return parse_spec({"images": 6, "ranges": ranges}, source="spec.toml").ranges
 
 
 def test_the_defaults_are_the_published_ranges() -> None:
@@ -41,3 +41,9 @@ def test_a_range_the_wrong_way_round_is_refused() -> None:
     """With its place in the description."""
     with pytest.raises(SpecError, match=r"ranges\.floor\.scale.*low end"):
         with_ranges(floor={"scale": [1.5, 0.7]})
+
+
+def test_one_number_is_a_range_without_width() -> None:
+    """For the diameter and the length, of which the publication has one."""
+    cable = with_ranges(cable={"diameter_m": 0.003, "length_m": 0.2}).cable
+    assert (cable.diameter_m, cable.length_m) == ((0.003, 0.003), (0.2, 0.2))

@@ -5,8 +5,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import bpy
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from assets.environments import (
     BRIGHTEST,
@@ -29,7 +31,7 @@ from worker.environments import normalised, render_environments, without_seam, w
 
 pytestmark = pytest.mark.blender
 
-FEWEST_THINGS = 50
+FEWEST_THINGS, FEWEST_SOLIDS = 40, 1000
 PIXELS = 256
 
 
@@ -71,6 +73,7 @@ def test_every_environment_is_furnished_and_lit(name: str) -> None:
     """It has many things of many materials, lamps or the sun, and nothing stands in the camera."""
     built = build_environment(ENVIRONMENTS[name])
     assert built.assembly.things > FEWEST_THINGS
+    assert sum(len(parts) for parts in built.assembly.parts.values()) > FEWEST_SOLIDS
     assert len(built.assembly.parts) >= 10
     lit = "glow" in built.assembly.parts or built.light.sun > 0
     assert lit
@@ -129,7 +132,7 @@ def test_the_middle_column_looks_along_x(monkeypatch: pytest.MonkeyPatch) -> Non
     """And what is right of it lies towards -y, as `worker.panorama` has it; the zenith is at the top."""
 
     def three_lamps(_recipe: object) -> Built:
-        environments.bpy.ops.wm.read_factory_settings(use_empty=True)
+        bpy.ops.wm.read_factory_settings(use_empty=True)
         rng = np.random.default_rng(0)
         a = Assembly(rng)
         for place, tint in (((5, 0, -0.5), (9, 0, 0)), ((0, -5, -0.5), (0, 9, 0)), ((0, 0, 5), (0, 0, 9))):
@@ -150,7 +153,7 @@ def test_the_band_about_the_horizon_is_the_finer(monkeypatch: pytest.MonkeyPatch
     """What lies above and below is a coarser render of the same scene, and the two meet without a step."""
     sizes: list[tuple[int, int, int]] = []
 
-    def ramp(_scene: object, pixels: int, first: int, last: int) -> np.ndarray:
+    def ramp(_scene: object, pixels: int, first: int, last: int) -> NDArray[np.float32]:
         sizes.append((pixels, first, last))
         height = (np.arange(first, last) + 0.5) / (pixels // 2)
         return np.broadcast_to(height[:, None, None], (last - first, pixels, 3)).astype(np.float32)

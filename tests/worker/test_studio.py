@@ -117,7 +117,8 @@ def test_only_shown_cables_are_simulated_as_cloth(baked: Path) -> None:
     header = small_header(simulator="cloth")
     studio = open_studio(header, device="cpu", threads=0, assets=baked)
     made = studio.make(Job(category=Category.FAR, index=0), header)
-    nodes = round(0.4 / (5 * 0.001)) + 1
+    radius_m = made.scene.cables[0].diameter_m / 2
+    nodes = round(0.4 / (5 * radius_m)) + 1
     assert len(bpy.data.objects["fall_cables"].data.vertices) == nodes * len(made.scene.cables)
 
 

@@ -82,7 +82,7 @@ def start_line(cable: Cable, scale: FallScale, segment: float) -> Points:
     path = np.empty((len(level), 3))
     path[:, 0] = cable.x_m + cosine * level[:, 0] - sine * level[:, 1]
     path[:, 1] = cable.y_m + sine * level[:, 0] + cosine * level[:, 1]
-    path[:, 2] = cable.diameter_m / 2 + cable.start_height_m
+    path[:, 2] = cable.diameter_m / 2 + cable.start_height_m + np.linspace(0.0, cable.rise_m, len(level))
     return path / scale.unit_m
 
 

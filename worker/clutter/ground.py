@@ -40,7 +40,9 @@ def draw_slot(sheet: Sheet, rng: np.random.Generator) -> Print:
     chips = np.clip(1 + 0.3 * smooth_noise(rng, 1, columns, (1.0, 14.0)), 0.4, 1.8)
     lit = np.clip(1 - np.abs(rows - place - lip) / (lip * chips), 0, 1)
     dark = np.clip(1 - np.abs(place - lip) / (lip * chips), 0, 1)
-    red, green, blue = (min(255, round(1.1 * level) + 25) for level in sheet.colour)
+    # Whatever the colour, a lip is bare where it was worn.
+    grey = sum(sheet.colour) / 3
+    red, green, blue = (min(255, round(0.3 * level + 0.8 * grey) + 25) for level in sheet.colour)
     ink(canvas, 0.8 * np.broadcast_to(lit, (rows, columns)), (red, green, blue))
     ink(canvas, 0.5 * np.broadcast_to(dark, (rows, columns)), (60, 59, 58))
     alpha = np.clip(1.2 * (_from_edge(rows, columns) + 0.5) / lip, 0, 1)

@@ -80,12 +80,14 @@ class Section:
         radius_m: (N,) or (N, sides) distance from the axis there.
         finish: number of its finish.
         flat: (N,) factors of the height, which make a round thing flat; None: round.
+        rippled: a thread or ribs, too fine for an outline, which is straight there.
     """
 
     along_m: Array
     radius_m: Array
     finish: int
     flat: Array | None = None
+    rippled: bool = False
 
 
 def section(profile: Sequence[tuple[float, float]], finish: int) -> Section:

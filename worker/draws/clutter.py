@@ -24,11 +24,11 @@ _SHEET_SIZES_M: dict[SheetKind, tuple[tuple[float, float], tuple[float, float]]]
 """Range of lengths and of widths."""
 
 _PART_SIZES_M: dict[PartKind, tuple[float, float]] = {
-    PartKind.WASHER: (0.006, 0.018),
-    PartKind.NUT: (0.0055, 0.013),
-    PartKind.SCREW: (0.008, 0.035),
-    PartKind.CONNECTOR: (0.008, 0.030),
-    PartKind.CABLE_TIE: (0.05, 0.10),
+    PartKind.WASHER: (0.007, 0.016),
+    PartKind.NUT: (0.006, 0.015),
+    PartKind.SCREW: (0.010, 0.025),
+    PartKind.CONNECTOR: (0.008, 0.025),
+    PartKind.CABLE_TIE: (0.020, 0.060),
 }
 
 _SLENDER = 9.0

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from blend.environments.assembly import Assembly
+from blend.environments.assembly import Assembly, Points
 from blend.environments.layout import Piece, clutter, line_up, row_on
 from blend.environments.room import Room, Style, Wall
 
@@ -19,7 +19,7 @@ def block(a: Assembly, _rng: Rng) -> None:
 PIECES = (Piece(block, EDGE, EDGE),)
 
 
-def middles(a: Assembly) -> np.ndarray:
+def middles(a: Assembly) -> Points:
     """Of the cubes, (N, 3)."""
     return np.array([part.points.mean(axis=0) for part in a.parts.get("paint", [])])
 

@@ -27,7 +27,7 @@ def _template() -> None:
 
 def short_cables(count: int) -> Scene:
     """A scene of cables of 6 cm, which are fast to simulate."""
-    return make_scene(ranges={"cable": {"count": [count, count], "length_m": 0.06}})
+    return make_scene(ranges={"cable": {"count": [count, count], "length_m": 0.06, "diameter_m": 0.002}})
 
 
 def contents() -> Mapping[str, list[str]]:

@@ -54,7 +54,7 @@ def _draw_scores(axes: Axes, lessons: Sequence[Lesson], tests: Mapping[str, Exam
     axes.set_xticks(range(len(tests)), [f"tested on {name}" for name in tests])
     axes.set_ylim(0, 1)
     axes.set_ylabel("mean IoU of a picture, and its standard error")
-    axes.legend(fontsize="small", loc="lower right", framealpha=1)
+    axes.legend(fontsize="small", loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(lessons), frameon=False)
 
 
 def _draw_losses(axes: Axes, lessons: Sequence[Lesson]) -> None:
@@ -72,14 +72,14 @@ def _draw_pictures(part: SubFigure, name: str, examples: Examples, lessons: Sequ
     part.suptitle(f"{name}: white hit, red false alarm, blue miss", fontsize="medium")
     chosen = np.linspace(0, len(examples) - 1, min(_SHOWN, len(examples))).round().astype(int)
     panels = part.subplots(len(chosen), 2 + len(lessons), squeeze=False)
-    for row, index in zip(panels, chosen, strict=True):
+    for number, (row, index) in enumerate(zip(panels, chosen, strict=True)):
         true = examples.masks[index]
         shown = [("picture", examples.pictures[index]), ("mask", overlay(true, true))]
         shown += [(f"trained on\n{lesson.name}", overlay(lesson.masks[name][index], true)) for lesson in lessons]
         for axes, (title, picture) in zip(row, shown, strict=True):
             axes.imshow(picture)
             axes.set_axis_off()
-            if row is panels[0]:
+            if number == 0:
                 axes.set_title(title, fontsize="small")
 
 
