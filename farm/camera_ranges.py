@@ -69,9 +69,9 @@ class DevelopmentRanges(Model):
     """
 
     share: Fraction = 0.0
-    key: PositiveRange = (0.10, 0.30)
-    exposure_ev: Range = (-1.0, 1.0)
-    contrast: PositiveRange = (0.9, 1.5)
+    key: PositiveRange = (0.15, 0.38)
+    exposure_ev: Range = (-0.9, 0.9)
+    contrast: PositiveRange = (0.95, 1.6)
     saturation: NotNegativeRange = (0.7, 1.2)
     white_balance_ev: Range = (-0.25, 0.25)
     vignetting: FractionRange = (0.0, 0.35)

@@ -22,7 +22,7 @@ from farm.styles import Style, merge_ranges
 Quota = Annotated[int, Field(ge=0, le=10**7)]
 
 
-DEFAULT_STYLE = Style.PUBLISHED
+DEFAULT_STYLE = Style.WIDE
 
 
 class Engine(StrEnum):

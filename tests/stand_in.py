@@ -45,7 +45,8 @@ SETTLED = SettleFigures.model_validate(
 
 def stand_in_header(*, seed: int = 0, resolution: int = 32, **quotas: int) -> DatasetHeader:
     """A header that asks for so many images of the categories named."""
-    data = {"seed": seed, "resolution": resolution, "quotas": quotas or {"far": 2, "close_concentrated_light": 2}}
+    wanted = quotas or {"far": 2, "close_concentrated_light": 2}
+    data = {"seed": seed, "style": "published", "resolution": resolution, "quotas": wanted}
     return DatasetHeader(
         farm_version=__version__,
         spec=parse_spec(data, source="test"),

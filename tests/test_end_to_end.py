@@ -37,6 +37,7 @@ def textures(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def start_run(out: Path, textures: Path, workers: int) -> "subprocess.Popen[str]":
     """Start `farm run` on small pictures of all six categories."""
     arguments = ["run", "--images", str(IMAGES), "--seed", "0", "--resolution", "96", "--quality", "draft"]
+    arguments += ["--no-environments"]
     arguments += ["--textures", str(textures), "--no-builtin-textures", "--out", str(out)]
     arguments += ["--workers", str(workers), "--device", "cpu", "--logs", str(out.parent / f"logs-{out.name}")]
     program = [sys.executable, "-P", "-m", "farm", *arguments]

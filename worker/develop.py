@@ -91,16 +91,18 @@ def clean(light: Light) -> Light:
 
 
 def expose(light: Light, key: float, exposure_ev: float) -> Light:
-    """Bring the geometric mean of the luminance to `key`, but for an error in stops.
+    """Bring the mean of the luminance to `key`, but for an error in stops.
 
-    Little that is black or very bright does not sway it. What is all black stays so.
+    The mean is half-way, in stops, between the geometric one, which what is bright hardly sways, and the arithmetic
+    one, which holes and shadows hardly do. What is all black stays so.
     """
     metered = slice(_METERED_STEP // 2, None, _METERED_STEP)
     seen = luminance(np.ascontiguousarray(light[metered, metered]))
     low, high = np.percentile(seen, _METERED_PART)
     if high <= 0.0:
         return light
-    mean = math.exp(float(np.log(np.clip(seen, max(low, high * 2.0**-_METERED_STOPS), high)).mean(dtype=np.float64)))
+    metered_light = np.clip(seen, max(low, high * 2.0**-_METERED_STOPS), high).astype(np.float64)
+    mean = math.sqrt(math.exp(float(np.log(metered_light).mean())) * float(metered_light.mean()))
     return light * np.float32(key / mean * 2.0**exposure_ev)
 
 

@@ -38,7 +38,7 @@ def tiny_header(images: int, seed: int, folder: Path) -> DatasetHeader:
     cv2.imwrite(str(folder / "speckle_1k_color.png"), rng.integers(60, 200, (64, 64, 3), dtype=np.uint8))
     cv2.imwrite(str(folder / "speckle_1k_roughness.png"), np.full((64, 64), 150, np.uint8))
     flags = {"images": images, "seed": seed, "resolution": _RESOLUTION, "quality": Preset.DRAFT}
-    description = describe(None, flags, {"textures": (folder,), "builtin_textures": False})
+    description = describe(None, flags, {"textures": (folder,), "builtin_textures": False, "environments": False})
     return make_header(description.spec, description.inputs, InstalledAssets())
 
 

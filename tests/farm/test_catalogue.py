@@ -57,7 +57,7 @@ def template(tmp_path: Path) -> Path:
 @pytest.fixture
 def spec() -> DatasetSpec:
     """One image."""
-    return parse_spec({"images": 1}, source="test")
+    return parse_spec({"images": 1, "style": "published"}, source="test")
 
 
 def test_folders_add_to_the_builtin(spec: DatasetSpec, template: Path) -> None:

@@ -9,7 +9,7 @@ from farm.spec import parse_spec
 
 def with_ranges(**ranges: object) -> Ranges:
     """Parse a description with these ranges."""
-    return parse_spec({"images": 6, "ranges": ranges}, source="spec.toml").ranges
+    return parse_spec({"images": 6, "style": "published", "ranges": ranges}, source="spec.toml").ranges
 
 
 def test_the_defaults_are_the_published_ranges() -> None:

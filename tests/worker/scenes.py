@@ -17,7 +17,7 @@ def make_header(**keys: object) -> DatasetHeader:
     """A header over two surfaces and two HDRIs, one of them dark; `keys` are those of the spec."""
     return DatasetHeader(
         farm_version="0",
-        spec=parse_spec({"images": 60, "seed": 0, **keys}, source="test"),
+        spec=parse_spec({"images": 60, "seed": 0, "style": "published", **keys}, source="test"),
         template=TemplateRef(path=None, sha256=SHA),
         surfaces=(
             BuiltinSurfaceRef(name="concrete_smooth", recipe_version=1),

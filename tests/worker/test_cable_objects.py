@@ -33,7 +33,7 @@ RESOLUTION = 384
 @pytest.fixture(scope="module")
 def header() -> DatasetHeader:
     """Draft pictures over one surface."""
-    keys = {"seed": 0, "images": 600, "resolution": RESOLUTION, "quality": "draft"}
+    keys = {"seed": 0, "style": "published", "images": 600, "resolution": RESOLUTION, "quality": "draft"}
     made = make_header(parse_spec(keys, source="test"), Inputs(), InstalledAssets())
     return made.model_copy(update={"surfaces": tuple(s for s in made.surfaces if s.name in SURFACES)})
 

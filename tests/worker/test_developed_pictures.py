@@ -63,7 +63,9 @@ LAMPS = (
 @pytest.fixture(scope="module")
 def header() -> DatasetHeader:
     """Draft pictures of 128 pixels over one surface."""
-    spec = parse_spec({"seed": 0, "images": 600, "resolution": 128, "quality": "draft"}, source="test")
+    spec = parse_spec(
+        {"seed": 0, "style": "published", "images": 600, "resolution": 128, "quality": "draft"}, source="test"
+    )
     made = make_header(spec, Inputs(), InstalledAssets())
     return made.model_copy(update={"surfaces": tuple(s for s in made.surfaces if s.name == "concrete_smooth")})
 

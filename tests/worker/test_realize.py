@@ -49,7 +49,7 @@ TILTED = Camera(
 @pytest.fixture(scope="module")
 def header() -> DatasetHeader:
     """Of pictures over two surfaces."""
-    spec = parse_spec({"seed": 0, "images": 600}, source="test")
+    spec = parse_spec({"seed": 0, "style": "published", "images": 600}, source="test")
     made = make_header(spec, Inputs(), InstalledAssets())
     return made.model_copy(update={"surfaces": tuple(s for s in made.surfaces if s.name in SURFACES)})
 

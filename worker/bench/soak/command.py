@@ -34,7 +34,7 @@ def run(out: Path, *, seed: int, images: int, quality: str, resolution: int) -> 
     Args:
         out: a folder that is there.
         seed: of the dataset.
-        images: of both workers together, in the published mix.
+        images: of both workers together, in the published mix and style.
         quality: a preset.
         resolution: edge in pixels.
 
@@ -42,7 +42,7 @@ def run(out: Path, *, seed: int, images: int, quality: str, resolution: int) -> 
         VerificationError: if the dataset is not complete and as its manifests tell.
         FarmError: that with which a worker ended.
     """
-    spec = {"seed": seed, "images": images, "quality": quality, "resolution": resolution}
+    spec = {"seed": seed, "style": "published", "images": images, "quality": quality, "resolution": resolution}
     header = make_header(parse_spec(spec, source="benchmark"), Inputs(), InstalledAssets())
     samples: dict[str, list[Sample]] = defaultdict(list)
 
