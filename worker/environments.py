@@ -180,11 +180,13 @@ def normalised(light: NDArray[np.float32]) -> NDArray[np.float32]:
     if not np.isfinite(light).all():
         raise RenderError("a rendered panorama holds infinite or undefined light; this Blender can't be used")
     clipped = np.maximum(light, 0.0)
-    # Clipping the lamps takes light away, so the scale is found in a few steps.
-    for _ in range(4):
+    # Clipping the lamps takes light away, so the scale is found in a few steps, most often two.
+    for _ in range(20):
         mean = mean_luminance(clipped)
         if mean <= 0:
             raise RenderError("a rendered panorama is black all over; this Blender can't be used")
+        if abs(mean / TARGET_LUMINANCE - 1) < 1e-3 and clipped.max() <= BRIGHTEST:
+            break
         clipped = np.minimum(clipped * np.float32(TARGET_LUMINANCE / mean), np.float32(BRIGHTEST))
     return clipped.astype(np.float32, copy=False)
 

@@ -62,7 +62,7 @@ class Assembly:
     """Collects solids. Placing is relative to the innermost `at`.
 
     Attributes:
-        rng: of what only tells like things apart.
+        rng: of all that is drawn.
         parts: by material.
         daylight: the openings.
         things: how many things (not solids) were placed.

@@ -40,8 +40,13 @@ class Built:
 
 def build_environment(recipe: EnvironmentRecipe) -> Built:
     """Replace the open file by an empty one and build an environment in it."""
+    assembly, light = assemble(recipe)
     bpy.ops.wm.read_factory_settings(use_empty=True)
+    return Built(stage(assembly, light, assembly.rng), assembly, light)
+
+
+def assemble(recipe: EnvironmentRecipe) -> tuple[Assembly, Light]:
+    """What stands in an environment, and what lights it; nothing in Blender changes."""
     rng = environment_generator(recipe)
     assembly = Assembly(rng)
-    light = BUILDERS[recipe.kind](assembly, rng, recipe.seed)
-    return Built(stage(assembly, light, rng), assembly, light)
+    return assembly, BUILDERS[recipe.kind](assembly, rng, recipe.seed)

@@ -18,6 +18,9 @@ SURFACE_PREFIX = "surface:"
 SURFACE_PIXELS = 1024
 """Texels along an edge of a surface's tile: a tile of 0.5 m has 0.5 mm, far finer than a panorama shows."""
 
+_PRINTED = frozenset({"print", "screen"})
+"""Materials that show a part of the atlas."""
+
 _SHAPELESS = ("concrete", "asphalt")
 """Surfaces without courses, that may be shown at any scale."""
 
@@ -31,11 +34,16 @@ def make_material(name: str, atlas: Any) -> Any:
     shader = Shader(name)
     if name.startswith(SURFACE_PREFIX):
         _surface(shader, name.removeprefix(SURFACE_PREFIX))
-    elif name in {"print", "screen"}:
+    elif name in _PRINTED:
         _shown(shader, atlas, shines=name == "screen")
     else:
         _BUILT[name](shader)
     return shader.material
+
+
+def is_known(name: str) -> bool:
+    """Whether there is a material of that name."""
+    return name in _BUILT or name in _PRINTED or name.removeprefix(SURFACE_PREFIX) in SURFACES
 
 
 def new_image(name: str, pixels: NDArray[np.uint8], *, colour: bool = True) -> Any:
@@ -47,7 +55,6 @@ def new_image(name: str, pixels: NDArray[np.uint8], *, colour: bool = True) -> A
     rgba[..., :3] = (pixels[::-1] if pixels.ndim == 3 else pixels[::-1, :, None]) / np.float32(255.0)
     image.pixels.foreach_set(rgba.ravel())
     image.update()
-    image.pack()
     return image
 
 
