@@ -7,7 +7,7 @@ SECONDS_EACH ?= 30
 WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup bench-queue bench-pictures bench-training masks soak stress flower template clean fuzz audit chaos
+.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup bench-queue bench-pictures bench-training bench-surfaces examples masks soak stress flower template clean fuzz audit chaos
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -24,7 +24,7 @@ $(VENV)/installed: pyproject.toml constraints.txt docker/debian-packages.txt
 setup: $(VENV)/installed ## make .venv, install the pinned dependencies, compile the rod solver
 
 demo: setup ## render 12 pictures, two of each category, into demo/
-	$(BIN)/farm assets build
+	$(BIN)/farm assets build --no-environments
 	$(BIN)/farm run --spec examples/demo.toml --out demo --workers $(WORKERS)
 	@echo "Pictures: $(CURDIR)/demo/<category>/images"
 	@echo "Report:   $(CURDIR)/demo/report.html"
@@ -44,11 +44,11 @@ lint: setup ## lint and check types only
 	$(BIN)/mypy
 
 bench: setup ## what an image costs, beside the published method; writes bench/whole.json and .png
-	$(BIN)/farm assets build
+	$(BIN)/farm assets build --no-environments
 	$(BIN)/python -m worker.bench whole --out bench
 
 bench-farm: setup ## images an hour of farm run by workers and threads; writes bench/farm.json and .png
-	$(BIN)/farm assets build
+	$(BIN)/farm assets build --no-environments
 	$(BIN)/python -m worker.bench farm --out bench
 
 bench-pictures: setup ## light, colour, cables and clutter of each style; writes bench/pictures.json, .png and sheets
@@ -60,8 +60,16 @@ bench-training: setup ## a network trained on each style and tested on both; wri
 	$(BIN)/farm assets build
 	$(BIN)/python -m worker.bench training --out bench
 
-masks: setup ## masks against Cycles renders of 1,024 samples; writes bench/masks.json
+examples: setup ## contact sheets of every surface, environment and kind of cable, into bench/
 	$(BIN)/farm assets build
+	$(BIN)/python -m worker.bench examples --out bench
+
+bench-surfaces: setup ## CPU seconds of rendering each surface beside a plain one; writes bench/surfaces.json and .png
+	$(BIN)/farm assets build --no-environments
+	$(BIN)/python -m worker.bench surfaces --out bench
+
+masks: setup ## masks against Cycles renders of 1,024 samples; writes bench/masks.json
+	$(BIN)/farm assets build --no-environments
 	$(BIN)/python -m worker.bench masks --out bench
 
 stress: setup ## 560 falls over the whole range of everything; writes bench/stress.json and .png
@@ -74,11 +82,11 @@ bench-render: setup ## time against error of rendering; writes bench/render.json
 	$(BIN)/python -m worker.bench render --out bench
 
 bench-skips: setup ## what is left out of a picture, and the time that saves; writes bench/skips.json and .png
-	$(BIN)/farm assets build
+	$(BIN)/farm assets build --no-environments
 	$(BIN)/python -m worker.bench skips --out bench
 
 bench-startup: setup ## from a worker's start to its first picture; writes bench/startup.json and .png
-	$(BIN)/farm assets build
+	$(BIN)/farm assets build --no-environments
 	$(BIN)/python -m worker.bench startup --out bench
 
 bench-queue: setup ## jobs a second through the queue and what a submission costs; writes bench/queue.* and submit.*
@@ -86,8 +94,9 @@ bench-queue: setup ## jobs a second through the queue and what a submission cost
 	$(BIN)/python -m tests.load submit --out bench
 
 soak: setup ## memory of renderers over 1,100 images; writes bench/soak.json and .png
-	$(BIN)/farm assets build
+	$(BIN)/farm assets build --no-environments
 	$(BIN)/python -m worker.bench soak --out bench
+
 fuzz: setup ## feed all parsers hostile bytes, guided by coverage (SECONDS_EACH); writes bench/fuzz.json
 	$(BIN)/pip install --quiet --disable-pip-version-check --only-binary :all: -c constraints.txt -e '.[fuzz]'
 	$(BIN)/python -m tests.fuzz --seconds $(SECONDS_EACH) --out bench
