@@ -5,7 +5,7 @@ from typing import Any
 
 from worker.bench.pictures.making import STYLES, parse_named
 
-DEFAULT_IMAGES = 120
+DEFAULT_IMAGES = 150
 
 
 def add_pictures(commands: Any, shared: argparse.ArgumentParser) -> None:
