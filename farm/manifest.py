@@ -73,7 +73,8 @@ class RenderSettings(Model):
     Attributes:
         samples: a pixel.
         settings: of Cycles; None for another engine.
-        expected_flip: mean FLIP against a picture without noise, as calibrated; None where it is not known.
+        expected_flip: mean FLIP against a picture without noise, as calibrated; None where it is not known, as for
+            pictures that a camera's development changes.
     """
 
     engine: str

@@ -94,7 +94,7 @@ class Studio:
         scene, shapes, settled, rejected = self._settle(job, header, timings)
         with _timed(timings, "realize"):
             behind = self._realize(job, spec, chosen.settings, scene, shapes)
-            rendering = self._configure(spec, chosen, scene.render_seed)
+            rendering = self._configure(spec, chosen, scene)
         with _timed(timings, "render"):
             image = render_scene(scene, behind)
         with _timed(timings, "mask"):
@@ -126,21 +126,22 @@ class Studio:
             economy=settings.economy,
         )
 
-    def _configure(self, spec: DatasetSpec, chosen: ChosenSettings, seed: int) -> RenderSettings:
+    def _configure(self, spec: DatasetSpec, chosen: ChosenSettings, scene: Scene) -> RenderSettings:
         """Set how the scene renders; returns it for the manifest."""
         picture = configure_picture(spec.resolution, self._threads)
         if spec.engine is Engine.EEVEE:
             samples = eevee.samples_of(spec.quality)
             configure_eevee(picture, samples)
             return RenderSettings(engine="eevee", device="opengl", resolution=spec.resolution, samples=samples)
-        configure_cycles(picture, chosen.settings, self._device, seed)
+        configure_cycles(picture, chosen.settings, self._device, scene.render_seed)
         return RenderSettings(
             engine="cycles",
             device=self._device,
             resolution=spec.resolution,
             samples=chosen.settings.cycles.samples,
             settings=chosen.settings,
-            expected_flip=chosen.expected_flip,
+            # The calibration's pictures are not developed.
+            expected_flip=chosen.expected_flip if scene.development is None else None,
         )
 
     @staticmethod
