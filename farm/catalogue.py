@@ -30,7 +30,7 @@ class Inputs:
         backgrounds: folders of photographs.
         builtin_textures: whether our own surfaces take part.
         builtin_hdris: whether Blender's own HDRIs take part.
-        environments: whether our own environments take part; the published style has none.
+        environments: whether our own environments take part.
     """
 
     template: Path | None = None
@@ -82,7 +82,7 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
     for folder in inputs.textures:
         surfaces += assets.surfaces_in(folder)
     hdris = list(assets.builtin_hdris()) if inputs.builtin_hdris else []
-    if inputs.environments and spec.style is not Style.PUBLISHED:
+    if inputs.environments:
         hdris += assets.environments()
     for folder in inputs.hdris:
         hdris += assets.hdris_in(folder)

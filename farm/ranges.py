@@ -3,7 +3,7 @@
 Source: Malvido Fresnillo et al., "Generation of realistic synthetic cable images to train deep learning
 segmentation models", Machine Vision and Applications 35(4), 2024, doi 10.1007/s00138-024-01562-y.
 
-Lengths are metres of the picture, in which cables are true to size (2.3 mm thick); angles are degrees. The wind's
+Lengths are metres of the picture, in which cables are true to size (2.4 mm thick); angles are degrees. The wind's
 numbers are those of a Blender wind field in the fall's own units (ARCHITECTURE.md, "Two scales"). Where the
 publication gives no figure (cable length, drop height, spacing, f-number) the default is ours and marked so.
 """
@@ -122,7 +122,7 @@ class PlacementRanges(Model):
 class CableRanges(Model):
     """How many cables, how thick (ours: one value), how long (ours), how heavy and stiff, and their surface.
 
-    Of `count_draws` even draws of the count the largest holds: with two, eight cables at most are six on average.
+    Of `count_draws` even draws of the count the largest holds: with three, up to eight cables are six on average.
     Far cables may have a length of their own: over a floor that is not seen, one that ends in the picture floats.
     Diameters are drawn evenly in their logarithm; one wider than `widest_share` of the picture is made so thin.
 
@@ -132,8 +132,8 @@ class CableRanges(Model):
     """
 
     count: CableCountRange = (1, 8)
-    count_draws: Annotated[int, Field(ge=1, le=10)] = 2
-    diameter_m: DiameterRange = (0.0023, 0.0023)
+    count_draws: Annotated[int, Field(ge=1, le=10)] = 3
+    diameter_m: DiameterRange = (0.0024, 0.0024)
     widest_share: Fraction = 1.0
     length_m: CableLengthRange = (0.40, 0.40)
     far_length_m: CableLengthRange | None = None

@@ -95,16 +95,15 @@ def test_one_photograph_twice(spec: DatasetSpec, template: Path) -> None:
         make_header(spec, Inputs(template, backgrounds=(Path("a/lab"), Path("b/lab"))), Shelf())
 
 
-def test_environments_take_part_in_the_wide_style(spec: DatasetSpec, template: Path) -> None:
-    """They come after Blender's own, unless they are left out; the published style has none."""
-    wide = spec.model_copy(update={"style": Style.WIDE})
+def test_environments_take_part_unless_they_are_left_out(spec: DatasetSpec, template: Path) -> None:
+    """They come after Blender's own."""
 
-    def names(spec: DatasetSpec, *, environments: bool = True) -> list[str]:
+    def names(*, environments: bool) -> list[str]:
         header = make_header(spec, Inputs(template, environments=environments), Shelf())
         return [hdri.name for hdri in header.hdris]
 
-    assert names(wide) == ["city", "workshop"]
-    assert names(wide, environments=False) == names(spec) == ["city"]
+    assert names(environments=True) == ["city", "workshop"]
+    assert names(environments=False) == ["city"]
 
 
 def test_environments_of_this_program() -> None:

@@ -34,7 +34,7 @@ RESOLUTION = 384
 def header() -> DatasetHeader:
     """Draft pictures over one surface."""
     keys = {"seed": 0, "style": "published", "images": 600, "resolution": RESOLUTION, "quality": "draft"}
-    made = make_header(parse_spec(keys, source="test"), Inputs(), InstalledAssets())
+    made = make_header(parse_spec(keys, source="test"), Inputs(environments=False), InstalledAssets())
     return made.model_copy(update={"surfaces": tuple(s for s in made.surfaces if s.name in SURFACES)})
 
 

@@ -66,7 +66,7 @@ def header() -> DatasetHeader:
     spec = parse_spec(
         {"seed": 0, "style": "published", "images": 600, "resolution": 128, "quality": "draft"}, source="test"
     )
-    made = make_header(spec, Inputs(), InstalledAssets())
+    made = make_header(spec, Inputs(environments=False), InstalledAssets())
     return made.model_copy(update={"surfaces": tuple(s for s in made.surfaces if s.name == "concrete_smooth")})
 
 

@@ -50,7 +50,7 @@ TILTED = Camera(
 def header() -> DatasetHeader:
     """Of pictures over two surfaces."""
     spec = parse_spec({"seed": 0, "style": "published", "images": 600}, source="test")
-    made = make_header(spec, Inputs(), InstalledAssets())
+    made = make_header(spec, Inputs(environments=False), InstalledAssets())
     return made.model_copy(update={"surfaces": tuple(s for s in made.surfaces if s.name in SURFACES)})
 
 

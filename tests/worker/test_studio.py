@@ -34,7 +34,7 @@ def small_header(**keys: object) -> DatasetHeader:
     """Draft pictures of 128 pixels over two surfaces and Blender's own HDRIs."""
     small = {"seed": 0, "style": "published", "images": 600, "resolution": 128, "quality": "draft"}
     spec = parse_spec({**small, **keys}, source="test")
-    header = make_header(spec, Inputs(), InstalledAssets())
+    header = make_header(spec, Inputs(environments=False), InstalledAssets())
     return header.model_copy(update={"surfaces": tuple(s for s in header.surfaces if s.name in SURFACES)})
 
 
@@ -185,7 +185,9 @@ def test_an_artists_template_that_lacks_something_is_refused(tmp_path: Path) -> 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
     header = make_header(
-        parse_spec({"images": 6, "style": "published"}, source="test"), Inputs(template=path), InstalledAssets()
+        parse_spec({"images": 6, "style": "published"}, source="test"),
+        Inputs(template=path, environments=False),
+        InstalledAssets(),
     )
     with pytest.raises(TemplateError, match="picture"):
         open_studio(header, device="cpu", threads=0, assets=None)

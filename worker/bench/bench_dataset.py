@@ -12,6 +12,7 @@ from farm.styles import merge_tables
 
 PUBLISHED: Mapping[str, object] = {
     "style": "published",
+    "close_distributed_hdri": "city",
     "ranges": {"cable": {"count_draws": 1, "diameter_m": [0.002, 0.002]}},
 }
 """The scenes on which quality is calibrated and times are compared: those of the published style, but for as many
@@ -27,7 +28,7 @@ def bench_header(images: int, seed: int, **keys: object) -> DatasetHeader:
     """
     quotas = {str(category): images for category in Category}
     spec = parse_spec(merge_tables({**PUBLISHED, "seed": seed, "quotas": quotas}, keys), source="benchmark")
-    return make_header(spec, Inputs(), InstalledAssets())
+    return make_header(spec, Inputs(environments=False), InstalledAssets())
 
 
 def bench_jobs(images: int) -> list[Job]:

@@ -12,6 +12,9 @@ from farm.ranges import FloorRanges, WearRanges, WindRanges
 from farm.scene import Floor, Gust, Plate, Wear, Wind
 from worker.draws.values import chance, level, log_uniform, pattern_seed, uniform
 
+OVER_FLOORS = "sunrise"
+"""Of Blender's HDRIs the one under which floors are as bright, and have as much contrast, as in published examples."""
+
 GUSTS = 3
 """Swings that are laid over the wind's mean speed."""
 
@@ -162,6 +165,6 @@ def draw_world(header: DatasetHeader, background: Background, rng: np.random.Gen
 
 
 def _fixed_hdri(header: DatasetHeader) -> HdriRef:
-    """The one HDRI that lights all close pictures without a lamp: the named one, else the first."""
-    name = header.spec.close_distributed_hdri
+    """The one HDRI that lights all close pictures without a lamp: the named one, else `OVER_FLOORS`, else the first."""
+    name = header.spec.close_distributed_hdri or OVER_FLOORS
     return next((hdri for hdri in header.hdris if hdri.name == name), header.hdris[0])

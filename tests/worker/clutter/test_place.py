@@ -52,7 +52,7 @@ class Stage:
     def __init__(self, folder: Path) -> None:
         bake_surfaces(folder, pixels=256, names=("concrete_smooth",), processes=1)
         spec = parse_spec({"seed": 0, "images": 60, "style": "published"}, source="test")
-        made: DatasetHeader = catalogue_header(spec, Inputs(), InstalledAssets())
+        made: DatasetHeader = catalogue_header(spec, Inputs(environments=False), InstalledAssets())
         self.header = made.model_copy(
             update={"surfaces": tuple(each for each in made.surfaces if each.name == "concrete_smooth")}
         )

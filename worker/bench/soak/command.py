@@ -43,7 +43,7 @@ def run(out: Path, *, seed: int, images: int, quality: str, resolution: int) -> 
         FarmError: that with which a worker ended.
     """
     spec = {"seed": seed, "style": "published", "images": images, "quality": quality, "resolution": resolution}
-    header = make_header(parse_spec(spec, source="benchmark"), Inputs(), InstalledAssets())
+    header = make_header(parse_spec(spec, source="benchmark"), Inputs(environments=False), InstalledAssets())
     samples: dict[str, list[Sample]] = defaultdict(list)
 
     def look(progress: Progress) -> None:

@@ -64,7 +64,7 @@ def finished(dataset: Dataset, started_s: float) -> tuple[Finished, ...]:
 
 def _command(split: Split, images: int, seed: int, place: Path, logs: Path) -> list[str]:
     command = [sys.executable, "-P", "-m", "farm", "run", "--images", str(images), "--seed", str(seed)]
-    command += ["--style", "published"]
+    command += ["--style", "published", "--no-environments"]
     command += ["--out", str(place), "--logs", str(logs), "--device", "cpu"]
     return [*command, "--workers", str(split.workers), "--threads", str(split.threads)]
 
