@@ -70,7 +70,7 @@ class DevelopmentRanges(Model):
 
     share: Fraction = 0.0
     key: PositiveRange = (0.15, 0.38)
-    exposure_ev: Range = (-0.9, 0.9)
+    exposure_ev: Range = (-1.5, 1.4)
     contrast: PositiveRange = (0.95, 1.6)
     saturation: NotNegativeRange = (0.7, 1.2)
     white_balance_ev: Range = (-0.25, 0.25)
