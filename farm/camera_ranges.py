@@ -1,10 +1,11 @@
 """The ranges of the camera, its lens and its sensor. The published lens is ideal, and Blender stands for the sensor."""
 
-from typing import Annotated
+import math
+from typing import Annotated, Self
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, model_validator
 
-from farm.lens import FOCAL_LENGTH_MM
+from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from farm.model import Model
 from farm.range_types import (
     Fraction,
@@ -12,15 +13,22 @@ from farm.range_types import (
     Heights,
     JpegQualityRange,
     NotNegativeRange,
-    Positive,
     PositiveRange,
     Range,
+    StopsRange,
     in_order,
 )
 
 FNumber = Annotated[float, Field(ge=0.5, le=128)]
+FLOOR_REACH_M = 0.6
+"""From the middle of the template's floor to its nearest edge."""
+
+FocalLength = Annotated[float, Field(ge=10, le=500)]
 Angle = Annotated[float, Field(ge=0, le=30)]
 Distortion = Annotated[float, Field(ge=-0.2, le=0.2)]
+FocusOffset = Annotated[float, Field(ge=-1, le=0.9)]
+Key = Annotated[float, Field(gt=0, le=1)]
+Aberration = Annotated[float, Field(ge=-0.05, le=0.05)]
 
 
 class CameraRanges(Model):
@@ -50,11 +58,34 @@ class CameraRanges(Model):
         0.33,
     )
     f_number: Annotated[tuple[FNumber, FNumber], AfterValidator(in_order)] = (8.0, 8.0)
-    focal_lengths_mm: Annotated[tuple[Positive, ...], Field(min_length=1)] = (FOCAL_LENGTH_MM,)
+    focal_lengths_mm: Annotated[tuple[FocalLength, ...], Field(min_length=1)] = (FOCAL_LENGTH_MM,)
     tilt_deg: Annotated[tuple[Angle, Angle], AfterValidator(in_order)] = (0.0, 0.0)
     roll_deg: Range = (0.0, 0.0)
-    focus_offset_share: Range = (0.0, 0.0)
+    focus_offset_share: Annotated[tuple[FocusOffset, FocusOffset], AfterValidator(in_order)] = (0.0, 0.0)
     distortion: Annotated[tuple[Distortion, Distortion], AfterValidator(in_order)] = (0.0, 0.0)
+
+    @model_validator(mode="after")
+    def _see_floor_alone(self) -> Self:
+        height, tilt = max(self.heights_m), self.tilt_deg[1]
+        is_turned = tilt > 0 or self.roll_deg != (0.0, 0.0)
+        for focal_length in self.focal_lengths_mm if is_turned else ():
+            reach = _farthest_m(height, focal_length, tilt)
+            if reach > FLOOR_REACH_M:
+                raise ValueError(
+                    f"heights_m {height} with a lens of {focal_length:g} mm and tilt_deg {tilt:g} sees "
+                    f"{reach:.2g} m of the floor to one side, which reaches {FLOOR_REACH_M} m: lower heights_m or "
+                    "tilt_deg, or leave out short focal_lengths_mm"
+                )
+        return self
+
+
+def _farthest_m(height_m: float, focal_length_mm: float, tilt_deg: float) -> float:
+    """How far from the middle of the floor a corner of the picture may be; inf at the horizon and above."""
+    distance_m, tilt = height_m * focal_length_mm / FOCAL_LENGTH_MM, math.radians(tilt_deg)
+    angle = tilt + math.atan(math.sqrt(0.5) * SENSOR_MM / focal_length_mm)
+    if angle >= 0.5 * math.pi:
+        return math.inf
+    return distance_m * (math.cos(tilt) * math.tan(angle) - math.sin(tilt))
 
 
 class DevelopmentRanges(Model):
@@ -69,13 +100,13 @@ class DevelopmentRanges(Model):
     """
 
     share: Fraction = 0.0
-    key: PositiveRange = (0.15, 0.38)
-    exposure_ev: Range = (-1.5, 1.4)
+    key: Annotated[tuple[Key, Key], AfterValidator(in_order)] = (0.15, 0.38)
+    exposure_ev: StopsRange = (-1.5, 1.4)
     contrast: PositiveRange = (0.95, 1.6)
     saturation: NotNegativeRange = (0.7, 1.2)
-    white_balance_ev: Range = (-0.25, 0.25)
+    white_balance_ev: StopsRange = (-0.25, 0.25)
     vignetting: FractionRange = (0.0, 0.35)
-    chromatic_aberration: Range = (0.0, 0.002)
+    chromatic_aberration: Annotated[tuple[Aberration, Aberration], AfterValidator(in_order)] = (0.0, 0.002)
     noise_share: Fraction = 0.7
     full_well: PositiveRange = (800.0, 20_000.0)
     read_noise: NotNegativeRange = (1.0, 6.0)

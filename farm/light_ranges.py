@@ -6,20 +6,23 @@ unless a style turns them on.
 
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from farm.model import Model
 from farm.range_types import (
-    CountRange,
     ElevationRange,
     Fraction,
     FractionRange,
+    LampCountRange,
     NotNegativeRange,
     PositiveRange,
     Range,
     TemperatureRange,
     ZoomRange,
+    in_order,
 )
+
+Blur = Annotated[float, Field(ge=0, le=64)]
 
 
 class LampRanges(Model):
@@ -60,7 +63,7 @@ class StudioRanges(Model):
     """
 
     share: Fraction = 0.0
-    count: CountRange = (1, 3)
+    count: LampCountRange = (1, 3)
     elevation_deg: ElevationRange = (25.0, 90.0)
     distance_m: PositiveRange = (0.5, 4.0)
     size_share: PositiveRange = (0.02, 0.6)
@@ -81,4 +84,4 @@ class PlateRanges(Model):
 
     share: Fraction = 0.5
     zoom: ZoomRange = (0.4, 1.0)
-    blur_px: NotNegativeRange = (0.0, 8.0)
+    blur_px: Annotated[tuple[Blur, Blur], AfterValidator(in_order)] = (0.0, 8.0)

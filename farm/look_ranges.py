@@ -5,12 +5,26 @@ A *share* is a chance from 0 to 1, drawn once for each cable unless it says othe
 
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from farm.model import Model
-from farm.range_types import CountRange, Fraction, FractionRange, NotNegative, PositiveRange
+from farm.range_types import (
+    CountRange,
+    DiameterRange,
+    Fraction,
+    FractionRange,
+    NotNegative,
+    PositiveRange,
+    StrandCountRange,
+    StripeCountRange,
+    in_order,
+)
 
 Weight = NotNegative
+LayDiameters = Annotated[float, Field(ge=3, le=1e5)]
+TieWidth = Annotated[float, Field(ge=0.001, le=0.02)]
+StickDiameter = Annotated[float, Field(ge=0.001, le=0.05)]
+StickLength = Annotated[float, Field(ge=0.01, le=1.0)]
 
 
 class PaletteRanges(Model):
@@ -51,7 +65,7 @@ class SkinRanges(Model):
     stripe_share: Fraction = 0.0
     spiral_share: Fraction = 0.5
     stripe_width: FractionRange = (0.1, 0.5)
-    stripe_count: CountRange = (1, 2)
+    stripe_count: StripeCountRange = (1, 2)
     spiral_pitch_diameters: PositiveRange = (2.0, 8.0)
     roughness: FractionRange = (0.15, 0.75)
     translucent_share: Fraction = 0.0
@@ -75,11 +89,11 @@ class BundleRanges(Model):
     """
 
     share: Fraction = 0.0
-    strands: Annotated[CountRange, Field()] = (2, 7)
-    strand_diameter_m: PositiveRange = (0.001, 0.002)
-    lay_diameters: PositiveRange = (15.0, 40.0)
+    strands: StrandCountRange = (2, 7)
+    strand_diameter_m: DiameterRange = (0.001, 0.002)
+    lay_diameters: Annotated[tuple[LayDiameters, LayDiameters], AfterValidator(in_order)] = (15.0, 40.0)
     ties: CountRange = (0, 3)
-    tie_width_m: PositiveRange = (0.0025, 0.0048)
+    tie_width_m: Annotated[tuple[TieWidth, TieWidth], AfterValidator(in_order)] = (0.0025, 0.0048)
 
 
 class EndRanges(Model):
@@ -110,7 +124,7 @@ class ClutterRanges(Model):
 
     share: Fraction = 0.0
     sticks: CountRange = (0, 2)
-    stick_diameter_m: PositiveRange = (0.003, 0.012)
-    stick_length_m: PositiveRange = (0.08, 0.20)
+    stick_diameter_m: Annotated[tuple[StickDiameter, StickDiameter], AfterValidator(in_order)] = (0.003, 0.012)
+    stick_length_m: Annotated[tuple[StickLength, StickLength], AfterValidator(in_order)] = (0.08, 0.20)
     sheets: CountRange = (0, 3)
     parts: CountRange = (0, 6)

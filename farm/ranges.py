@@ -10,7 +10,7 @@ publication gives no figure (cable length, drop height, spacing, f-number) the d
 
 from typing import Annotated, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from farm.camera_ranges import CameraRanges, DevelopmentRanges
 from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
@@ -33,7 +33,12 @@ from farm.range_types import (
     NotNegativeRange,
     PositiveRange,
     Range,
+    StopsRange,
+    in_order,
 )
+
+Scratches = Annotated[float, Field(ge=0, le=1000)]
+WidestShare = Annotated[float, Field(ge=0.01, le=1)]
 
 BEND_KNOTS = 7
 
@@ -52,14 +57,14 @@ class WearRanges(Model):
     """
 
     share: Fraction = 0.0
-    brightness_ev: Range = (-0.5, 0.7)
-    tint_ev: Range = (-0.12, 0.12)
+    brightness_ev: StopsRange = (-0.5, 0.7)
+    tint_ev: StopsRange = (-0.12, 0.12)
     saturation: NotNegativeRange = (0.5, 1.2)
     contrast: NotNegativeRange = (0.7, 1.3)
     stained_share: Fraction = 0.3
     stains: FractionRange = (0.02, 0.2)
     scratched_share: Fraction = 0.3
-    scratches: NotNegativeRange = (1.0, 12.0)
+    scratches: Annotated[tuple[Scratches, Scratches], AfterValidator(in_order)] = (1.0, 12.0)
     dusty_share: Fraction = 0.3
     dust: FractionRange = (0.05, 0.35)
 
@@ -134,7 +139,7 @@ class CableRanges(Model):
     count: CableCountRange = (1, 8)
     count_draws: Annotated[int, Field(ge=1, le=10)] = 3
     diameter_m: DiameterRange = (0.0024, 0.0024)
-    widest_share: Fraction = 1.0
+    widest_share: WidestShare = 1.0
     length_m: CableLengthRange = (0.40, 0.40)
     far_length_m: CableLengthRange | None = None
     vertex_mass: PositiveRange = (0.3, 0.5)

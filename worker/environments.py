@@ -110,8 +110,8 @@ def _render(scene: Any, pixels: int, first: int, last: int) -> NDArray[np.float3
     render.resolution_x, render.resolution_y, render.resolution_percentage = pixels, rows, 100
     render.use_border = render.use_crop_to_border = last - first < rows
     render.border_min_x, render.border_max_x = 0.0, 1.0
-    # Blender's rows go up.
-    render.border_min_y, render.border_max_y = 1 - last / rows, 1 - first / rows
+    # Blender's rows go up. It cuts rows off in single precision, of which a quarter of a row is clear.
+    render.border_min_y, render.border_max_y = ((rows - row + 0.25) / rows for row in (last, first))
     with tempfile.TemporaryDirectory(prefix="cable-farm-") as made:
         target = Path(made) / PANORAMA_NAME
         render.filepath = str(target)

@@ -136,7 +136,7 @@ class ImageShelf:
             if file.invert or file.flip_green:
                 pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
                 image.pixels.foreach_get(pixels)
-                _alter(pixels.reshape(-1, 4), 1.0, invert=file.invert, flip_green=file.flip_green)
+                _alter(pixels.reshape(1, -1, 4), 1.0, invert=file.invert, flip_green=file.flip_green)
                 image.pixels.foreach_set(pixels)
                 image.update()
             return _sized(image)
@@ -244,8 +244,9 @@ def _decode(file: TextureFile, *, reduced: bool) -> tuple[Texels | None, int]:
 
 
 def _alter(pixels: NDArray[Any], most: float, *, invert: bool, flip_green: bool) -> None:
-    """Change pixels (..., channels), the first three of them colours, with values from 0 to `most`, in place."""
+    """Change pixels (H, W), or (H, W, channels) of which three are colours, from 0 to `most`, in place."""
+    colours = pixels if pixels.ndim == 2 else pixels[..., :3]
     if invert:
-        pixels[..., :3] = most - pixels[..., :3]
-    if flip_green and pixels.ndim > 1 and pixels.shape[-1] >= 3:
-        pixels[..., 1] = most - pixels[..., 1]
+        colours[...] = most - colours
+    if flip_green and colours.ndim == 3:
+        colours[..., 1] = most - colours[..., 1]

@@ -20,7 +20,7 @@ class MadeImage:
     Attributes:
         image: (H, W, 3) uint8 sRGB.
         mask: (H, W) uint8, 0 or 255.
-        instances: (H, W) uint16, 0 for background, k for cable k of the scene, counted from 1.
+        instances: (H, W) uint16, 0 for background; counted from 1, cable by cable and strand by strand of a bundle.
         timings_s: seconds per stage; the upload adds its own.
     """
 

@@ -143,3 +143,12 @@ class View:
         down = np.maximum(-towards[:, 2], _LEVEL * np.linalg.norm(towards, axis=1))
         met: Points = self.position_m + (self.position_m[2] / down)[:, None] * towards
         return met
+
+    @property
+    def steepest_slope(self) -> float:
+        """Greatest sideways reach of the picture's lines of sight on their way to the floor, over the camera's height.
+
+        By so much of its height what stands on the floor hides, at most, what lies behind it.
+        """
+        aside = self.floor_corners_m()[:, :2] - self.position_m[:2]
+        return float(np.linalg.norm(aside, axis=1).max() / self.position_m[2])

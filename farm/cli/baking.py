@@ -9,7 +9,7 @@ from rich.progress import Progress
 from assets.bake import BakedSet, bake_surfaces
 from assets.baked import surface_directory
 from assets.environments import DEFAULT_WIDTH, FOLDER_NAME, missing_environments
-from farm.category import Background
+from farm.category import Background, Light
 from farm.cli.options import log_folder
 from farm.cli.worker_program import ask_worker, require_blender
 from farm.header import BuiltinSurfaceRef, DatasetHeader
@@ -73,15 +73,16 @@ def render_environments(
 
 
 def bake_for(header: DatasetHeader, folder: Path | None, screen: Console) -> None:
-    """Draw the surfaces that a dataset shows, and render its environments.
+    """Draw the surfaces that a dataset shows, and render the environments that light it.
 
     Raises:
         AssetError: if the folder can't be written.
         FarmError: if the worker's program fails.
     """
+    shown = [category.traits for category, quota in header.spec.quotas.items() if quota]
     environments = [hdri.name for hdri in header.hdris if hdri.recipe_version is not None]
-    if environments:
+    if environments and any(traits.light is Light.DISTRIBUTED for traits in shown):
         render_environments(environments, folder, screen)
     # Surfaces are drawn at random from all of them, so a single picture over a floor may need any.
-    if any(quota and category.traits.background is Background.FLOOR for category, quota in header.spec.quotas.items()):
+    if any(traits.background is Background.FLOOR for traits in shown):
         bake([surface.name for surface in header.surfaces if isinstance(surface, BuiltinSurfaceRef)], folder, screen)

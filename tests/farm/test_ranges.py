@@ -47,3 +47,50 @@ def test_one_number_is_a_range_without_width() -> None:
     """For the diameter and the length, of which the publication has one."""
     cable = with_ranges(cable={"diameter_m": 0.003, "length_m": 0.2}).cable
     assert (cable.diameter_m, cable.length_m) == ((0.003, 0.003), (0.2, 0.2))
+
+
+def test_a_camera_that_would_see_the_edge_of_the_floor_is_refused() -> None:
+    """It depends on its tilt, its lens and its height; straight, 1.5 m is low enough."""
+    assert with_ranges(camera={"heights_m": [1.5]}).camera.heights_m == (1.5,)
+    for camera in (
+        {"tilt_deg": [0.0, 30.0], "heights_m": [1.5]},
+        {"roll_deg": [0.0, 45.0], "heights_m": [1.5]},
+        {"tilt_deg": [30.0, 30.0], "heights_m": [0.9]},
+    ):
+        with pytest.raises(SpecError, match=r"ranges\.camera: heights_m .*of the floor"):
+            with_ranges(camera=camera)
+
+
+@pytest.mark.parametrize(
+    ("part", "key", "bounds"),
+    [
+        ("studio", "count", [0, 2]),
+        ("camera", "focus_offset_share", [0.0, 1.0]),
+        ("development", "key", [0.2, 2.0]),
+        ("development", "chromatic_aberration", [-1.0, 0.0]),
+        ("development", "exposure_ev", [0.0, 5000.0]),
+        ("plate", "blur_px", [0.0, 1e5]),
+        ("clutter", "stick_length_m", [0.1, 1e5]),
+    ],
+)
+def test_what_no_scene_could_be_drawn_from_is_refused(part: str, key: str, bounds: list[float]) -> None:
+    """When the description is read, with its place in it, and not by each worker."""
+    with pytest.raises(SpecError, match=rf"ranges\.{part}\.{key}"):
+        with_ranges(**{part: {key: bounds}})
+
+
+@pytest.mark.parametrize(
+    ("part", "key", "bounds"),
+    [
+        ("skin", "stripe_count", [0, 2]),
+        ("skin", "stripe_count", [1, 5]),
+        ("bundle", "strands", [1, 7]),
+        ("bundle", "strands", [2, 8]),
+        ("bundle", "strand_diameter_m", [0.001, 10.0]),
+        ("bundle", "tie_width_m", [0.0025, 10.0]),
+    ],
+)
+def test_cables_that_could_not_be_made_are_refused(part: str, key: str, bounds: list[float]) -> None:
+    """Likewise."""
+    with pytest.raises(SpecError, match=rf"ranges\.cable\.{part}\.{key}"):
+        with_ranges(cable={part: {key: bounds}})

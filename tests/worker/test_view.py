@@ -93,3 +93,11 @@ def test_what_is_behind_the_camera_has_no_depth() -> None:
     """Nor has what is beside it."""
     view = turned(30.0, 0.0)
     assert (view.depths_m(np.array([[0.5, 0.0, 0.5], view.position_m])) <= 1e-12).all()
+
+
+def test_the_steepest_slope_is_that_to_the_farthest_corner() -> None:
+    """Straight down it is half the diagonal's slope; towards a corner the tilt adds to that angle."""
+    reach = math.sqrt(2) * 0.5 * 36 / 24
+    assert turned(focal_length_mm=24.0).steepest_slope == pytest.approx(reach)
+    tilted = turned(15.0, 45.0, focal_length_mm=24.0).steepest_slope
+    assert tilted == pytest.approx(math.tan(math.atan(reach) + math.radians(15)))

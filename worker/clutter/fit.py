@@ -9,26 +9,25 @@ from farm.clutter import Part
 from worker.clutter.parts import part_extent
 from worker.shapes import Points
 
-VIEW_SLOPE = 0.75
-"""How far sideways a thing hides another, in its height: seen from 37 degrees off the vertical, which is more than the
-corner of any picture."""
 
-
-def parts_that_fit(parts: Sequence[Part], curves: Sequence[Points], radii_m: NDArray[np.float64]) -> tuple[Part, ...]:
+def parts_that_fit(
+    parts: Sequence[Part], curves: Sequence[Points], radii_m: NDArray[np.float64], slope: float
+) -> tuple[Part, ...]:
     """The parts that neither touch a cable, a stick or a part before them, nor overlap one as the camera sees it.
 
     Args:
         parts: as drawn.
         curves: settled centrelines (N, 3) of cables and sticks, metres, finely sampled or nodes.
         radii_m: (curves,), radius of each.
+        slope: how far sideways a thing hides another, in its height; see `worker.view.View.steepest_slope`.
     """
     kept: list[tuple[Part, float]] = []
     for part in parts:
         radius, height = part_extent(part)
-        reach = radius + VIEW_SLOPE * height
+        reach = radius + slope * height
         place = np.array([part.x_m, part.y_m])
         beside_rods = all(
-            _is_clear(curve, float(rod), place, reach) for curve, rod in zip(curves, radii_m, strict=True)
+            _is_clear(curve, float(rod), place, reach, slope) for curve, rod in zip(curves, radii_m, strict=True)
         )
         beside_parts = all(np.hypot(part.x_m - one.x_m, part.y_m - one.y_m) > reach + other for one, other in kept)
         if beside_rods and beside_parts:
@@ -36,11 +35,11 @@ def parts_that_fit(parts: Sequence[Part], curves: Sequence[Points], radii_m: NDA
     return tuple(part for part, _ in kept)
 
 
-def _is_clear(curve: Points, radius_m: float, place: NDArray[np.float64], reach_m: float) -> bool:
+def _is_clear(curve: Points, radius_m: float, place: NDArray[np.float64], reach_m: float, slope: float) -> bool:
     """Whether a polyline's segments stay away from a place; what is high up is seen farther out."""
     start, edge = curve[:-1, :2], np.diff(curve[:, :2], axis=0)
     share = np.einsum("ij,ij->i", place - start, edge) / np.maximum(np.einsum("ij,ij->i", edge, edge), 1e-18)
     nearest = start + np.clip(share, 0.0, 1.0)[:, None] * edge
     height = np.maximum(curve[:-1, 2], curve[1:, 2]) + radius_m
     away = np.linalg.norm(nearest - place, axis=1)
-    return bool((away > reach_m + radius_m + VIEW_SLOPE * height).all())
+    return bool((away > reach_m + radius_m + slope * height).all())

@@ -19,6 +19,7 @@ from worker.clutter.sticks import placed_on, stick_solid
 from worker.images import ImageShelf
 from worker.shapes import Points
 from worker.texture_window import light_of
+from worker.view import View
 
 PREFIX = "clutter"
 
@@ -47,7 +48,9 @@ def add_clutter(scene: Scene, sticks_m: tuple[Points, ...], curves: list[Points]
     for number, (stick, nodes) in enumerate(zip(sticks, sticks_m, strict=True)):
         _add_stick(f"{PREFIX}.stick.{number}", stick, nodes)
     diameters = [*(cable.diameter_m for cable in scene.cables), *(stick.diameter_m for stick in sticks)]
-    for number, part in enumerate(parts_that_fit(scene.parts, [*curves, *sticks_m], np.array(diameters) / 2)):
+    slope = View.of(scene.camera, 1).steepest_slope
+    kept = parts_that_fit(scene.parts, [*curves, *sticks_m], np.array(diameters) / 2, slope)
+    for number, part in enumerate(kept):
         _add_part(f"{PREFIX}.part.{number}", part)
 
 

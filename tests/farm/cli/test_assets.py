@@ -99,3 +99,14 @@ def test_a_dataset_gets_the_environments_that_it_names(asked: list[list[str]], t
     (arguments,) = asked
     assert arguments[-2:] == ["--name", "office_2"]
     assert arguments.count("--name") == 1
+
+
+def test_pictures_under_lamps_need_no_environment(
+    asked: list[list[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """None is rendered for them."""
+    monkeypatch.setattr(baking, "bake", lambda *_: None)
+    room = HdriRef(name="office_2", path=None, dark=False, recipe_version=1)
+    header = stand_in_header(close_concentrated_light=1)
+    baking.bake_for(header.model_copy(update={"hdris": (*header.hdris, room)}), tmp_path, Console(quiet=True))
+    assert asked == []
