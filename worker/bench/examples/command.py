@@ -15,7 +15,8 @@ from worker.studio import open_studio
 
 DEFAULT_EACH = 4
 
-RESOLUTION = 256
+RESOLUTION = 320
+"""Pixels along an edge of a picture; a sheet shows it smaller."""
 
 _PAGE = 10
 """Rows of a sheet, of two examples each."""
@@ -50,7 +51,7 @@ def run(out: Path, *, seed: int, each: int | None, groups: Sequence[str], only: 
 
 def _pictures(example: Example, each: int) -> Iterator[NDArray[np.uint8]]:
     header = example.header.model_copy(
-        update={"spec": example.header.spec.model_copy(update={"resolution": 2 * RESOLUTION})}
+        update={"spec": example.header.spec.model_copy(update={"resolution": RESOLUTION})}
     )
     studio = open_studio(header, device="cpu", threads=0, assets=None)
     for index in range(each):

@@ -9,8 +9,8 @@ from worker.bench.training.plan import Plan
 
 DEFAULT_IMAGES = 150
 DEFAULT_TEST_IMAGES = 60
-DEFAULT_EPOCHS = 40
-"""760 steps of 8 pictures with the default images: some 7 minutes a network on two cores."""
+DEFAULT_EPOCHS = 30
+"""570 steps of 8 pictures with the default images."""
 
 
 def add_training(commands: Any, shared: argparse.ArgumentParser) -> None:
