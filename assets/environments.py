@@ -21,7 +21,7 @@ SMALLEST_WIDTH, LARGEST_WIDTH = 64, 8192
 DEFAULT_WIDTH = 4096
 """Pixels around the horizon: a far picture, 40 degrees wide, shows 455 of them."""
 
-TARGET_LUMINANCE = 0.8
+TARGET_LUMINANCE = 0.4
 """Mean over the sphere to which a panorama is scaled; Blender's own HDRIs of the day have 0.5 to 0.94."""
 
 BRIGHTEST = 50.0
