@@ -1,4 +1,4 @@
-"""Masks from the geometry itself: the silhouettes of the rendered tubes, drawn in order of height. Pure numpy.
+"""Masks from the geometry itself: the silhouettes of the rendered tubes, drawn from far to near. Pure numpy.
 
 The camera is taken as a pinhole in the middle of the lens. Opposite points of the lens see an edge moved to opposite
 sides by the same, so that depth of field leaves its half-way line, and with it the mask, where the pinhole sees it.

@@ -68,7 +68,7 @@ class Convex:
     Attributes:
         instance: as of a tube.
         rings: (rings, points of each, 3) metres, clockwise as seen by who looks back from the last to the first.
-        place_m: (3,) by whose height it lies above or below what it meets.
+        place_m: (3,) by whose distance it lies before or behind what it meets; of one around cables its corners tell.
         surface: what is seen of it.
         around: whether it goes around cables, which come out of its ends and hide those.
     """

@@ -1,4 +1,4 @@
-"""The rendered pieces as a camera sees them: flat quads in order of height. Pure numpy and OpenCV."""
+"""The rendered pieces as a camera sees them: flat quads in order of distance. Pure numpy and OpenCV."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -17,10 +17,11 @@ _BAND_PIXELS = 2**18
 
 @dataclass(frozen=True, slots=True)
 class Silhouettes:
-    """Cables as seen, in convex quads, the lowest first: a later one hides an earlier one.
+    """Cables as seen, in convex quads, the farthest first: a later one hides an earlier one.
 
-    However the camera is turned, lines of sight go down from it, as it is above all that it sees. So of two points on
-    one of them, the higher is the nearer.
+    The distance is that from the eye to where a line of sight touches the ball that fits the tube there. Of two balls
+    that do not meet, the one with the shorter tangent is the nearer on every line through both, whatever their sizes:
+    the plane of equal tangents lies between them (Aurenhammer, SIAM J. Comput. 16(1), 1987).
 
     Attributes:
         quads_px: (N, 4, 2) corners in order around each.
@@ -57,16 +58,16 @@ def silhouettes(pieces: Sequence[Piece], view: View, sides: int) -> Silhouettes:
         _outline(piece, view) if isinstance(piece, Convex) else _silhouette(piece.curve, piece.radius_m, view, sides)
         for piece in pieces
     ]
-    heights = np.concatenate([heights for _, heights in seen])
-    instances = np.repeat([piece.instance for piece in pieces], [len(heights) for _, heights in seen])
-    order = np.argsort(heights, kind="stable")
+    distances = np.concatenate([distances for _, distances in seen])
+    instances = np.repeat([piece.instance for piece in pieces], [len(distances) for _, distances in seen])
+    order = np.argsort(-distances, kind="stable")
     return Silhouettes(np.concatenate([quads for quads, _ in seen])[order], instances[order])
 
 
 def _outline(solid: Convex, view: View) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The convex hull of a solid's corners as seen, in quads that share a corner, all at the height of the solid.
+    """The convex hull of a solid's corners as seen, in quads that share a corner, all at the distance of the solid.
 
-    Of one around cables that is the height of its lowest corner; what is seen of its side lies above the cables.
+    Of one around cables that is the distance of its farthest corner; what is seen of its side lies before the cables.
     """
     corners = solid.rings.reshape(-1, 3)
     if corners[:, 2].max() >= view.position_m[2]:
@@ -76,10 +77,11 @@ def _outline(solid: Convex, view: View) -> tuple[NDArray[np.float64], NDArray[np
     starts = np.arange(1, len(hull) - 1, 2)
     fan = np.stack([np.zeros_like(starts), starts, starts + 1, np.minimum(starts + 2, len(hull) - 1)], axis=1)
     if not solid.around:
-        return hull[fan], np.full(len(fan), solid.place_m[2])
+        return hull[fan], np.full(len(fan), np.linalg.norm(view.eye_m - solid.place_m))
     side = _side(seen.reshape(*solid.rings.shape[:2], 2))
-    heights = np.repeat([corners[:, 2].min(), solid.place_m[2]], [len(fan), len(side)])
-    return np.concatenate([hull[fan], side]), heights
+    away = np.linalg.norm(view.eye_m - corners, axis=1)
+    distances = np.repeat([away.max(), away.min()], [len(fan), len(side)])
+    return np.concatenate([hull[fan], side]), distances
 
 
 def _side(rings_px: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -94,7 +96,7 @@ def _side(rings_px: NDArray[np.float64]) -> NDArray[np.float64]:
 def _silhouette(
     curve: Points, radius_m: float | NDArray[np.float64], view: View, sides: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The tube between its outermost corners on either side, ring by ring, and its flat ends: quads and their heights.
+    """The tube between its outermost corners on either side, ring by ring, and its ends: quads and their distances.
 
     For a point p of the axis with tangent t, let v be the part of (camera - p) across t and d its length. A ray from
     the camera touches a round cable at p + r (r/d v/d +- sqrt(1 - r^2/d^2) t x v/d), the tangents from a point to a
@@ -115,24 +117,29 @@ def _silhouette(
         place: Points = curve[ring] + corner_radius[ring] * (sideways + upwards)
         return place
 
+    tangent = np.sqrt(np.maximum(np.einsum("ij,ij->i", to_camera, to_camera) - np.square(radius_m), 0.0))
     touching = [step * np.round((toward + side * half) / step) for side in (1, -1)]
-    strips = [(corners(touching[0], slice(None)), corners(touching[1], slice(None)))]
+    strips = [(corners(touching[0], slice(None)), corners(touching[1], slice(None)), tangent)]
     # An end is a polygon: its corners, paired from one side to the other, make a strip of quads.
     angles = step * np.arange(sides // 2)
-    strips += [(corners(angles, ring), corners(-angles - step, ring)) for ring in (slice(0, 1), slice(-1, None))]
-    quads, heights = zip(*(_quads(left, right, view) for left, right in strips), strict=True)
-    return np.concatenate(quads), np.concatenate(heights)
+    strips += [
+        (corners(angles, ring), corners(-angles - step, ring), np.broadcast_to(tangent[ring], len(angles)))
+        for ring in (slice(0, 1), slice(-1, None))
+    ]
+    quads, distances = zip(*(_quads(left, right, away, view) for left, right, away in strips), strict=True)
+    return np.concatenate(quads), np.concatenate(distances)
 
 
-def _quads(left: Points, right: Points, view: View) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The strip between two lines of points (N, 3) in quads (N - 1, 4, 2) px, with the height of each (N - 1,).
+def _quads(
+    left: Points, right: Points, away_m: NDArray[np.float64], view: View
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The strip between two lines of points (N, 3) in quads (N - 1, 4, 2) px, with the distance of each (N - 1,).
 
     What is not in front of the camera is left out, for it has no picture.
     """
-    middle = 0.5 * (left[:, 2] + right[:, 2])
     seen = np.minimum(view.depths_m(left), view.depths_m(right)) > 0.0
     kept = seen[:-1] & seen[1:]
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         left_px, right_px = view.project(left), view.project(right)
     quads = np.stack([left_px[:-1], left_px[1:], right_px[1:], right_px[:-1]], axis=1)
-    return quads[kept], 0.5 * (middle[:-1] + middle[1:])[kept]
+    return quads[kept], 0.5 * (away_m[:-1] + away_m[1:])[kept]

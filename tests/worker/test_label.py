@@ -89,6 +89,20 @@ def test_what_hides_a_cable_is_background() -> None:
     assert (label_cables([upper, below], VIEW, SIDES).mask == label_cables([upper], VIEW, SIDES).mask).all()
 
 
+@pytest.mark.parametrize("tilt", [0.0, 15.0, 30.0])
+def test_what_leans_on_the_camera_s_side_of_a_thick_thing_is_before_it(tilt: float) -> None:
+    """Half-way up a stick, where its own axis is: seen from the side, none of the stick is before it."""
+    view = View(0.24, 256, focal_length_mm=24.0, tilt_deg=tilt, tilt_bearing_deg=180.0)
+    along = np.linspace(-0.05, 0.05, 51)
+    stick, cable = (
+        np.stack([np.full_like(along, x), along, np.full_like(along, 0.006)], axis=1) for x in (0.12, 0.113)
+    )
+    alone = label_cables([tubular(cable, 0.001)], view, SIDES)
+    hidden = label_cables([tubular(stick, 0.006, OCCLUDER), tubular(cable, 0.001)], view, SIDES)
+    assert alone.mask.any()
+    assert (alone.mask == hidden.mask).all()
+
+
 def test_a_solid_covers_the_hull_of_its_corners() -> None:
     """A box of 20 by 10 mm just above the floor, as an occluder on a wide cable, leaves a hole of its size."""
     x, y = np.array([-0.01, 0.01, 0.01, -0.01]), np.array([-0.005, -0.005, 0.005, 0.005])
