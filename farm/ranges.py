@@ -33,6 +33,7 @@ from farm.range_types import (
     NotNegativeRange,
     PositiveRange,
     Range,
+    ScaleRange,
     StopsRange,
     in_order,
 )
@@ -78,7 +79,7 @@ class FloorRanges(Model):
     offset_x: Range = (-100.0, 100.0)
     offset_y: Range = (-100.0, 100.0)
     rotation_deg: Range = (0.0, 360.0)
-    scale: PositiveRange = (0.7, 1.5)
+    scale: ScaleRange = (0.7, 1.5)
     light_share: Fraction = 0.0
     wear: WearRanges = WearRanges()
 

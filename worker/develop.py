@@ -106,11 +106,16 @@ def expose(light: Light, key: float, exposure_ev: float) -> Light:
     return light * np.float32(key / mean * 2.0**exposure_ev)
 
 
+_LEAST_LIT = 0.05
+"""Of the strongest channel: a candle has hardly any blue, and a gain of tens would be noise alone."""
+
+
 def balance(light: Light, error: tuple[float, float], lit_by: NDArray[np.float64] = NEUTRAL) -> Light:
     """Take off most of the colour of the scene's light, and multiply red and blue by the error's gains.
 
     What is as grey as white paper in that light keeps its luminance.
     """
+    lit_by = np.maximum(lit_by, _LEAST_LIT * lit_by.max())
     left = lit_by ** (1.0 - ADAPTED) * [error[0], 1.0, error[1]]
     gains = left / lit_by * (REC709_LUMINANCE @ lit_by) / (REC709_LUMINANCE @ left)
     balanced: Light = light * gains.astype(np.float32)

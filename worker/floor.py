@@ -41,8 +41,8 @@ def set_unseen_floor(shelf: ImageShelf) -> None:
 def set_floor(floor: Floor, files: SurfaceFiles, shelf: ImageShelf, view: View | None) -> None:
     """Show a surface.
 
-    What a floor has been through is drawn on the texels that are seen. A surface whose colour is in floating point
-    stays as it is.
+    What a floor has been through is drawn on the texels that are seen. A surface with a map in
+    floating point stays as it is.
 
     Args:
         floor: how its texture lies.
@@ -76,7 +76,7 @@ def set_floor(floor: Floor, files: SurfaceFiles, shelf: ImageShelf, view: View |
         names.FLOOR_METALLIC: shelf.constant(metallic),
     }
     worn: dict[str, Texels] = {}
-    if floor.wear is not None and names.FLOOR_COLOUR in decoded:
+    if floor.wear is not None and len(decoded) == len(given):
         worn = _worn(floor, floor.wear, files.size_m, decoded, window, metallic)
     nodes = bpy.data.materials[names.FLOOR].node_tree.nodes
     for node, file in maps.items():
