@@ -57,7 +57,8 @@ CAMERAS = {
 @pytest.fixture(scope="module")
 def settled() -> tuple[Scene, CableShapes]:
     """A far scene, and its cables at rest."""
-    scene, header = make_scene(Category.CLOSE_CONCENTRATED, index=3), make_header()
+    thin = {"cable": {"count_draws": 1, "diameter_m": 0.002}}
+    scene, header = make_scene(Category.CLOSE_CONCENTRATED, index=3, ranges=thin), make_header()
     return scene, let_fall(scene, header.spec.simulator, header.spec.fall)
 
 
