@@ -14,6 +14,8 @@ _CLOSE = {"camera": {"heights_m": [0.12, 0.15, 0.2]}}
 
 _NO_CLUTTER = {"clutter": {"share": 0.0}}
 
+_WELL_EXPOSED = {"development": {"exposure_ev": [0.0, 0.0]}}
+
 _ONE_CABLE = {"count": [1, 3], "diameter_m": [0.002, 0.006]}
 
 _PLAIN_SKIN: Mapping[str, float] = {
@@ -100,8 +102,9 @@ def environments(seed: int) -> Iterator[Example]:
 
 def cables(seed: int) -> Iterator[Example]:
     """Every kind of cable."""
-    for label, ranges in CABLE_KINDS.items():
-        yield Example(label, _header(seed, ranges), Category.CLOSE_CONCENTRATED)
+    for number, (label, ranges) in enumerate(CABLE_KINDS.items()):
+        # Each kind has scenes of its own, exposed as it should be.
+        yield Example(label, _header(seed + number, {**ranges, **_WELL_EXPOSED}), Category.CLOSE_CONCENTRATED)
 
 
 GROUPS = {"surfaces": surfaces, "environments": environments, "cables": cables}
