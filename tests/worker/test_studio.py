@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
@@ -232,3 +233,16 @@ def test_eevee_renders_headless(baked: Path) -> None:
         assert made.render.engine == engine
         pictures.append(made.image.astype(float))
     assert np.corrcoef(pictures[0].ravel(), pictures[1].ravel())[0, 1] > 0.9
+
+
+def test_a_photograph_stands_behind_far_cables(baked: Path, tmp_path: Path) -> None:
+    """All that is no cable shows it, here a plain red one; it takes part only where it is named."""
+    cv2.imwrite(str(tmp_path / "red.png"), np.full((300, 400, 3), (20, 20, 200), np.uint8))
+    plain = small_header(ranges={"plate": {"share": 1.0}})
+    named = plain.model_copy(update={"plates": tuple(InstalledAssets().plates_in(tmp_path))})
+    job = Job(category=Category.FAR, index=0)
+    for header, is_red in ((named, True), (plain, False)):
+        made = open_studio(header, device="cpu", threads=0, assets=baked).make(job, header)
+        far = cv2.dilate(made.mask, np.ones((9, 9), np.uint8)) == 0
+        red, green, blue = (np.median(made.image[far][:, channel]) for channel in range(3))
+        assert bool(red > 1.5 * max(green, blue)) == is_red
