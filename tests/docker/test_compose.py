@@ -121,9 +121,13 @@ def test_an_image_runs_as_the_farms_user(name: str) -> None:
 def test_the_worker_image_takes_the_list_of_packages() -> None:
     """The list that `make setup` checks is the one that the image installs, and the builder gets to see it."""
     installs = [line for line in _instructions() if "apt-get install" in line]
-    assert len(installs) == 1
-    assert "docker/debian-packages.txt" in "".join(_stages()["worker"])
-    assert re.search(r"apt-get install --yes --no-install-recommends\s+&&", installs[0])
+    stages = _stages()
+    assert len(installs) == 2
+    for stage, install in zip(("environments", "worker"), installs, strict=True):
+        assert "docker/debian-packages.txt" in "".join(stages[stage])
+        assert re.search(
+            r"xargs --arg-file=/tmp/libraries apt-get install --yes --no-install-recommends(\s+&&|$)", install
+        )
     assert "!docker/debian-packages.txt" in (_ROOT / ".dockerignore").read_text().splitlines()
 
 

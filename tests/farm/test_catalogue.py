@@ -62,14 +62,17 @@ def spec() -> DatasetSpec:
 
 def test_folders_add_to_the_builtin(spec: DatasetSpec, template: Path) -> None:
     """The user's folders come after our own."""
-    header = make_header(spec, Inputs(template, (Path("a"), Path("b")), (Path("sky"),)), Shelf())
+    inputs = Inputs(template, (Path("a"), Path("b")), (Path("sky"),), environments=False)
+    header = make_header(spec, inputs, Shelf())
     assert [surface.name for surface in header.surfaces] == ["oak", "a", "b"]
     assert [hdri.name for hdri in header.hdris] == ["city", "sky"]
 
 
 def test_folders_replace_the_builtin(spec: DatasetSpec, template: Path) -> None:
     """Our own can be left out."""
-    inputs = Inputs(template, (Path("a"),), (Path("sky"),), builtin_textures=False, builtin_hdris=False)
+    inputs = Inputs(
+        template, (Path("a"),), (Path("sky"),), builtin_textures=False, builtin_hdris=False, environments=False
+    )
     header = make_header(spec, inputs, Shelf())
     assert [surface.name for surface in header.surfaces] == ["a"]
     assert [hdri.name for hdri in header.hdris] == ["sky"]

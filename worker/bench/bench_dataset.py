@@ -10,11 +10,9 @@ from farm.job import Job
 from farm.spec import parse_spec
 from farm.styles import merge_tables
 
-PUBLISHED: Mapping[str, object] = {
-    "style": "published",
-    "close_distributed_hdri": "city",
-    "ranges": {"cable": {"count_draws": 1, "diameter_m": [0.002, 0.002]}},
-}
+_RANGES: Mapping[str, object] = {"cable": {"count_draws": 1, "diameter_m": [0.002, 0.002]}}
+
+PUBLISHED: Mapping[str, object] = {"style": "published", "close_distributed_hdri": "city", "ranges": _RANGES}
 """The scenes on which quality is calibrated and times are compared: those of the published style, but for as many
 cables as an even draw gives, of 2 mm. Changing them would make all that was measured on them void."""
 
@@ -22,12 +20,16 @@ cables as an even draw gives, of 2 mm. Changing them would make all that was mea
 def bench_header(images: int, seed: int, **keys: object) -> DatasetHeader:
     """A header that asks for `images` of each category, as published unless `keys`, others of the spec, say otherwise.
 
+    Ranges among them are laid over those of the benchmarks.
+
     Raises:
         SpecError: if a key is wrong.
         AssetError: if the built-in assets are not complete.
     """
     quotas = {str(category): images for category in Category}
-    spec = parse_spec(merge_tables({**PUBLISHED, "seed": seed, "quotas": quotas}, keys), source="benchmark")
+    own = {key: value for key, value in keys.items() if key != "ranges"}
+    ranges = merge_tables({"ranges": _RANGES}, {"ranges": keys.get("ranges", {})})
+    spec = parse_spec({**PUBLISHED, "seed": seed, "quotas": quotas, **own, **ranges}, source="benchmark")
     return make_header(spec, Inputs(environments=False), InstalledAssets())
 
 
