@@ -5,7 +5,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-REC709_LUMINANCE: Final = np.array([0.2126, 0.7152, 0.0722])
+from assets.hdris import LUMINANCE
+
+REC709_LUMINANCE: Final = LUMINANCE
 """Of red, green and blue, ITU-R BT.709."""
 
 _WEIGHTS = REC709_LUMINANCE.astype(np.float32)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from farm.looks import envelope_ratio
 from worker.shapes import Points
 from worker.tube import frames
 
@@ -19,11 +20,6 @@ _RING: dict[int, tuple[int, float]] = {
 }
 """Of the tightest packing of so many equal circles in one: how many are in the ring around the middle, and where their
 middles are, in radii of a strand. The seventh is in the middle. (Kravitz, Mathematics Magazine 40, 1967, p. 65.)"""
-
-
-def envelope(strands: int) -> float:
-    """Radius of the least circle around 2 to 7 strands, in radii of one."""
-    return 1.0 + _RING[strands][1]
 
 
 def places(strands: int) -> NDArray[np.float64]:
@@ -44,7 +40,7 @@ def strand_radius(strands: int, wanted_m: float, envelope_m: float, lay_m: float
         lay_m: length of one turn; 0 for strands that do not turn. Turning strands come nearer to their neighbours than
             a cut across the bundle shows.
     """
-    packed_m = min(wanted_m, envelope_m / envelope(strands))
+    packed_m = min(wanted_m, envelope_m / envelope_ratio(strands))
     ring, distance = _RING[strands]
     if not lay_m:
         return packed_m

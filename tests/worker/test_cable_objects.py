@@ -14,14 +14,13 @@ from farm.catalogue import Inputs, make_header  # noqa: E402
 from farm.category import Category  # noqa: E402
 from farm.header import DatasetHeader  # noqa: E402
 from farm.job import Job  # noqa: E402
-from farm.looks import Bundle, CableEnd, EndKind, Sheath, Tie  # noqa: E402
+from farm.looks import Bundle, CableEnd, EndKind, Sheath, Tie, envelope_ratio  # noqa: E402
 from farm.scene import Cable, Scene  # noqa: E402
 from farm.spec import parse_spec  # noqa: E402
 from tests.worker.scenes import make_skin  # noqa: E402
 from worker.bench.mask_agreement import compare  # noqa: E402
 from worker.bench.mask_reference import render_coverage  # noqa: E402
 from worker.randomize import draw_scene  # noqa: E402
-from worker.strands import envelope  # noqa: E402
 from worker.studio import Studio, open_studio  # noqa: E402
 
 pytestmark = pytest.mark.blender
@@ -63,7 +62,7 @@ def dressed(cables: tuple[Cable, ...], index: int) -> tuple[Cable, ...]:
     drawn = cables * 3
     short = {"length_m": 0.07, "diameter_m": 0.004, "ends": ends, "material": make_skin(roughness=0.2)}
     return (
-        drawn[0].model_copy(update={"diameter_m": 0.0018 * envelope(strands), "material": bundle}),
+        drawn[0].model_copy(update={"diameter_m": 0.0018 * envelope_ratio(strands), "material": bundle}),
         drawn[1].model_copy(update={**short, "x_m": 0.01, "y_m": 0.015, "start_height_m": 0.02}),
         drawn[2].model_copy(update={"start_height_m": 0.03, "material": make_skin(sheath=Sheath.BRAIDED)}),
     )

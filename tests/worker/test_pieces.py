@@ -4,13 +4,12 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import cdist
 
-from farm.looks import Bundle, CableEnd, EndKind, Tie
+from farm.looks import Bundle, CableEnd, EndKind, Tie, envelope_ratio
 from farm.scene import Cable, Scene
 from tests.worker.scenes import make_scene, make_skin
 from worker.piece import OCCLUDER, Convex, Piece, Plain, Substance, Tubular
 from worker.pieces import instance_count, pieces_of
 from worker.shapes import Points
-from worker.strands import envelope
 
 LENGTH_M = 0.2
 
@@ -31,7 +30,7 @@ def bundle(strands: int, *ties: Tie) -> Bundle:
     """Of strands as thick as their envelope of 4 mm has room for."""
     return Bundle(
         strands=tuple(make_skin(pattern_seed=seed) for seed in range(strands)),
-        strand_diameter_m=0.004 / envelope(strands),
+        strand_diameter_m=0.004 / envelope_ratio(strands),
         lay_m=0.08,
         phase_deg=20.0,
         ties=ties,

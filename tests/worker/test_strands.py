@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import cdist
 
-from worker.strands import envelope, places, strand_radius, turning
+from farm.looks import envelope_ratio
+from worker.strands import places, strand_radius, turning
 
 COUNTS = range(2, 8)
 
@@ -21,7 +22,7 @@ def test_strands_touch_and_do_not_overlap(count: int) -> None:
 @pytest.mark.parametrize("count", COUNTS)
 def test_strands_lie_within_their_circle_and_reach_it(count: int) -> None:
     """The farthest strand touches it from within."""
-    assert np.linalg.norm(places(count), axis=1).max() + 1.0 == pytest.approx(envelope(count))
+    assert np.linalg.norm(places(count), axis=1).max() + 1.0 == pytest.approx(envelope_ratio(count))
 
 
 @pytest.mark.parametrize("count", COUNTS)
