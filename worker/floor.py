@@ -12,7 +12,7 @@ from worker.library import SurfaceFiles
 from worker.marks import marks_on, sized
 from worker.texture_window import Texels, TextureWindow, texels_to_floor, tile_coordinates, window_on
 from worker.view import View
-from worker.wear import turned_over, worn_colour, worn_metallic, worn_roughness
+from worker.wear import turned_over, worn_colour, worn_roughness
 
 UNSEEN_FLOOR = 0.4
 """Albedo and roughness of a floor that only throws light back at the cables."""
@@ -77,7 +77,7 @@ def set_floor(floor: Floor, files: SurfaceFiles, shelf: ImageShelf, view: View |
     }
     worn: dict[str, Texels] = {}
     if floor.wear is not None and len(decoded) == len(given):
-        worn = _worn(floor, floor.wear, files.size_m, decoded, window, metallic)
+        worn = _worn(floor, floor.wear, files.size_m, decoded, window)
     nodes = bpy.data.materials[names.FLOOR].node_tree.nodes
     for node, file in maps.items():
         if node in worn:
@@ -91,10 +91,10 @@ def set_floor(floor: Floor, files: SurfaceFiles, shelf: ImageShelf, view: View |
     _place_texture(floor_object.data, floor, files.size_m, window)
 
 
-def _worn(
-    floor: Floor, wear: Wear, size_m: float, maps: dict[str, Texels], window: TextureWindow, metallic: float
-) -> dict[str, Texels]:
-    """The maps' windows after what the floor has been through; metal and roughness of their own where marks need them.
+def _worn(floor: Floor, wear: Wear, size_m: float, maps: dict[str, Texels], window: TextureWindow) -> dict[str, Texels]:
+    """The maps' windows after what the floor has been through; a roughness of their own where marks need one.
+
+    Metal stays metal under them: stains and dust are films, that colour it and take its gloss.
 
     Args:
         floor: how its texture lies.
@@ -102,7 +102,6 @@ def _worn(
         size_m: edge of a tile at scale 1.
         maps: the tile's texels, by the name of their node.
         window: of them that is seen.
-        metallic: of the surface where there is no map of it.
     """
     if wear.mirrored:
         maps = {node: turned_over(pixels, normal=node == names.FLOOR_NORMAL) for node, pixels in maps.items()}
@@ -113,11 +112,6 @@ def _worn(
     if marks.any:
         rough = seen.get(names.FLOOR_ROUGHNESS, np.full((rows, columns), round(255 * UNKNOWN_ROUGHNESS), np.uint8))
         worn[names.FLOOR_ROUGHNESS] = worn_roughness(rough, sized(marks, *rough.shape[:2]))
-        metal = seen.get(names.FLOOR_METALLIC)
-        if metal is None and metallic > 0:
-            metal = np.full((rows, columns), round(255 * metallic), np.uint8)
-        if metal is not None:
-            worn[names.FLOOR_METALLIC] = worn_metallic(metal, sized(marks, *metal.shape[:2]))
     return worn
 
 

@@ -69,16 +69,6 @@ def worn_roughness(texels: Texels, marks: Marks) -> Texels:
     return _rounded(rough)
 
 
-def worn_metallic(texels: Texels, marks: Marks) -> Texels:
-    """A window's metal (H, W): under stains and dust it shows less."""
-    metal = (texels if texels.ndim == 2 else texels[:, :, 0]).astype(np.float32)
-    if marks.stain is not None:
-        metal *= 1 - 0.5 * marks.stain
-    if marks.dust is not None:
-        metal *= 1 - np.float32(DUST_COVERS) * marks.dust
-    return _rounded(metal)
-
-
 def turned_over(texels: Texels, *, normal: bool) -> Texels:
     """A tile's texels with left and right swapped; a normal map's slopes swap theirs too."""
     turned = texels[:, ::-1]

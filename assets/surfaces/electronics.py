@@ -209,7 +209,7 @@ def _disc(image: Image, x: float, y: float, diameter: float, grid: Grid) -> None
 
 
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.ELECTRONICS, 0.3, draw)
+    SurfaceRecipe(name, SurfaceFamily.ELECTRONICS, 0.3, draw, version=2)
     for name, draw in (
         ("circuit_board_green", circuit_board_green),
         ("circuit_board_blue", circuit_board_blue),

@@ -188,7 +188,7 @@ def _cuts(rng: np.random.Generator, grid: Grid, count: int) -> Field:
 
 
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.PLASTIC, 0.4, draw)
+    SurfaceRecipe(name, SurfaceFamily.PLASTIC, 0.4, draw, version=2)
     for name, draw in (
         ("cutting_mat", cutting_mat),
         ("antistatic_mat_blue", antistatic_mat_blue),

@@ -132,7 +132,6 @@ def aluminium_profile(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     lip = np.clip(1 - slot / 0.8, 0, 1) * (slot > 0)
     height = 0.0025 * grain - 0.12 * groove - corner - 0.35 * np.square(lip) - 0.006 * marks - 0.04 * dents
     rough = 0.36 + 0.03 * grain + 0.08 * smear + 0.08 * marks
-    metal = np.asarray(0.95 - 0.1 * smear, np.float32)
     inner, inner_rough = _slot_floor(rng, grid, across, bar)
     opened = filled(np.asarray(slot, np.float32), grid)
     return finish(
@@ -140,7 +139,7 @@ def aluminium_profile(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
         mix(colour, inner, opened),
         np.asarray(rough + (inner_rough - rough) * opened, np.float32),
         np.asarray(height * (1 - opened), np.float32),
-        np.asarray(metal, np.float32),
+        np.asarray(1 - opened, np.float32),
     )
 
 
@@ -221,7 +220,7 @@ def _opened(
 
 RECIPES = (
     *(
-        SurfaceRecipe(name, SurfaceFamily.METAL, 0.4, draw)
+        SurfaceRecipe(name, SurfaceFamily.METAL, 0.4, draw, version=2)
         for name, draw in (
             ("perforated_steel", perforated_steel),
             ("cable_tray", cable_tray),
@@ -229,5 +228,5 @@ RECIPES = (
             ("aluminium_profile", aluminium_profile),
         )
     ),
-    SurfaceRecipe("pegboard_white", SurfaceFamily.SHEET, 0.4, pegboard_white),
+    SurfaceRecipe("pegboard_white", SurfaceFamily.SHEET, 0.4, pegboard_white, version=2),
 )

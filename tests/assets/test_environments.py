@@ -63,11 +63,13 @@ def test_each_draws_from_its_own_generator() -> None:
     assert len(set(first.values())) == len(first)
 
 
-def test_another_version_draws_others() -> None:
-    """A new version of a recipe is another picture."""
+def test_a_version_keeps_the_room_and_another_seed_is_another() -> None:
+    """What was looked at stays when a recipe's finish changes."""
     recipe = ENVIRONMENTS[NAME]
     newer = recipe.model_copy(update={"version": recipe.version + 1})
-    assert environment_generator(recipe).random() != environment_generator(newer).random()
+    other = recipe.model_copy(update={"seed": recipe.seed + 2})
+    assert environment_generator(recipe).random() == environment_generator(newer).random()
+    assert environment_generator(recipe).random() != environment_generator(other).random()
 
 
 def test_an_environment_is_found(folder: Path) -> None:

@@ -5,7 +5,7 @@ import pytest
 
 from farm.scene import Wear
 from worker.marks import Marks
-from worker.wear import turned_over, worn_colour, worn_metallic, worn_roughness
+from worker.wear import turned_over, worn_colour, worn_roughness
 
 UNWORN = Wear(
     brightness=1.0,
@@ -74,11 +74,10 @@ def test_stains_darken_and_dust_pales() -> None:
     assert (dusty[:, 4:] > 80).all()
 
 
-def test_dust_is_rough_and_hides_metal() -> None:
-    """Polished metal loses both under it."""
+def test_dust_takes_the_gloss() -> None:
+    """Under it a polished floor is rough."""
     dust = Marks(stain=None, scratch=None, dust=np.ones((4, 4), np.float32))
     assert (worn_roughness(np.full((4, 4), 40, np.uint8), dust) > 180).all()
-    assert (worn_metallic(np.full((4, 4), 255, np.uint8), dust) < 200).all()
 
 
 def test_a_texture_turned_over_is_mirrored() -> None:

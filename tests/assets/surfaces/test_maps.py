@@ -63,6 +63,17 @@ def test_finish_clips_to_eight_bits() -> None:
     assert maps.metallic == 0.5
 
 
+def test_a_texel_is_of_metal_or_it_is_not() -> None:
+    """Metal that hardly shows isn't metal, thinly covered metal is; in between is a narrow edge."""
+    field = GRID.zeros()
+    shown = np.linspace(0.0, 1.0, GRID.pixels, dtype=np.float32)[None, :] + field
+    metallic = finish(GRID, plain("ffffff", field), field, field, shown).metallic
+    assert isinstance(metallic, np.ndarray)
+    assert (metallic[shown < 0.35] == 0).all()
+    assert (metallic[shown > 0.65] == 255).all()
+    assert (np.diff(metallic[0].astype(int)) >= 0).all()
+
+
 def test_a_ramp_passes_through_its_stops() -> None:
     """At a stop's value the stop's colour is found."""
     values = np.array([[-1.0, 0.0, 0.5, 1.0, 2.0]], np.float32)

@@ -18,6 +18,7 @@ from farm.asset_source import InstalledAssets
 from farm.category import Category
 from farm.header import DatasetHeader
 from farm.quality import Preset, settings_for
+from farm.scene import Wear
 from farm.styles import Style
 from worker.bench.bench_dataset import bench_header
 from worker.bench.physics.report import machine
@@ -33,6 +34,20 @@ RESOLUTION = 512
 CATEGORY = Category.CLOSE_CONCENTRATED
 
 DEFAULT_SCENES = 1
+"""Each is measured twice: as new, and with wear."""
+
+_WEAR = Wear(
+    brightness=1.0,
+    tint=(1.0, 1.0, 1.0),
+    saturation=1.0,
+    contrast=1.0,
+    stains=0.1,
+    scratches=6.0,
+    dust=0.2,
+    mirrored=False,
+    pattern_seed=0,
+)
+"""The middle of the wide style's ranges, all of it at once."""
 
 _REPEATS = 2
 """Of each render, the plain one in turns with it; the cheapest counts."""
@@ -44,7 +59,7 @@ _PLAIN_LEVEL = 150
 
 
 def run(out: Path, *, seed: int, scenes: int | None, only: Sequence[str] = ()) -> int:
-    """Measure, print the table, write `surfaces.json` and `surfaces.png` into `out`.
+    """Measure, print the table, write `surfaces.json`, after each surface, and `surfaces.png` into `out`.
 
     Processor time is measured, not the clock's, as other work on the machine touches it less.
 
@@ -62,7 +77,11 @@ def run(out: Path, *, seed: int, scenes: int | None, only: Sequence[str] = ()) -
         header = _header_with_plain(bench_header(1, seed), Path(folder))
         with blender_writes_to(log_file):
             stage = Stage(header, RESOLUTION)
-            settled = list(settle(header, (CATEGORY,), scenes or DEFAULT_SCENES))
+            settled = [
+                _with_floor(scene, wear=wear)
+                for scene in settle(header, (CATEGORY,), scenes or DEFAULT_SCENES)
+                for wear in (None, _WEAR)
+            ]
         names = [surface.name for surface in header.surfaces[:-1] if not only or surface.name in only]
         costs: list[SurfaceCost] = []
         for name in track(names, "surfaces", console=console, transient=True):
@@ -71,11 +90,11 @@ def run(out: Path, *, seed: int, scenes: int | None, only: Sequence[str] = ()) -
                 cost = _measure(stage, settled, name, plain, _REPEATS)
                 again = cost.ratio > MOST
                 costs.append(_measure(stage, settled, name, plain, _MORE_REPEATS) if again else cost)
+            _write_json(out / "surfaces.json", costs, seed)
     console.print(_table(costs))
     over = too_costly(costs)
     median = float(np.median([cost.ratio for cost in costs]))
     console.print(f"median {median:.3f} of a plain surface; {len(over)} of {len(costs)} above {MOST:.2f}")
-    _write_json(out / "surfaces.json", costs, seed)
     _write_plot(out / "surfaces.png", costs)
     return 0
 
@@ -95,7 +114,7 @@ def _measure(stage: Stage, settled: Sequence[SettledScene], name: str, plain: st
         realize: dict[str, list[float]] = {name: [], plain: []}
         for _ in range(repeats):
             for texture in (name, plain):
-                shown = _over(scene, texture)
+                shown = _with_floor(scene, texture=texture)
                 realize[texture].append(_cpu_s(partial(stage.set, shown, settings)))
                 render[texture].append(_cpu_s(stage.render))
         cost = replace(
@@ -108,13 +127,11 @@ def _measure(stage: Stage, settled: Sequence[SettledScene], name: str, plain: st
     return cost
 
 
-def _over(settled: SettledScene, texture: str) -> SettledScene:
-    """The same scene over another surface."""
+def _with_floor(settled: SettledScene, **changed: object) -> SettledScene:
+    """The same scene over a floor that differs."""
     floor = settled.scene.floor
     assert floor is not None, "the category has floors"  # noqa: S101
-    return replace(
-        settled, scene=settled.scene.model_copy(update={"floor": floor.model_copy(update={"texture": texture})})
-    )
+    return replace(settled, scene=settled.scene.model_copy(update={"floor": floor.model_copy(update=changed)}))
 
 
 def _cpu_s(action: Callable[[], object]) -> float:
@@ -135,7 +152,13 @@ def _table(costs: Sequence[SurfaceCost]) -> Table:
 
 def _write_json(path: Path, costs: Sequence[SurfaceCost], seed: int) -> None:
     rows = [
-        {"surface": cost.name, "ratio": cost.ratio, "whole_ratio": cost.whole_ratio, "render_s": list(cost.render_s)}
+        {
+            "surface": cost.name,
+            "ratio": cost.ratio,
+            "whole_ratio": cost.whole_ratio,
+            "render_s": list(cost.render_s),
+            "plain_render_s": list(cost.plain_render_s),
+        }
         for cost in costs
     ]
     content = {"machine": machine(), "seed": seed, "limit": MOST, "surfaces": rows}
