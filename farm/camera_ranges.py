@@ -101,8 +101,8 @@ class DevelopmentRanges(Model):
 
     share: Fraction = 0.0
     key: Annotated[tuple[Key, Key], AfterValidator(in_order)] = (0.15, 0.38)
-    exposure_ev: StopsRange = (-1.9, 1.4)
-    contrast: PositiveRange = (0.95, 1.65)
+    exposure_ev: StopsRange = (-2.0, 1.6)
+    contrast: PositiveRange = (0.95, 1.75)
     saturation: NotNegativeRange = (0.7, 1.2)
     white_balance_ev: StopsRange = (-0.25, 0.25)
     vignetting: FractionRange = (0.0, 0.35)
