@@ -9,7 +9,7 @@ from rich.progress import track
 
 from farm.job import Job
 from worker.bench.examples.groups import GROUPS, Example
-from worker.bench.examples.sheet import draw_sheet
+from worker.bench.examples.sheet import draw_sheet, examples_a_row
 from worker.bench.terminal import bench_console, blender_writes_to
 from worker.studio import open_studio
 
@@ -18,8 +18,8 @@ DEFAULT_EACH = 4
 RESOLUTION = 320
 """Pixels along an edge of a picture; a sheet shows it smaller."""
 
-_PAGE = 10
-"""Rows of a sheet, of two examples each."""
+_PAGE = 12
+"""Rows of a sheet."""
 
 
 def run(out: Path, *, seed: int, each: int | None, groups: Sequence[str], only: Sequence[str]) -> int:
@@ -36,15 +36,17 @@ def run(out: Path, *, seed: int, each: int | None, groups: Sequence[str], only: 
         FarmError: if a picture can't be made.
     """
     console = bench_console()
+    each = each or DEFAULT_EACH
+    page_of = _PAGE * examples_a_row(each)
     for group in groups or GROUPS:
         chosen = [example for example in GROUPS[group](seed) if not only or example.label in only]
         rows: list[tuple[str, list[NDArray[np.uint8]]]] = []
         for example in track(chosen, group, console=console, transient=True):
             with blender_writes_to(out / "examples.log"):
-                rows.append((example.label, list(_pictures(example, each or DEFAULT_EACH))))
-        for page, start in enumerate(range(0, len(rows), 2 * _PAGE), start=1):
+                rows.append((example.label, list(_pictures(example, each))))
+        for page, start in enumerate(range(0, len(rows), page_of), start=1):
             path = out / f"examples-{group}-{page}.jpg"
-            path.write_bytes(draw_sheet(rows[start : start + 2 * _PAGE]))
+            path.write_bytes(draw_sheet(rows[start : start + page_of]))
             console.print(f"{path}")
     return 0
 

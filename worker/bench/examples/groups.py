@@ -86,28 +86,28 @@ class Example:
 
 def surfaces(seed: int) -> Iterator[Example]:
     """Every floor surface of our own, under lamps and under HDRIs by turns."""
-    header = _header(seed, _NO_CLUTTER)
     categories = (Category.CLOSE_CONCENTRATED, Category.CLOSE_DISTRIBUTED)
-    for number, surface in enumerate(header.surfaces):
+    for number, surface in enumerate(_header(seed, {}).surfaces):
+        header = _header(seed + number, {**_NO_CLUTTER, **_WELL_EXPOSED})
         yield Example(surface.name, header.model_copy(update={"surfaces": (surface,)}), categories[number % 2])
 
 
 def environments(seed: int) -> Iterator[Example]:
     """Every HDRI that can be seen behind cables."""
-    header = _header(seed, {})
-    for hdri in header.hdris:
+    for number, hdri in enumerate(_header(seed, {}).hdris):
         if hdri.backdrop:
+            header = _header(seed + number, _WELL_EXPOSED)
             yield Example(hdri.name, header.model_copy(update={"hdris": (hdri,)}), Category.FAR)
 
 
 def cables(seed: int) -> Iterator[Example]:
     """Every kind of cable."""
     for number, (label, ranges) in enumerate(CABLE_KINDS.items()):
-        # Each kind has scenes of its own, exposed as it should be.
         yield Example(label, _header(seed + number, {**ranges, **_WELL_EXPOSED}), Category.CLOSE_CONCENTRATED)
 
 
 GROUPS = {"surfaces": surfaces, "environments": environments, "cables": cables}
+"""Each example has scenes of its own, exposed as they should be."""
 
 
 def _header(seed: int, ranges: Mapping[str, object]) -> DatasetHeader:

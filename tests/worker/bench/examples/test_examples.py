@@ -10,7 +10,7 @@ from farm.job import Job
 from farm.looks import Bundle, Skin
 from worker.bench.examples.groups import CABLE_KINDS, GROUPS
 from worker.bench.examples.options import GROUP_NAMES
-from worker.bench.examples.sheet import EDGE_PX, draw_sheet
+from worker.bench.examples.sheet import EDGE_PX, draw_sheet, examples_a_row
 from worker.randomize import draw_scene
 
 
@@ -51,11 +51,16 @@ def test_kinds_of_cables_are_what_they_are_called() -> None:
     assert not any(isinstance(look, Skin) for look in looks["published surface"])
 
 
-def test_a_sheet_has_two_examples_a_row() -> None:
-    """Each with its pictures side by side."""
+def test_a_sheet_has_eight_pictures_a_row() -> None:
+    """Eight examples of one picture, two of four, one of more than eight."""
+    assert [examples_a_row(each) for each in (1, 3, 4, 8, 9)] == [8, 2, 2, 1, 1]
+
+
+def test_an_example_s_pictures_stand_side_by_side() -> None:
+    """Four of each, so that the third example begins a row."""
     red = np.full((64, 64, 3), (255, 0, 0), np.uint8)
-    sheet = Image.open(io.BytesIO(draw_sheet([("one", [red, red]), ("two", [red, red]), ("three", [red, red])])))
-    assert sheet.size[0] > 4 * EDGE_PX
+    sheet = Image.open(io.BytesIO(draw_sheet([(name, 4 * [red]) for name in ("one", "two", "three")])))
+    assert sheet.size[0] > 8 * EDGE_PX
     assert 2 * EDGE_PX < sheet.size[1] < 3 * EDGE_PX
     pixel = sheet.getpixel((EDGE_PX // 2, EDGE_PX // 2))
     assert isinstance(pixel, tuple)
