@@ -19,10 +19,17 @@ MARGIN = 0.06
 """Of the view's width, on each side: what the pixel filter, blur and a tilt of the floor's normals may reach."""
 
 TEXELS_PER_PIXEL = 2
-"""Left along an edge at least: with one, weave and grain looked blurred (FLIP 0.054 where 0.017 was noise)."""
+"""Left along an edge: with one, weave and grain looked blurred (FLIP 0.054 where 0.017 was noise); more only take
+time, as a renderer waits for texels that don't fit its caches."""
+
+WORTH_AVERAGING = 1.25
+"""Texels along an edge that become one, below which they stay as they are."""
 
 FINEST_GRID = 64
 """Windows begin and end at a grid of at least so many lines a tile; maps of other sizes are taken whole."""
+
+_ROOTS = 4096
+"""Entries of the table from the square root of light to levels."""
 
 Texels = NDArray[np.uint8]
 
@@ -32,14 +39,14 @@ class TextureWindow:
     """A rectangle of a tile, in tiles, v upwards; it may reach over the tile's edge. All of it is (0, 0, 1, 1).
 
     Attributes:
-        coarser: how many texels along an edge become one.
+        coarser: how many texels along an edge become one; 1, or `WORTH_AVERAGING` or more.
     """
 
     u: float
     v: float
     width: float
     height: float
-    coarser: int
+    coarser: float
 
     @classmethod
     def whole(cls) -> Self:
@@ -65,7 +72,10 @@ class TextureWindow:
         top = rows - round(self.v * rows) - high
         window: Texels = texels.take(np.arange(top, top + high), axis=0, mode="wrap")
         window = window.take(np.arange(left, left + wide), axis=1, mode="wrap")
-        return _coarsen(window, self.coarser, colour=colour) if self.coarser > 1 else window
+        if self.coarser == 1:
+            return window
+        size = (max(1, round(wide / self.coarser)), max(1, round(high / self.coarser)))
+        return _resampled(window, size, colour=colour)
 
 
 def tile_coordinates(points_m: NDArray[np.float64], floor: Floor, size_m: float) -> NDArray[np.float64]:
@@ -119,15 +129,14 @@ def window_on(
     # A pixel is smallest where the floor is nearest.
     pixel_m = view.depths_m(view.floor_corners_m()).min() / view.focal_length_px
     texel_m = size_m * floor.scale / min(edge for size in sizes for edge in size)
-    coarser = 1
-    while TEXELS_PER_PIXEL * 2 * coarser * texel_m <= pixel_m and grid % (2 * coarser) == 0:
-        coarser *= 2
-    lines = grid // coarser
-    if lines < FINEST_GRID:
+    coarser = float(pixel_m / (TEXELS_PER_PIXEL * texel_m))
+    coarser = coarser if coarser >= WORTH_AVERAGING else 1.0
+    if grid < FINEST_GRID:
         return TextureWindow.whole()
+    rim = math.ceil(coarser)
     seen = tile_coordinates(view.floor_corners_m(MARGIN)[:, :2], floor, size_m)
-    low = np.floor(seen.min(axis=0) * lines - 1) / lines
-    extent = np.minimum(np.ceil(seen.max(axis=0) * lines + 1) / lines - low, most_tiles)
+    low = np.floor(seen.min(axis=0) * grid - rim) / grid
+    extent = np.minimum(np.ceil(seen.max(axis=0) * grid + rim) / grid - low, most_tiles)
     return TextureWindow(float(low[0]), float(low[1]), float(extent[0]), float(extent[1]), coarser)
 
 
@@ -137,16 +146,23 @@ def light_of(levels: Texels) -> NDArray[np.float32]:
     return light.astype(np.float32, copy=False).reshape(levels.shape)
 
 
-def _coarsen(texels: Texels, factor: int, *, colour: bool) -> Texels:
-    """Average squares of `factor` texels along an edge."""
-    size = (texels.shape[1] // factor, texels.shape[0] // factor)
-    if not colour:
-        average: Texels = cv2.resize(texels, size, interpolation=cv2.INTER_AREA).astype(np.uint8, copy=False)
-        return average
-    light = cv2.resize(_LIGHT_OF_LEVEL[texels], size, interpolation=cv2.INTER_AREA)
-    levels = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
-    rounded: Texels = np.round(255.0 * levels).astype(np.uint8)
-    return rounded
+def levels_of(light: NDArray[np.float32]) -> Texels:
+    """8-bit sRGB levels of linear light, which is clipped at 0 and 1.
+
+    By a table over its square root: a power a texel took ten times as long.
+    """
+    root = cv2.sqrt(np.clip(light, 0, 1)).astype(np.float32, copy=False)
+    levels: Texels = _LEVEL_OF_ROOT[(root * np.float32(_ROOTS - 1) + np.float32(0.5)).astype(np.uint16)]
+    return levels.reshape(light.shape)
+
+
+def _resampled(texels: Texels, size: tuple[int, int], *, colour: bool) -> Texels:
+    """Average to fewer columns and rows, each with the parts of texels that it covers."""
+    if colour:
+        light = cv2.resize(light_of(texels), size, interpolation=cv2.INTER_AREA)
+        return levels_of(light.astype(np.float32, copy=False))
+    average: Texels = cv2.resize(texels, size, interpolation=cv2.INTER_AREA).astype(np.uint8, copy=False)
+    return average
 
 
 def _light_of_levels() -> NDArray[np.float32]:
@@ -156,3 +172,13 @@ def _light_of_levels() -> NDArray[np.float32]:
 
 
 _LIGHT_OF_LEVEL = _light_of_levels()
+
+
+def _levels_of_roots() -> Texels:
+    """The level of each square root of light, evenly spaced from 0 to 1 (IEC 61966-2-1)."""
+    light = np.square(np.arange(_ROOTS) / (_ROOTS - 1))
+    levels = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
+    return np.round(255 * levels).astype(np.uint8)
+
+
+_LEVEL_OF_ROOT = _levels_of_roots()

@@ -1,14 +1,12 @@
 """What a floor has been through, laid over the texels that the camera sees. Numpy and OpenCV."""
 
-from functools import lru_cache
-
 import cv2
 import numpy as np
 
 from farm.scene import Wear
 from worker.grain import Field
 from worker.marks import Marks
-from worker.texture_window import Texels, light_of
+from worker.texture_window import Texels, levels_of, light_of
 
 STAIN_LEAVES = (0.58, 0.50, 0.40)
 """Of red, green and blue light, where a puddle's rim was thickest."""
@@ -20,9 +18,6 @@ DUST_COVERS = 0.42
 DUST_ROUGHNESS = 0.85
 
 LUMA = np.array([0.2126, 0.7152, 0.0722], np.float32)
-
-_ROOTS = 4096
-"""Entries of the table from the square root of light to levels."""
 
 
 def worn_colour(texels: Texels, wear: Wear, marks: Marks) -> Texels:
@@ -54,7 +49,7 @@ def worn_colour(texels: Texels, wear: Wear, marks: Marks) -> Texels:
         cover = np.float32(DUST_COVERS) * marks.dust
         for channel, dust in enumerate(DUST_COLOUR):
             light[:, :, channel] += cover * (np.float32(dust) - light[:, :, channel])
-    return _levels_of(light)
+    return levels_of(light)
 
 
 def worn_roughness(texels: Texels, marks: Marks) -> Texels:
@@ -76,22 +71,6 @@ def turned_over(texels: Texels, *, normal: bool) -> Texels:
         turned = turned.copy()
         turned[:, :, 0] = 255 - turned[:, :, 0]
     return turned
-
-
-def _levels_of(light: Field) -> Texels:
-    """Levels (sRGB) of linear light, by a table over its square root: a power a texel took ten times as long."""
-    root: Field = cv2.sqrt(np.clip(light, 0, 1)).astype(np.float32, copy=False)
-    levels: Texels = _level_table()[(root * np.float32(_ROOTS - 1) + np.float32(0.5)).astype(np.uint16)]
-    return levels
-
-
-@lru_cache(maxsize=1)
-def _level_table() -> Texels:
-    light = np.square(np.arange(_ROOTS) / (_ROOTS - 1))
-    levels = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
-    table: Texels = np.round(255 * levels).astype(np.uint8)
-    table.setflags(write=False)
-    return table
 
 
 def _rounded(values: Field) -> Texels:

@@ -89,11 +89,11 @@ def test_a_near_camera_needs_few_texels() -> None:
 
 
 def test_texels_finer_than_pixels_are_averaged() -> None:
-    """128 pixels across 238 mm are 1.9 mm each: four texels of 0.2 mm become one."""
+    """128 pixels across 238 mm are 1.86 mm each: they keep two texels of 0.93 mm, in place of 9.5 of 0.195 mm."""
     window = window_on(floor(), SIZE_M, View(height_m=0.33, resolution=128), ((2048, 2048),))
-    assert window.coarser == 4
+    assert window.coarser == pytest.approx((0.33 * 36 / 50 / 128) / 2 / (SIZE_M / 2048))
     part = window.cut(np.full((2048, 2048, 3), 77, np.uint8), colour=True)
-    assert part.shape[0] == round(window.height * 2048 / 4)
+    assert part.shape[0] == round(window.height * 2048 / window.coarser)
     assert (part == 77).all()
 
 
