@@ -178,7 +178,8 @@ def _levels_of_roots() -> Texels:
     """The level of each square root of light, evenly spaced from 0 to 1 (IEC 61966-2-1)."""
     light = np.square(np.arange(_ROOTS) / (_ROOTS - 1))
     levels = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
-    return np.round(255 * levels).astype(np.uint8)
+    rounded: Texels = np.round(255 * levels).astype(np.uint8)
+    return rounded
 
 
 _LEVEL_OF_ROOT = _levels_of_roots()
