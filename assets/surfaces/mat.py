@@ -188,12 +188,12 @@ def _cuts(rng: np.random.Generator, grid: Grid, count: int) -> Field:
 
 
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.PLASTIC, 0.4, draw, version=2)
-    for name, draw in (
-        ("cutting_mat", cutting_mat),
-        ("antistatic_mat_blue", antistatic_mat_blue),
-        ("antistatic_mat_green", antistatic_mat_green),
-        ("foam_mat", foam_mat),
-        ("honeycomb_mat", honeycomb_mat),
+    SurfaceRecipe(name, SurfaceFamily.PLASTIC, 0.4, draw, version)
+    for name, draw, version in (
+        ("cutting_mat", cutting_mat, 1),
+        ("antistatic_mat_blue", antistatic_mat_blue, 2),
+        ("antistatic_mat_green", antistatic_mat_green, 2),
+        ("foam_mat", foam_mat, 1),
+        ("honeycomb_mat", honeycomb_mat, 1),
     )
 )
