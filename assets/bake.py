@@ -163,6 +163,7 @@ def _bake_one(directory: Path, name: str, pixels: int) -> None:
             pixels=pixels,
             recipe_version=recipe.version,
             metallic=maps.metallic if isinstance(maps.metallic, float) else None,
+            has_joints=maps.joints is not None,
             sha256=checksums,
         )
         # Written last: a surface without its record counts as not baked.
@@ -180,6 +181,8 @@ def _encoded(maps: SurfaceMaps) -> Iterator[tuple[MapRole, bytes]]:
     yield "roughness", _encode(".jpg", maps.roughness, [quality, ROUGHNESS_QUALITY])
     if isinstance(maps.metallic, np.ndarray):
         yield "metallic", _encode(".jpg", maps.metallic, [quality, ROUGHNESS_QUALITY])
+    if maps.joints is not None:
+        yield "joints", _encode(".png", maps.joints, [cv2.IMWRITE_PNG_COMPRESSION, 6])
 
 
 def _encode(ending: str, image: npt.NDArray[np.uint8], options: list[int]) -> bytes:

@@ -16,7 +16,7 @@ from farm.machine import cache_folder
 RECORD_NAME = "surface.json"
 SMALLEST_EDGE, LARGEST_EDGE = 64, 8192
 
-MapRole = Literal["colour", "normal", "roughness", "metallic"]
+MapRole = Literal["colour", "normal", "roughness", "metallic", "joints"]
 
 FILE_NAMES: Mapping[MapRole, str] = MappingProxyType(
     {
@@ -25,6 +25,7 @@ FILE_NAMES: Mapping[MapRole, str] = MappingProxyType(
         "normal": "normal.png",
         "roughness": "roughness.jpg",
         "metallic": "metallic.jpg",
+        "joints": "joints.png",
     }
 )
 
@@ -39,6 +40,7 @@ class SurfaceRecord(BaseModel):
         pixels: Texels along an edge.
         recipe_version: Version of the recipe that drew it.
         metallic: One value for the whole surface, 0 to 1; None where there is a map.
+        has_joints: Whether there is a map of where its pieces meet.
         sha256: Checksum of each map's file.
     """
 
@@ -50,6 +52,7 @@ class SurfaceRecord(BaseModel):
     pixels: int = Field(ge=SMALLEST_EDGE, le=LARGEST_EDGE)
     recipe_version: int = Field(ge=1)
     metallic: float | None = Field(ge=0, le=1)
+    has_joints: bool
     sha256: dict[MapRole, str]
 
 
@@ -76,7 +79,7 @@ class BakedSurface(BaseModel):
             Its path.
 
         Raises:
-            AssetError: The surface has no such map (only `metallic` may be missing).
+            AssetError: The surface has no such map (`metallic` and `joints` may be missing).
         """
         if role not in self.record.sha256:
             raise AssetError(f"{self.directory}: has no {role} map; use the value in its {RECORD_NAME}")
@@ -136,7 +139,8 @@ def load_surface(folder: Path, name: str) -> BakedSurface:
         raise AssetError(f"{record_path}: {place} {first['msg']}; {repair}") from error
     if record.name != name:
         raise AssetError(f"{record_path}: is about {record.name!r}, not {name!r}; {repair}")
-    expected = {"colour", "normal", "roughness"} | ({"metallic"} if record.metallic is None else set())
+    optional = {"metallic": record.metallic is None, "joints": record.has_joints}
+    expected = {"colour", "normal", "roughness"} | {role for role, has_map in optional.items() if has_map}
     if record.sha256.keys() != expected:
         raise AssetError(f"{record_path}: lists the maps {sorted(record.sha256)}, not {sorted(expected)}; {repair}")
     for role, checksum in record.sha256.items():

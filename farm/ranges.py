@@ -39,6 +39,8 @@ from farm.range_types import (
 )
 
 Scratches = Annotated[float, Field(ge=0, le=1000)]
+Albedo = Annotated[float, Field(ge=0.001, le=0.9)]
+JointSpread = Annotated[float, Field(ge=0, le=0.003)]
 WidestShare = Annotated[float, Field(ge=0.01, le=1)]
 
 BEND_KNOTS = 7
@@ -54,7 +56,9 @@ class WearRanges(Model):
         share: of the floors that are changed so.
         brightness_ev: stops, by which its colour is brighter or darker.
         tint_ev: stops of red, green and blue beside that.
-        stained_share: of these floors that have stains; likewise for scratches and dust.
+        stained_share: of these floors that have stains; likewise for scratches, dust and refilled joints.
+        joint_albedo: of what fills them, drawn evenly in its logarithm.
+        joint_warmth_ev: stops, by which it is redder than green, and as much less blue.
     """
 
     share: Fraction = 0.0
@@ -68,6 +72,11 @@ class WearRanges(Model):
     scratches: Annotated[tuple[Scratches, Scratches], AfterValidator(in_order)] = (1.0, 12.0)
     dusty_share: Fraction = 0.3
     dust: FractionRange = (0.05, 0.35)
+    refilled_share: Fraction = 0.5
+    joint_albedo: Annotated[tuple[Albedo, Albedo], AfterValidator(in_order)] = (0.02, 0.5)
+    joint_warmth_ev: StopsRange = (-0.1, 0.4)
+    joint_cover: FractionRange = (0.5, 1.0)
+    joint_spread_m: Annotated[tuple[JointSpread, JointSpread], AfterValidator(in_order)] = (0.0, 0.0006)
 
 
 class FloorRanges(Model):

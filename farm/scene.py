@@ -75,6 +75,22 @@ class Wind(Model):
     gusts: tuple[Gust, ...]
 
 
+class JointFill(Model):
+    """What fills a floor's joints, or has gathered in them: grout, sand, dirt, sealant.
+
+    Attributes:
+        albedo: of red, green and blue light.
+        cover: share that it hides of what the texture shows there.
+        spread_m: how far it reaches onto the edges of the pieces.
+    """
+
+    albedo: tuple[
+        Annotated[float, Field(ge=0, le=1)], Annotated[float, Field(ge=0, le=1)], Annotated[float, Field(ge=0, le=1)]
+    ]
+    cover: Annotated[float, Field(ge=0, le=1)]
+    spread_m: Annotated[float, Field(ge=0)]
+
+
 class Wear(Model):
     """What a floor has been through, beyond what its texture shows.
 
@@ -87,7 +103,8 @@ class Wear(Model):
         scratches: of them, a square decimetre.
         dust: share of the floor under a film of dust.
         mirrored: whether the texture is turned over.
-        pattern_seed: of stains, scratches and dust.
+        pattern_seed: of stains, scratches, dust and joints.
+        joints: what fills its joints; None leaves them as the texture shows them.
     """
 
     brightness: Annotated[float, Field(gt=0)]
@@ -99,6 +116,7 @@ class Wear(Model):
     dust: Annotated[float, Field(ge=0, le=1)]
     mirrored: bool
     pattern_seed: Annotated[int, Field(ge=0, lt=2**63)]
+    joints: JointFill | None = None
 
 
 class Floor(Model):

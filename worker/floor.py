@@ -5,6 +5,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from assets.surfaces.maps import joint_distance_mm
 from blend import names
 from farm.scene import Floor, Wear
 from worker.images import ImageShelf, TextureFile
@@ -77,7 +78,8 @@ def set_floor(floor: Floor, files: SurfaceFiles, shelf: ImageShelf, view: View |
     }
     worn: dict[str, Texels] = {}
     if floor.wear is not None and len(decoded) == len(given):
-        worn = _worn(floor, floor.wear, files.size_m, decoded, window)
+        joints = shelf.texels(TextureFile(files.joints)) if files.joints and floor.wear.joints else None
+        worn = _worn(floor, floor.wear, files.size_m, decoded, joints, window)
     nodes = bpy.data.materials[names.FLOOR].node_tree.nodes
     for node, file in maps.items():
         if node in worn:
@@ -91,7 +93,9 @@ def set_floor(floor: Floor, files: SurfaceFiles, shelf: ImageShelf, view: View |
     _place_texture(floor_object.data, floor, files.size_m, window)
 
 
-def _worn(floor: Floor, wear: Wear, size_m: float, maps: dict[str, Texels], window: TextureWindow) -> dict[str, Texels]:
+def _worn(
+    floor: Floor, wear: Wear, size_m: float, maps: dict[str, Texels], joints: Texels | None, window: TextureWindow
+) -> dict[str, Texels]:
     """The maps' windows after what the floor has been through; a roughness of their own where marks need one.
 
     Metal stays metal under them: stains and dust are films, that colour it and take its gloss.
@@ -101,18 +105,25 @@ def _worn(floor: Floor, wear: Wear, size_m: float, maps: dict[str, Texels], wind
         wear: of it.
         size_m: edge of a tile at scale 1.
         maps: the tile's texels, by the name of their node.
+        joints: the tile's map of joints, of the colour's size.
         window: of them that is seen.
     """
-    if wear.mirrored:
-        maps = {node: turned_over(pixels, normal=node == names.FLOOR_NORMAL) for node, pixels in maps.items()}
-    seen = {node: window.cut(pixels, colour=node == names.FLOOR_COLOUR) for node, pixels in maps.items()}
+    seen = {node: _cut(pixels, wear, window, node) for node, pixels in maps.items()}
     rows, columns = seen[names.FLOOR_COLOUR].shape[:2]
-    marks = marks_on(wear, rows, columns, texels_to_floor(window, rows, columns, floor, size_m))
+    to_floor = texels_to_floor(window, rows, columns, floor, size_m)
+    to_joint_m = None if joints is None else floor.scale * joint_distance_mm(_cut(joints, wear, window)) / 1000
+    marks = marks_on(wear, rows, columns, to_floor, to_joint_m)
     worn = {**seen, names.FLOOR_COLOUR: worn_colour(seen[names.FLOOR_COLOUR], wear, marks)}
     if marks.any:
         rough = seen.get(names.FLOOR_ROUGHNESS, np.full((rows, columns), round(255 * UNKNOWN_ROUGHNESS), np.uint8))
         worn[names.FLOOR_ROUGHNESS] = worn_roughness(rough, sized(marks, *rough.shape[:2]))
     return worn
+
+
+def _cut(pixels: Texels, wear: Wear, window: TextureWindow, node: str = "") -> Texels:
+    """What the window shows of a map, turned over if the floor is."""
+    whole = turned_over(pixels, normal=node == names.FLOOR_NORMAL) if wear.mirrored else pixels
+    return window.cut(whole, colour=node == names.FLOOR_COLOUR)
 
 
 def _place_texture(mesh: Any, floor: Floor, size_m: float, window: TextureWindow) -> None:

@@ -19,8 +19,8 @@ Pixels = NDArray[np.uint8] | NDArray[np.float32]
 
 _FLOAT_SUFFIXES = frozenset({".exr", ".hdr"})
 
-_IN_USE = 5
-"""A picture needs five images of files at most; those stay, however large."""
+_IN_USE = 6
+"""A picture needs six images of files at most; those stay, however large."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,6 +20,7 @@ class SurfaceFiles:
     Attributes:
         size_m: edge of the square that the texture covers.
         metallic: a map, or one value for all of the surface.
+        joints: where pieces meet (`assets.surfaces.maps.joint_levels`); None where none do, or nobody knows.
         flip_green: the normal map is in DirectX convention.
         gloss: the roughness map holds glossiness.
     """
@@ -29,6 +30,7 @@ class SurfaceFiles:
     roughness: Path | None
     normal: Path | None
     metallic: Path | float
+    joints: Path | None = None
     flip_green: bool = False
     gloss: bool = False
 
@@ -125,6 +127,7 @@ class AssetLibrary:
             roughness=baked.path("roughness"),
             normal=baked.path("normal"),
             metallic=baked.path("metallic") if metallic is None else metallic,
+            joints=baked.path("joints") if baked.record.has_joints else None,
         )
 
     def _from_folder(self, surface: FolderSurfaceRef) -> SurfaceFiles:

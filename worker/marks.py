@@ -1,4 +1,4 @@
-"""Stains, scratches and dust on a floor, in its own metres. Numpy and OpenCV.
+"""Stains, scratches and dust on a floor, and what fills its joints, in its own metres. Numpy and OpenCV.
 
 They lie about the origin, so they have the same size whatever the texture's texels and scale are, and do not repeat
 with its tiles.
@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.scene import Wear
+from farm.scene import JointFill, Wear
 from worker.grain import Field, rough_noise, smooth_step
 
 EDGE_M = 0.6
@@ -37,19 +37,23 @@ class Marks:
         stain: 0 to 1, how much of its light is missing, in parts of the most that may.
         scratch: -1 to 1: dark or bright.
         dust: 0 to 1.
+        joint: 0 to 1, how far what fills a joint hides what was there.
     """
 
     stain: Field | None
     scratch: Field | None
     dust: Field | None
+    joint: Field | None = None
 
     @property
     def any(self) -> bool:
         """Whether there are any."""
-        return not (self.stain is None and self.scratch is None and self.dust is None)
+        return not (self.stain is None and self.scratch is None and self.dust is None and self.joint is None)
 
 
-def marks_on(wear: Wear, rows: int, columns: int, to_floor: NDArray[np.float64]) -> Marks:
+def marks_on(
+    wear: Wear, rows: int, columns: int, to_floor: NDArray[np.float64], to_joint_m: Field | None = None
+) -> Marks:
     """The marks on a window of a texture.
 
     Args:
@@ -57,13 +61,15 @@ def marks_on(wear: Wear, rows: int, columns: int, to_floor: NDArray[np.float64])
         rows: of the window's texels.
         columns: of them.
         to_floor: (2, 3), what takes a texel's column and row to metres on the floor.
+        to_joint_m: (rows, columns), how far texels are from the edges of joints, negative inside; None without any.
     """
-    stain, scratch, dust = (np.random.default_rng((wear.pattern_seed, kind)) for kind in range(3))
+    stain, scratch, dust, joint = (np.random.default_rng((wear.pattern_seed, kind)) for kind in range(4))
     window = _Window(rows, columns, to_floor)
     return Marks(
         stain=_stains(wear.stains, stain, window) if wear.stains > 0 else None,
         scratch=_scratches(wear.scratches, scratch, window) if wear.scratches > 0 else None,
         dust=_dust(wear.dust, dust, window) if wear.dust > 0 else None,
+        joint=None if wear.joints is None or to_joint_m is None else _filled(wear.joints, to_joint_m, joint, window),
     )
 
 
@@ -76,7 +82,7 @@ def sized(marks: Marks, rows: int, columns: int) -> Marks:
         fitted: Field = cv2.resize(field, (columns, rows), interpolation=cv2.INTER_AREA).astype(np.float32, copy=False)
         return fitted
 
-    return Marks(stain=fit(marks.stain), scratch=fit(marks.scratch), dust=fit(marks.dust))
+    return Marks(stain=fit(marks.stain), scratch=fit(marks.scratch), dust=fit(marks.dust), joint=fit(marks.joint))
 
 
 @dataclass(frozen=True, slots=True)
@@ -236,6 +242,18 @@ def _dust(share: float, rng: np.random.Generator, window: _Window) -> Field:
     here = smooth_step(window.look_up(film), start - 0.35, start + 0.9)
     dust: Field = here * np.clip(0.62 + 0.3 * _grain(window), 0, 1)
     return dust
+
+
+def _filled(fill: JointFill, to_joint_m: Field, rng: np.random.Generator, window: _Window) -> Field:
+    """What fills joints: its edge wanders a little, and in places it is thin, or was never there."""
+    patches = window.look_up(rough_noise(rng, CELLS, CELLS, 40.0, 4))
+    grain = _grain(window)
+    edge_m = to_joint_m - np.float32(fill.spread_m) * (1 + 0.4 * np.clip(patches, -2, 2)) - np.float32(0.04e-3) * grain
+    # Soft over a texel at least, or edges of joints show its steps.
+    soft_m = max(0.12e-3, 0.6 / window.texels_per_m)
+    filled: Field = np.float32(fill.cover) * smooth_step(-edge_m, -soft_m, soft_m)
+    filled *= smooth_step(patches, -2.2, -0.6) * np.clip(0.9 + 0.1 * grain, 0, 1)
+    return filled
 
 
 def _grain(window: _Window) -> Field:

@@ -34,7 +34,7 @@ _FINE_LAY = 14.0
 """Length of a turn of a conductor's fine strands over its diameter: 10 to 16 in flexible wires."""
 
 _SHIFTS_M = tuple(sign * step / 1000 for step in range(0, 61, 4) for sign in (1, -1))
-"""By which a tie is moved along its bundle, tried one after the other, to keep clear of other cables."""
+"""By which a tie is moved along its bundle, tried one after the other, to keep clear of other cables and of sticks."""
 
 _COPPER = (184, 115, 81)
 _TIN = (190, 190, 186)
@@ -63,29 +63,43 @@ def instance_count(scene: Scene) -> int:
     return sum(len(cable.material.strands) if isinstance(cable.material, Bundle) else 1 for cable in scene.cables)
 
 
-def pieces_of(scene: Scene, curves: Sequence[Points]) -> list[Piece]:
+def pieces_of(scene: Scene, curves: Sequence[Points], sticks_m: Sequence[Points]) -> list[Piece]:
     """Take a settled scene's cables to pieces.
 
     Args:
         scene: what was drawn.
         curves: the settled centrelines, finely sampled (N, 3), metres, one for each cable.
+        sticks_m: nodes (N, 3) of the settled sticks' axes; none where the simulator has none.
 
     Returns:
         The pieces. Instances count from 1, cable by cable and strand by strand; ties are occluders. The fall knows
-        nothing of ties: one that would cut another cable is moved along its bundle, or left out if there is no room.
+        nothing of ties: one that would cut another cable or a stick is moved along its bundle, or left out if there
+        is no room.
     """
+    sticks = [
+        (_dense(axis), stick.diameter_m / 2)
+        for stick, axis in zip(scene.sticks[: len(sticks_m)], sticks_m, strict=True)
+    ]
     pieces: list[Piece] = []
     instance = 1
     for number, (cable, curve) in enumerate(zip(scene.cables, curves, strict=True)):
         if isinstance(cable.material, Bundle):
             others = [(curves[k], scene.cables[k].diameter_m / 2) for k in range(len(curves)) if k != number]
-            pieces += _bundle(cable, cable.material, curve, others, instance)
+            pieces += _bundle(cable, cable.material, curve, [*others, *sticks], instance)
             instance += len(cable.material.strands)
         else:
             strand = _Strand(instance, curve, cable.diameter_m / 2, cable.material, (0.0, 0.0))
             pieces += _with_ends(strand, cable)
             instance += 1
     return pieces
+
+
+def _dense(axis: Points) -> Points:
+    """A stick's axis (N, 3) at a millimetre's spacing or less."""
+    points = round(float(np.linalg.norm(axis[-1] - axis[0])) / 0.001) + 2
+    share: NDArray[np.float64] = np.linspace(0.0, 1.0, points)[:, None]
+    dense: Points = axis[0] + share * (axis[-1] - axis[0])
+    return dense
 
 
 def _bundle(

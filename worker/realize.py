@@ -58,7 +58,7 @@ def realize(
     remove_cables()
     view = View.of(scene.camera, resolution).undistorted()
     curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
-    pieces = pieces_of(scene, curves)
+    pieces = pieces_of(scene, curves, shapes.sticks_m)
     slope = shadow_slope(scene.lamps)
     add_cables(pieces, detail.sides, view, shelf, slope=slope, whole=not economy.cables_in_view)
     if scene.floor is None:

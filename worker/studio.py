@@ -181,7 +181,7 @@ def label(scene: Scene, shapes: CableShapes, detail: CableDetail, resolution: in
     """Label a settled scene's cables as they are rendered."""
     curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
     view = View.of(scene.camera, resolution)
-    pieces = [*pieces_of(scene, curves), *hiding_pieces(scene, shapes)]
+    pieces = [*pieces_of(scene, curves, shapes.sticks_m), *hiding_pieces(scene, shapes)]
     return label_cables(pieces, view, detail.sides)
 
 

@@ -17,6 +17,9 @@ DUST_COLOUR = (0.44, 0.40, 0.34)
 DUST_COVERS = 0.42
 DUST_ROUGHNESS = 0.85
 
+FILL_ROUGHNESS = 0.9
+"""Of grout, sand and dirt."""
+
 LUMA = np.array([0.2126, 0.7152, 0.0722], np.float32)
 
 
@@ -39,6 +42,9 @@ def worn_colour(texels: Texels, wear: Wear, marks: Marks) -> Texels:
     # colour = gain * (mean + contrast * (mix light - mix mean)), one matrix with an offset.
     matrix = np.hstack([gain * wear.contrast * mix, gain * ((1 - wear.contrast) * mix @ mean)[:, None]])
     light: Field = cv2.transform(light_of(coloured), matrix.astype(np.float32)).astype(np.float32, copy=False)
+    if marks.joint is not None and wear.joints is not None:
+        for channel, albedo in enumerate(wear.joints.albedo):
+            light[:, :, channel] += marks.joint * (np.float32(albedo) - light[:, :, channel])
     if marks.stain is not None:
         for channel, left in enumerate(STAIN_LEAVES):
             light[:, :, channel] *= 1 - np.float32(1 - left) * marks.stain
@@ -53,8 +59,10 @@ def worn_colour(texels: Texels, wear: Wear, marks: Marks) -> Texels:
 
 
 def worn_roughness(texels: Texels, marks: Marks) -> Texels:
-    """A window's roughness (H, W): puddles dry smoother at times, scratches and dust are rough."""
+    """A window's roughness (H, W): puddles dry smoother at times; scratches, dust and filled joints are rough."""
     rough = (texels if texels.ndim == 2 else texels[:, :, 0]).astype(np.float32)
+    if marks.joint is not None:
+        rough += marks.joint * (255 * np.float32(FILL_ROUGHNESS) - rough)
     if marks.stain is not None:
         rough *= 1 - 0.15 * marks.stain
     if marks.scratch is not None:

@@ -31,7 +31,8 @@ def brick_wall(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     grit = fractal(rng, grid, 2.6, 0.5, gain=0.9)
     colour = mix(floor.colour, "6d6557", 0.6 * bed * smoothstep(0.6, 1.8, grit))
     colour = mix(colour, "d8d0c0", 0.5 * bed * smoothstep(1.0, 2.0, -grit))
-    return finish(grid, colour, floor.roughness, np.asarray(floor.height_mm - 0.22 * bed * grit, np.float32))
+    height = np.asarray(floor.height_mm - 0.22 * bed * grit, np.float32)
+    return finish(grid, colour, floor.roughness, height, to_joint_mm=floor.to_joint_mm)
 
 
 def brick_paving(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
@@ -48,7 +49,8 @@ def brick_paving(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     tuft = fractal(rng, grid, 2.2, 0.4, gain=0.8)
     green = ramp(0.5 + 0.2 * tuft, ((0.0, "2f3a1c"), (0.6, "55642f"), (1.0, "7f8a4a")))
     height = floor.height_mm + moss * (0.9 + 0.35 * tuft)
-    return finish(grid, mix(floor.colour, green, 0.85 * moss), floor.roughness, np.asarray(height, np.float32))
+    colour = mix(floor.colour, green, 0.85 * moss)
+    return finish(grid, colour, floor.roughness, np.asarray(height, np.float32), to_joint_mm=floor.to_joint_mm)
 
 
 def _clay(rng: np.random.Generator, grid: Grid, layout: Layout, tones: tuple[str, ...], rough_mm: float) -> Face:

@@ -1,11 +1,13 @@
 """White and light faces of tables and boards: plain at a glance, used at a closer look."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from assets.surfaces.colour import mix, ramp
 from assets.surfaces.grid import Field, Grid
 from assets.surfaces.handwriting import written_lines
-from assets.surfaces.maps import SurfaceMaps, finish
+from assets.surfaces.maps import SurfaceMaps, finish, joint_levels
 from assets.surfaces.marks import dust, scratches, specks, stains
 from assets.surfaces.noise import coverage, fractal, smoothstep, warp
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
@@ -47,7 +49,8 @@ def melamine_board(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     chips = coverage(fractal(rng, grid, 3.0, 0.5, gain=0.8), 0.05, 0.1) * np.exp(-np.square(from_seam / 1.5))
     maps_colour = mix(maps_colour, "a98b62", 0.8 * np.asarray(chips, np.float32))
     lip = -0.35 * gap - 0.06 * np.asarray(np.exp(-np.square(from_seam / 0.8)), np.float32) - 0.1 * chips
-    return _used(rng, grid, maps_colour, orange_peel=0.007, gloss=0.4, relief=np.asarray(lip, np.float32))
+    maps = _used(rng, grid, maps_colour, orange_peel=0.007, gloss=0.4, relief=np.asarray(lip, np.float32))
+    return replace(maps, joints=joint_levels(np.asarray(np.abs(from_seam) - 0.36, np.float32)))
 
 
 def whiteboard(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:

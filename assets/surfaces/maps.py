@@ -18,12 +18,37 @@ class SurfaceMaps:
         roughness: Shape (H, W), linear, 0 mirror-like to 255 matt.
         normal: Tangent-space normals, shape (H, W, 3), OpenGL convention: green grows towards the top row.
         metallic: 0.0 to 1.0 for the whole surface, or a map of shape (H, W), 0 to 255, linear.
+        joints: Shape (H, W), how far each texel is from where pieces meet, by `joint_levels`; None where none do.
     """
 
     colour: npt.NDArray[np.uint8]
     roughness: npt.NDArray[np.uint8]
     normal: npt.NDArray[np.uint8]
     metallic: float | npt.NDArray[np.uint8]
+    joints: npt.NDArray[np.uint8] | None = None
+
+
+JOINT_REACH_MM = 3.0
+"""Distance from a joint's edge that a map of joints still tells, on either side."""
+
+
+def joint_levels(to_joint_mm: Field) -> npt.NDArray[np.uint8]:
+    """Store distances from joints' edges.
+
+    A distance, unlike a mask, stays exact when texels are averaged, and tells a wider joint from a narrow one.
+
+    Args:
+        to_joint_mm: Distance to the nearest edge of a joint in millimetres, negative inside it, shape (H, W).
+
+    Returns:
+        Shape (H, W): 255 deep inside, 127 or 128 at the edge, 0 from `JOINT_REACH_MM` on.
+    """
+    return _bytes(np.asarray(0.5 - to_joint_mm * np.float32(0.5 / JOINT_REACH_MM), np.float32))
+
+
+def joint_distance_mm(levels: npt.NDArray[np.uint8]) -> Field:
+    """The distances that `joint_levels` stored, shape (H, W)."""
+    return (127.5 - levels.astype(np.float32)) * np.float32(JOINT_REACH_MM / 127.5)
 
 
 def finish(
@@ -32,6 +57,7 @@ def finish(
     roughness: Field | float,
     height_mm: Field,
     metallic: Field | float = 0.0,
+    to_joint_mm: Field | None = None,
 ) -> SurfaceMaps:
     """Quantise a drawn surface.
 
@@ -41,6 +67,7 @@ def finish(
         roughness: 0 to 1, a field or one value.
         height_mm: Relief in millimetres, shape (H, W).
         metallic: 0 to 1, one value, or a field of how far metal shows: a texel is of metal or it is not.
+        to_joint_mm: Distance to the nearest edge of a joint, negative inside it, shape (H, W); None without joints.
 
     Returns:
         The maps, in 8 bits.
@@ -51,6 +78,7 @@ def finish(
         roughness=_bytes(rough),
         normal=normal_from_height(height_mm, grid),
         metallic=_bytes(_bare(metallic)) if isinstance(metallic, np.ndarray) else float(metallic),
+        joints=None if to_joint_mm is None else joint_levels(to_joint_mm),
     )
 
 

@@ -101,7 +101,7 @@ def cobble(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     colour = mix(colour, green, 0.85 * moss)
     height = height + 0.5 * moss * (1 + 0.4 * fractal(rng, grid, 1.6, 0.4, gain=0.9))
     rough = 0.72 + 0.05 * grain + 0.12 * moss - 0.14 * smoothstep(0.7, 1, dome)
-    return finish(grid, colour, rough, np.asarray(height, np.float32))
+    return finish(grid, colour, rough, np.asarray(height, np.float32), to_joint_mm=edge - np.float32(0.25))
 
 
 def paving_slabs(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
@@ -122,7 +122,7 @@ def paving_slabs(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     relief = 0.14 * split + 0.12 * broad + 0.06 * grain
     joints = Joints(4.5, 2.2, ((0.0, "4a4136"), (1.0, "7f725f")), 2.6, 0.8, 0.004, 0.5)
     floor = set_tiles(rng, grid, layout, Face(colour, 0.78 + 0.04 * grain, relief), joints)
-    return finish(grid, floor.colour, floor.roughness, floor.height_mm)
+    return finish(grid, floor.colour, floor.roughness, floor.height_mm, to_joint_mm=floor.to_joint_mm)
 
 
 def cracked_rock(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:

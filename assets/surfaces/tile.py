@@ -11,7 +11,7 @@ from assets.surfaces.marks import cracks, scratches, specks
 from assets.surfaces.noise import coverage, fractal, sample, smoothstep
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 from assets.surfaces.stone_faces import cleft, marble_face, travertine_face
-from assets.surfaces.tiled import Face, Joints, set_tiles
+from assets.surfaces.tiled import Face, Joints, SetFaces, set_tiles
 
 
 def ceramic_white(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
@@ -166,8 +166,8 @@ def cement_patterned(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     return _finish(grid, set_tiles(rng, grid, layout, Face(colour, rough, relief), joints))
 
 
-def _finish(grid: Grid, floor: Face) -> SurfaceMaps:
-    return finish(grid, floor.colour, floor.roughness, floor.height_mm)
+def _finish(grid: Grid, floor: SetFaces) -> SurfaceMaps:
+    return finish(grid, floor.colour, floor.roughness, floor.height_mm, to_joint_mm=floor.to_joint_mm)
 
 
 def _cut(rng: np.random.Generator, grid: Grid, layout: Layout, field: Field) -> Field:

@@ -49,7 +49,18 @@ class Face:
     height_mm: Field
 
 
-def set_tiles(rng: np.random.Generator, grid: Grid, layout: Layout, face: Face, joints: Joints) -> Face:
+@dataclass(frozen=True)
+class SetFaces(Face):
+    """A floor of faces set in joints.
+
+    Attributes:
+        to_joint_mm: Distance to the nearest edge of a joint, negative inside it, shape (H, W).
+    """
+
+    to_joint_mm: Field
+
+
+def set_tiles(rng: np.random.Generator, grid: Grid, layout: Layout, face: Face, joints: Joints) -> SetFaces:
     """Set faces in joints.
 
     Args:
@@ -60,7 +71,7 @@ def set_tiles(rng: np.random.Generator, grid: Grid, layout: Layout, face: Face, 
         joints: How they are set.
 
     Returns:
-        Colour, roughness and height of the floor.
+        Colour, roughness and height of the floor, and where its joints are.
     """
     edge = layout.edge_mm + joints.wander_mm * fractal(rng, grid, 30, 1.4, gain=0.5) - 0.5 * joints.width_mm
     inside = smoothstep(-0.12, 0.18, edge)
@@ -78,4 +89,4 @@ def set_tiles(rng: np.random.Generator, grid: Grid, layout: Layout, face: Face, 
     bottom = -joints.depth_mm + 0.05 * sand
     height = bottom + (top - bottom) * inside
     rough = 0.9 + (face.roughness + 0.4 * grime - 0.9) * inside
-    return Face(colour, np.asarray(rough, np.float32), np.asarray(height, np.float32))
+    return SetFaces(colour, np.asarray(rough, np.float32), np.asarray(height, np.float32), edge)

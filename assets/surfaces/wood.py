@@ -88,7 +88,8 @@ def birch_veneer(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     joint = 1 - smoothstep(0.1, 0.6, layout.edge_mm)
     colour = mix(colour, "4f3c22", 0.8 * joint)
     rough = 0.58 + 0.03 * wood.relief + 0.2 * joint
-    return finish(grid, colour, rough, np.asarray(0.012 * wood.relief - 0.3 * joint, np.float32))
+    height = np.asarray(0.012 * wood.relief - 0.3 * joint, np.float32)
+    return finish(grid, colour, rough, height, to_joint_mm=layout.edge_mm - np.float32(0.35))
 
 
 def weathered_boards(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
@@ -103,10 +104,12 @@ def weathered_boards(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     algae = coverage(fractal(rng, grid, 70, 1.5, gain=0.65), 0.14, 0.8)
     colour = mix(colour, "6b6c4e", 0.35 * algae)
     colour = mix(colour, "1c1712", 0.9 * cracks)
-    gap = smoothstep(0.6, 2.6, layout.edge_mm + 0.25 * fractal(rng, grid, 30, 1, stretch=(3.0, 1.0)))
+    edge = layout.edge_mm + 0.25 * fractal(rng, grid, 30, 1, stretch=(3.0, 1.0))
+    gap = smoothstep(0.6, 2.6, edge)
     colour = mix(plain("100d0a", gap), colour, gap)
     height = 0.16 * wood.relief - 0.5 * cracks - 2.6 * (1 - gap)
-    return finish(grid, colour, 0.86 - 0.06 * wood.late, height.astype(np.float32))
+    rough = 0.86 - 0.06 * wood.late
+    return finish(grid, colour, rough, height.astype(np.float32), to_joint_mm=edge - np.float32(1.6))
 
 
 def _bench(rng: np.random.Generator, grid: Grid, layout: Layout, species: Species) -> SurfaceMaps:
@@ -151,7 +154,9 @@ def _floor(
     height = 0.022 * wood.relief + 0.45 * bevel_mm * (bevel - 1) - 0.5 * seam - 0.01 * marks
     tilt = value_each(rng, layout.labels, -0.0012, 0.0012) * layout.v_mm
     cup = 0.00002 * np.square(layout.v_mm)
-    return finish(grid, colour, rough, np.asarray(height + (tilt - cup) * bevel, np.float32))
+    # Half-way up the seam.
+    to_joint_mm = layout.edge_mm - np.float32(0.12 + 0.225 * bevel_mm)
+    return finish(grid, colour, rough, np.asarray(height + (tilt - cup) * bevel, np.float32), to_joint_mm=to_joint_mm)
 
 
 RECIPES = tuple(

@@ -118,6 +118,27 @@ def test_another_version_is_drawn_afresh(tmp_path: Path) -> None:
     assert bake(tmp_path).drawn == (PLAIN,)
 
 
+def test_a_record_from_before_joints_is_drawn_afresh(tmp_path: Path) -> None:
+    """It does not tell whether there are any."""
+    bake(tmp_path)
+    path = tmp_path / PLAIN / "surface.json"
+    record = json.loads(path.read_text())
+    del record["has_joints"]
+    path.write_text(json.dumps(record))
+    assert bake(tmp_path).drawn == (PLAIN,)
+
+
+def test_a_surface_in_pieces_has_a_map_of_its_joints(tmp_path: Path) -> None:
+    """As the recipe drew it."""
+    (baked,) = bake_surfaces(tmp_path, pixels=64, names=["brick_wall"], processes=1).surfaces
+    recipe = SURFACES["brick_wall"]
+    assert baked.record.has_joints
+    found = cv2.imread(str(baked.path("joints")), cv2.IMREAD_UNCHANGED)
+    drawn = recipe.build(recipe_generator(recipe), 64).joints
+    assert drawn is not None
+    assert np.array_equal(found, drawn)
+
+
 def test_loading_finds_what_was_baked(tmp_path: Path) -> None:
     """Names, sizes and paths come back."""
     bake(tmp_path)

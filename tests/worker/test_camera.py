@@ -106,7 +106,7 @@ def test_what_is_out_of_focus_covers_as_it_does_in_a_render(settled: tuple[Scene
     coverage = render_white(scene, shapes)
     curves = [smooth(nodes, CableDetail().points_per_segment) for nodes in shapes.nodes_m]
     view = View.of(camera, RESOLUTION)
-    pieces = pieces_of(scene, curves)
+    pieces = pieces_of(scene, curves, shapes.sticks_m)
     found = covered_by(pieces, view, lens_radius_m(camera), CableDetail().sides)
     sharp = covered_by(pieces, view, 0.0, CableDetail().sides)
     error = np.abs(found - coverage).mean()

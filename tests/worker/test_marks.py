@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from farm.scene import Wear
+from farm.scene import JointFill, Wear
 from worker.marks import CELL_M, EDGE_M, marks_on, scratch_lines, stain_grids
 
 WEAR = Wear(
@@ -77,3 +77,36 @@ def test_marks_come_from_the_seed_alone() -> None:
         assert getattr(one, name).tobytes() == getattr(again, name).tobytes()
     none = marks_on(WEAR.model_copy(update={"stains": 0.0, "scratches": 0.0, "dust": 0.0}), 8, 8, window(1e-3, 8))
     assert not none.any
+
+
+def beside_a_joint(texel_m: float, texels: int) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
+    """Distances from a joint of 2 mm down the middle of a window."""
+    across = (np.arange(texels) - (texels - 1) / 2) * texel_m
+    return np.tile((np.abs(across) - 0.001).astype(np.float32), (texels, 1))
+
+
+def filled(spread_m: float, texel_m: float = 0.1e-3, texels: int = 400) -> float:
+    """Mean width of what fills that joint, metres."""
+    wear = WEAR.model_copy(update={"joints": JointFill(albedo=(0.2, 0.2, 0.2), cover=1.0, spread_m=spread_m)})
+    joint = marks_on(wear, texels, texels, window(texel_m, texels), beside_a_joint(texel_m, texels)).joint
+    assert joint is not None
+    return float(joint.sum(axis=1).mean()) * texel_m
+
+
+def test_what_fills_a_joint_is_as_wide_as_the_joint() -> None:
+    """Less where it has fallen out; wider by as much as it spreads onto either edge."""
+    width_m, wider_m = filled(0.0), filled(0.0005)
+    assert 0.0013 < width_m < 0.0021
+    assert wider_m - width_m == pytest.approx(2 * 0.0005 * width_m / 0.002, rel=0.25)
+
+
+def test_filled_joints_have_their_width_whatever_the_texels_are() -> None:
+    """Texels of 0.1 mm and of 0.3 mm show the same."""
+    assert filled(0.0003, 0.3e-3, 133) == pytest.approx(filled(0.0003), rel=0.1)
+
+
+def test_joints_stay_as_they_are_unless_filled() -> None:
+    """Without a fill, or on a surface whose joints nobody knows, there is no such mark."""
+    fill = JointFill(albedo=(0.2, 0.2, 0.2), cover=1.0, spread_m=0.0)
+    assert marks_on(WEAR, 8, 8, window(1e-3, 8), beside_a_joint(1e-3, 8)).joint is None
+    assert marks_on(WEAR.model_copy(update={"joints": fill}), 8, 8, window(1e-3, 8)).joint is None

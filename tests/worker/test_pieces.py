@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import cdist
 
+from farm.clutter import Stick, StickKind
 from farm.looks import Bundle, CableEnd, EndKind, Tie, envelope_ratio
 from farm.scene import Cable, Scene
 from tests.worker.scenes import make_scene, make_skin
@@ -47,13 +48,13 @@ def scene_of(*cables: Cable) -> Scene:
 
 def pieces(*cables: Cable) -> list[Piece]:
     """Of cables that lie on each other."""
-    return pieces_of(scene_of(*cables), [line(0.002 + 0.004 * k) for k in range(len(cables))])
+    return pieces_of(scene_of(*cables), [line(0.002 + 0.004 * k) for k in range(len(cables))], ())
 
 
 def test_a_cut_cable_is_one_piece_on_its_own_curve() -> None:
     """The very points that settled."""
     curve = line()
-    (piece,) = pieces_of(scene_of(cable()), [curve])
+    (piece,) = pieces_of(scene_of(cable()), [curve], ())
     assert isinstance(piece, Tubular)
     assert piece.curve is curve
     assert (piece.instance, piece.radius_m, piece.start_m, piece.end_m) == (1, 0.002, 0.0, LENGTH_M)
@@ -90,7 +91,7 @@ def test_a_tie_is_no_instance_and_goes_around_all_strands() -> None:
 
 def test_a_tie_lies_above_the_strands_and_below_what_crosses_them() -> None:
     """In the order of heights by which hiding goes."""
-    found = pieces_of(scene_of(cable(material=bundle(3, TIE)), cable()), [line(0.002), line(0.012)])
+    found = pieces_of(scene_of(cable(material=bundle(3, TIE)), cable()), [line(0.002), line(0.012)], ())
     band = next(piece for piece in found if isinstance(piece, Convex))
     strands = [piece for piece in found if isinstance(piece, Tubular) and piece.instance <= 3]
     above = next(piece for piece in found if isinstance(piece, Tubular) and piece.instance == 4)
@@ -102,11 +103,33 @@ def test_a_tie_keeps_clear_of_a_cable_that_crosses_its_bundle() -> None:
     """It moves along the bundle; where there is no room all along, there is none."""
     across = line(0.006)[:, [1, 0, 2]]
     scene = scene_of(cable(material=bundle(3, TIE)), cable())
-    moved = [piece for piece in pieces_of(scene, [line(0.002), across]) if isinstance(piece, Convex)]
+    moved = [piece for piece in pieces_of(scene, [line(0.002), across], ()) if isinstance(piece, Convex)]
     assert moved
     for solid in moved:
         assert cdist(solid.rings.reshape(-1, 3), across).min() > 0.002
-    assert not any(isinstance(piece, Convex) for piece in pieces_of(scene, [line(0.002), line(0.006)]))
+    assert not any(isinstance(piece, Convex) for piece in pieces_of(scene, [line(0.002), line(0.006)], ()))
+
+
+def test_a_tie_keeps_clear_of_a_stick_that_lies_on_its_bundle() -> None:
+    """It moves along the bundle until it does not reach the stick."""
+    axis = np.array([[0.0, -0.06, 0.008], [0.0, 0.06, 0.008]])
+    stick = Stick(
+        kind=StickKind.ROD,
+        diameter_m=0.008,
+        length_m=0.12,
+        x_m=0.0,
+        y_m=0.0,
+        start_height_m=0.01,
+        rotation_deg=90.0,
+        colour=(20, 20, 20),
+        pattern_seed=0,
+    )
+    scene = scene_of(cable(material=bundle(3, TIE))).model_copy(update={"sticks": (stick,)})
+    solids = [piece for piece in pieces_of(scene, [line(0.002)], (axis,)) if isinstance(piece, Convex)]
+    assert solids
+    for solid in solids:
+        corners = solid.rings.reshape(-1, 3)
+        assert np.linalg.norm(corners[:, [0, 2]] - axis[0, [0, 2]], axis=1).min() > 0.004
 
 
 def test_ties_do_not_sit_on_each_other() -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from farm.scene import Wear
+from farm.scene import JointFill, Wear
 from worker.marks import Marks
 from worker.wear import turned_over, worn_colour, worn_roughness
 
@@ -78,6 +78,20 @@ def test_dust_takes_the_gloss() -> None:
     """Under it a polished floor is rough."""
     dust = Marks(stain=None, scratch=None, dust=np.ones((4, 4), np.float32))
     assert (worn_roughness(np.full((4, 4), 40, np.uint8), dust) > 180).all()
+
+
+def test_what_fills_a_joint_hides_what_was_there() -> None:
+    """Where it covers all it has its own colour and is rough, whatever the floor was; elsewhere nothing changes."""
+    half = np.zeros((8, 8), np.float32)
+    half[:, 4:] = 1
+    filled = UNWORN.model_copy(update={"joints": JointFill(albedo=(0.3, 0.2, 0.1), cover=1.0, spread_m=0.0)})
+    marks = Marks(stain=None, scratch=None, dust=None, joint=half)
+    worn = worn_colour(np.full((8, 8, 3), 40, np.uint8), filled, marks)
+    assert (worn[:, :4] == 40).all()
+    assert light(worn)[0, 7] == pytest.approx(np.array([0.3, 0.2, 0.1]), rel=0.03)
+    rough = worn_roughness(np.full((8, 8), 40, np.uint8), marks)
+    assert (rough[:, :4] == 40).all()
+    assert (rough[:, 4:] > 220).all()
 
 
 def test_a_texture_turned_over_is_mirrored() -> None:

@@ -9,7 +9,7 @@ from farm.header import DatasetHeader, HdriRef
 from farm.light_ranges import LampRanges, StudioRanges
 from farm.lights import AreaLamp, GreyWorld, HdriWorld, Lamp, PointLamp, StudioLamp
 from farm.ranges import FloorRanges, WearRanges, WindRanges
-from farm.scene import Floor, Gust, Plate, Wear, Wind
+from farm.scene import Floor, Gust, JointFill, Plate, Wear, Wind
 from worker.draws.values import chance, level, log_uniform, pattern_seed, uniform
 
 OVER_FLOORS = "sunrise"
@@ -82,7 +82,7 @@ def _draw_wear(ranges: WearRanges, rng: np.random.Generator) -> Wear | None:
         uniform(rng, ranges.dust),
     )
     red, green, blue = (2.0 ** uniform(rng, ranges.tint_ev) for _ in range(3))
-    return Wear(
+    worn = Wear(
         brightness=2.0 ** uniform(rng, ranges.brightness_ev),
         tint=(red, green, blue),
         saturation=uniform(rng, ranges.saturation),
@@ -92,6 +92,18 @@ def _draw_wear(ranges: WearRanges, rng: np.random.Generator) -> Wear | None:
         dust=dust if dusty else 0.0,
         mirrored=chance(rng, 0.5),
         pattern_seed=pattern_seed(rng),
+    )
+    # Drawn last, so that what was drawn before there were joints stays as it was.
+    joints = _draw_joint_fill(ranges, rng)
+    return worn.model_copy(update={"joints": joints}) if chance(rng, ranges.refilled_share) else worn
+
+
+def _draw_joint_fill(ranges: WearRanges, rng: np.random.Generator) -> JointFill:
+    level, warmth = log_uniform(rng, ranges.joint_albedo), uniform(rng, ranges.joint_warmth_ev)
+    return JointFill(
+        albedo=(min(1.0, level * 2.0**warmth), level, min(1.0, level / 2.0**warmth)),
+        cover=uniform(rng, ranges.joint_cover),
+        spread_m=uniform(rng, ranges.joint_spread_m),
     )
 
 

@@ -18,7 +18,7 @@ from farm.asset_source import InstalledAssets
 from farm.category import Category
 from farm.header import DatasetHeader
 from farm.quality import Preset, settings_for
-from farm.scene import Wear
+from farm.scene import JointFill, Wear
 from farm.styles import Style
 from worker.bench.bench_dataset import bench_header
 from worker.bench.physics.report import machine
@@ -46,6 +46,7 @@ _WEAR = Wear(
     dust=0.2,
     mirrored=False,
     pattern_seed=0,
+    joints=JointFill(albedo=(0.2, 0.18, 0.15), cover=0.8, spread_m=0.0003),
 )
 """The middle of the wide style's ranges, all of it at once."""
 
