@@ -245,14 +245,14 @@ def _dust(share: float, rng: np.random.Generator, window: _Window) -> Field:
 
 
 def _filled(fill: JointFill, to_joint_m: Field, rng: np.random.Generator, window: _Window) -> Field:
-    """What fills joints: its edge wanders a little, and in places it is thin, or was never there."""
+    """What fills joints: its edge wanders a little, it is grainy, and in places it is thin."""
     patches = window.look_up(rough_noise(rng, CELLS, CELLS, 40.0, 4))
     grain = _grain(window)
     edge_m = to_joint_m - np.float32(fill.spread_m) * (1 + 0.4 * np.clip(patches, -2, 2)) - np.float32(0.04e-3) * grain
     # Soft over a texel at least, or edges of joints show its steps.
     soft_m = max(0.12e-3, 0.6 / window.texels_per_m)
     filled: Field = np.float32(fill.cover) * smooth_step(-edge_m, -soft_m, soft_m)
-    filled *= smooth_step(patches, -2.2, -0.6) * np.clip(0.9 + 0.1 * grain, 0, 1)
+    filled *= (0.55 + 0.45 * smooth_step(patches, -1.6, 0.4)) * np.clip(0.84 + 0.16 * grain, 0, 1)
     return filled
 
 
