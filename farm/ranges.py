@@ -139,7 +139,8 @@ class CableRanges(Model):
 
     Of `count_draws` even draws of the count the largest holds: with three, up to eight cables are six on average.
     Far cables may have a length of their own: over a floor that is not seen, one that ends in the picture floats.
-    Diameters are drawn evenly in their logarithm; one wider than `widest_share` of the picture is made so thin.
+    Diameters are drawn evenly in their logarithm, from what is neither narrower than `narrowest_share` of the picture
+    nor wider than `widest_share`.
 
     `vertex_mass` is the published setting of the cloth. Young's modulus (drawn evenly in its logarithm), density and
     friction are ours: soft silicone leads to stiff sheathed wire. Modulus and density are those of a full round
@@ -149,6 +150,7 @@ class CableRanges(Model):
     count: CableCountRange = (1, 8)
     count_draws: Annotated[int, Field(ge=1, le=10)] = 3
     diameter_m: DiameterRange = (0.0024, 0.0024)
+    narrowest_share: Fraction = 0.0
     widest_share: WidestShare = 1.0
     length_m: CableLengthRange = (0.40, 0.40)
     far_length_m: CableLengthRange | None = None
@@ -165,6 +167,18 @@ class CableRanges(Model):
     skin: SkinRanges = SkinRanges()
     bundle: BundleRanges = BundleRanges()
     ends: EndRanges = EndRanges()
+
+    @model_validator(mode="after")
+    def _narrowest_below_widest(self) -> Self:
+        if self.narrowest_share > self.widest_share:
+            raise ValueError(f"narrowest_share {self.narrowest_share:g} is above widest_share {self.widest_share:g}")
+        return self
+
+    def diameters_m(self, seen_m: float) -> tuple[float, float]:
+        """The range of diameters in a picture that shows `seen_m` of the floor from side to side."""
+        narrowest, widest = self.narrowest_share * seen_m, self.widest_share * seen_m
+        low, high = (min(max(end, narrowest), widest) for end in self.diameter_m)
+        return low, high
 
 
 class Ranges(Model):
@@ -185,8 +199,7 @@ class Ranges(Model):
     @model_validator(mode="after")
     def _fit_each_other(self) -> Self:
         lowest = min(self.camera.heights_m)
-        widest = min(self.cable.diameter_m[1], self.cable.widest_share * seen_width_m(lowest))
-        pile = self.cable.count[1] * widest
+        pile = self.cable.count[1] * self.cable.diameters_m(seen_width_m(lowest))[1]
         if lowest < 2 * pile:
             raise ValueError(
                 f"camera.heights_m {lowest} is below twice the highest pile, {pile:g} m "

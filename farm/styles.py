@@ -32,6 +32,7 @@ WIDE = Ranges(
     cable=CableRanges(
         count_draws=1,
         diameter_m=(0.001, 0.012),
+        narrowest_share=4 / 512,
         widest_share=40 / 512,
         length_m=(0.10, 0.55),
         far_length_m=(0.55, 0.80),

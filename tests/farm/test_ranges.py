@@ -43,6 +43,12 @@ def test_a_range_the_wrong_way_round_is_refused() -> None:
         with_ranges(floor={"scale": [1.5, 0.7]})
 
 
+def test_a_narrowest_cable_above_the_widest_is_refused() -> None:
+    """Both are shares of the picture."""
+    with pytest.raises(SpecError, match=r"narrowest_share 0\.2 is above widest_share 0\.1"):
+        with_ranges(cable={"narrowest_share": 0.2, "widest_share": 0.1})
+
+
 def test_one_number_is_a_range_without_width() -> None:
     """For the diameter and the length, of which the publication has one."""
     cable = with_ranges(cable={"diameter_m": 0.003, "length_m": 0.2}).cable

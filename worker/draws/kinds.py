@@ -76,17 +76,17 @@ class _Make:
 
 def draw_kinds(ranges: CableRanges, count: int, camera: Camera, rng: np.random.Generator) -> list[CableKind]:
     """Draw the kind of each cable of a picture."""
-    widest = ranges.widest_share * camera.height_m * SENSOR_MM / camera.focal_length_mm
+    seen_m = camera.height_m * SENSOR_MM / camera.focal_length_mm
     skinned = chance(rng, ranges.skin.share)
     alike = chance(rng, ranges.skin.alike_share)
-    common = _draw_make(ranges, widest, rng)
+    common = _draw_make(ranges, seen_m, rng)
     kinds: list[CableKind] = []
     for _ in range(count):
-        make = common if alike else _draw_make(ranges, widest, rng)
+        make = common if alike else _draw_make(ranges, seen_m, rng)
         if not skinned:
             kinds.append(CableKind(make.diameter_m, None))
         elif chance(rng, ranges.bundle.share):
-            kinds.append(_draw_bundle(ranges, make, widest, rng))
+            kinds.append(_draw_bundle(ranges, make, seen_m, rng))
         else:
             kinds.append(CableKind(make.diameter_m, _draw_skin(ranges.skin, make, rng)))
     return kinds
@@ -109,7 +109,7 @@ def _draw_end(ranges: EndRanges, diameter_m: float, rng: np.random.Generator) ->
     return CableEnd()
 
 
-def _draw_make(ranges: CableRanges, widest_m: float, rng: np.random.Generator) -> _Make:
+def _draw_make(ranges: CableRanges, seen_m: float, rng: np.random.Generator) -> _Make:
     skin = ranges.skin
     drawn = rng.random()
     sheath = Sheath.PLAIN
@@ -118,7 +118,7 @@ def _draw_make(ranges: CableRanges, widest_m: float, rng: np.random.Generator) -
     elif drawn < skin.translucent_share + skin.braided_share:
         sheath = Sheath.BRAIDED
     return _Make(
-        diameter_m=min(log_uniform(rng, ranges.diameter_m), widest_m),
+        diameter_m=log_uniform(rng, ranges.diameters_m(seen_m)),
         sheath=sheath,
         roughness=uniform(rng, skin.roughness),
         striped=chance(rng, skin.stripe_share),
@@ -168,12 +168,13 @@ def _draw_marking(make: _Make, sheath: Rgb, rng: np.random.Generator) -> Marking
     return Marking(text=text, colour=letters, height_share=height, repeat_m=words_m + float(rng.uniform(0.01, 0.06)))
 
 
-def _draw_bundle(ranges: CableRanges, make: _Make, widest_m: float, rng: np.random.Generator) -> CableKind:
+def _draw_bundle(ranges: CableRanges, make: _Make, seen_m: float, rng: np.random.Generator) -> CableKind:
     bundle: BundleRanges = ranges.bundle
     strands = level(rng, bundle.strands)
     ratio = envelope_ratio(strands)
     # A bundle may be half as wide again as a single cable.
-    strand = min(log_uniform(rng, bundle.strand_diameter_m), 1.5 * widest_m / ratio)
+    strand = max(log_uniform(rng, bundle.strand_diameter_m), ranges.narrowest_share * seen_m)
+    strand = min(strand, 1.5 * ranges.widest_share * seen_m / ratio)
     diameter = ratio * strand
     lay = uniform(rng, bundle.lay_diameters) * diameter * (1.0 if chance(rng, 0.5) else -1.0)
     ties = _draw_ties(bundle, rng)

@@ -40,6 +40,15 @@ def test_no_single_cable_is_wider_than_40_of_512_pixels(seed: int, height: float
         assert width_px <= (60 if isinstance(kind.look, Bundle) else 40) * 1.0001
 
 
+@given(seed=st.integers(0, 2**32), height=st.floats(0.05, 1.0))
+def test_no_cable_and_no_strand_is_narrower_than_4_of_512_pixels(seed: int, height: float) -> None:
+    """As the published ones, whose labels can be learned from."""
+    camera = Camera(height_m=height, f_number=8.0)
+    for kind in draw_kinds(WIDE, 8, camera, np.random.default_rng(seed)):
+        seen_m = kind.look.strand_diameter_m if isinstance(kind.look, Bundle) else kind.diameter_m
+        assert seen_m / (height * 36 / 50) * 512 >= 4 * 0.9999
+
+
 @pytest.mark.parametrize("strands", range(2, 8))
 def test_circles_fit_into_their_envelope(strands: int) -> None:
     """Graham, "Sets of points with given minimum separation", 1968: the ring of n, or six about one."""
