@@ -11,8 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from farm.rendering import CableDetail
+from farm.scene import Scene
+from worker.clutter.hiding import hiding_pieces
 from worker.coverage import cover
 from worker.piece import Piece
+from worker.pieces import pieces_of
+from worker.shapes import CableShapes, smooth
 from worker.silhouette import silhouettes
 from worker.view import View
 
@@ -28,6 +33,20 @@ class Labels:
 
     mask: NDArray[np.uint8]
     instances: NDArray[np.uint16]
+
+
+def label_scene(scene: Scene, shapes: CableShapes, detail: CableDetail, resolution: int) -> Labels:
+    """Label a settled scene's cables as they are rendered.
+
+    Args:
+        scene: what was drawn.
+        shapes: it settled.
+        detail: how finely cables are modelled.
+        resolution: pixels along an edge of the picture.
+    """
+    curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
+    pieces = [*pieces_of(scene, curves, shapes.sticks_m), *hiding_pieces(scene, shapes)]
+    return label_cables(pieces, View.of(scene.camera, resolution), detail.sides)
 
 
 def label_cables(pieces: Sequence[Piece], view: View, sides: int) -> Labels:

@@ -18,26 +18,23 @@ from farm.header import DatasetHeader, FileRef
 from farm.job import Job
 from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
 from farm.quality import ChosenSettings
-from farm.rendering import CableDetail, PictureSettings
+from farm.rendering import PictureSettings
 from farm.scene import Scene
 from farm.spec import DatasetSpec, Engine
 from worker import eevee
 from worker.check import find_fault
-from worker.clutter.hiding import hiding_pieces
 from worker.devices import choose_device
 from worker.gates import measure
 from worker.images import ImageShelf
-from worker.label import Labels, label_cables
+from worker.label import label_scene
 from worker.library import AssetLibrary, checked
 from worker.made import MadeImage
 from worker.matte import Backdrop
-from worker.pieces import pieces_of
 from worker.randomize import draw_scene
 from worker.realize import realize
 from worker.render import configure_cycles, configure_eevee, configure_picture, render_scene
-from worker.shapes import CableShapes, smooth
+from worker.shapes import CableShapes
 from worker.simulate import let_fall
-from worker.view import View
 
 
 def open_studio(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> "Studio":
@@ -98,7 +95,7 @@ class Studio:
         with _timed(timings, "render"):
             image = render_scene(scene, behind)
         with _timed(timings, "mask"):
-            labels = label(scene, shapes, chosen.settings.detail, spec.resolution)
+            labels = label_scene(scene, shapes, chosen.settings.detail, spec.resolution)
         return MadeImage(
             image=image,
             mask=labels.mask,
@@ -175,14 +172,6 @@ def _chosen_settings(header: DatasetHeader, category: Category) -> ChosenSetting
     if category not in header.rendering:
         raise SpecError(f"dataset.json does not say how {category} is rendered; submit a new dataset")
     return header.rendering[category]
-
-
-def label(scene: Scene, shapes: CableShapes, detail: CableDetail, resolution: int) -> Labels:
-    """Label a settled scene's cables as they are rendered."""
-    curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
-    view = View.of(scene.camera, resolution)
-    pieces = [*pieces_of(scene, curves, shapes.sticks_m), *hiding_pieces(scene, shapes)]
-    return label_cables(pieces, view, detail.sides)
 
 
 @contextmanager

@@ -16,6 +16,7 @@ from tests.worker.scenes import make_header, make_scene  # noqa: E402
 from worker.bench.mask_agreement import compare  # noqa: E402
 from worker.bench.mask_reference import render_coverage  # noqa: E402
 from worker.images import ImageShelf  # noqa: E402
+from worker.label import label_scene  # noqa: E402
 from worker.library import AssetLibrary  # noqa: E402
 from worker.matte import covered_by  # noqa: E402
 from worker.panorama import lens_radius_m  # noqa: E402
@@ -24,7 +25,6 @@ from worker.realize import realize  # noqa: E402
 from worker.render import configure_cycles, configure_picture  # noqa: E402
 from worker.shapes import CableShapes, smooth  # noqa: E402
 from worker.simulate import let_fall  # noqa: E402
-from worker.studio import label  # noqa: E402
 from worker.view import View  # noqa: E402
 
 pytestmark = pytest.mark.blender
@@ -91,7 +91,7 @@ def test_a_mask_agrees_with_a_render_through_any_lens(settled: tuple[Scene, Cabl
     drawn, shapes = settled
     scene = drawn.model_copy(update={"camera": CAMERAS[name], "floor": None})
     coverage = render_white(scene, shapes)
-    agreement = compare(label(scene, shapes, CableDetail(), RESOLUTION).instances, coverage)
+    agreement = compare(label_scene(scene, shapes, CableDetail(), RESOLUTION).instances, coverage)
     assert agreement.iou > 0.97
     assert agreement.edge_error_px <= 0.2
     assert agreement.gap_pixels < 20

@@ -21,6 +21,7 @@ from farm.job import Job  # noqa: E402
 from farm.spec import parse_spec  # noqa: E402
 from worker.bench.mask_agreement import compare  # noqa: E402
 from worker.bench.mask_reference import render_coverage  # noqa: E402
+from worker.bench.pictures.drawn_coverage import drawn_coverage  # noqa: E402
 from worker.gates import settled_figures  # noqa: E402
 from worker.library import checked  # noqa: E402
 from worker.render import render_picture  # noqa: E402
@@ -246,3 +247,11 @@ def test_a_photograph_stands_behind_far_cables(baked: Path, tmp_path: Path) -> N
         far = cv2.dilate(made.mask, np.ones((9, 9), np.uint8)) == 0
         red, green, blue = (np.median(made.image[far][:, channel]) for channel in range(3))
         assert bool(red > 1.5 * max(green, blue)) == is_red
+
+
+def test_labels_without_a_render_cover_what_the_mask_does(studio: Studio) -> None:
+    """Scenes that a benchmark labels alone stand for pictures."""
+    header = small_header()
+    job = Job(category=Category.CLOSE_ALIGNED_CONCENTRATED, index=2)
+    *_, last = drawn_coverage(header, job.category, job.index + 1)
+    assert last == np.mean(studio.make(job, header).mask > 0)

@@ -96,7 +96,12 @@ def _run_styles(options: argparse.Namespace) -> int:
     from worker.bench.pictures.command import run as run_pictures  # noqa: PLC0415
 
     return run_pictures(
-        options.out, seed=options.seed, images=options.images, styles=styles_of(options), datasets=options.dataset
+        options.out,
+        seed=options.seed,
+        images=options.images,
+        scenes=options.scenes,
+        styles=styles_of(options),
+        datasets=options.dataset,
     )
 
 

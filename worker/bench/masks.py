@@ -16,9 +16,10 @@ from worker.bench.mask_agreement import compare
 from worker.bench.mask_reference import SAMPLES, render_coverage
 from worker.bench.mask_results import LabelledImage, check, table, times
 from worker.bench.terminal import bench_console, blender_writes_to
+from worker.label import label_scene
 from worker.made import MadeImage
 from worker.simulate import let_fall
-from worker.studio import label, open_studio
+from worker.studio import open_studio
 from worker.view import View
 
 DEFAULT_IMAGES = 2
@@ -65,7 +66,7 @@ def _label_again(made: MadeImage, category: Category, header: DatasetHeader) -> 
     taken_s = []
     for _ in range(REPEATS):
         start = time.thread_time()
-        labels = label(made.scene, shapes, detail, header.spec.resolution)
+        labels = label_scene(made.scene, shapes, detail, header.spec.resolution)
         taken_s.append(time.thread_time() - start)
         if labels.instances.tobytes() != made.instances.tobytes() or labels.mask.tobytes() != made.mask.tobytes():
             raise VerificationError("the same scene was labelled differently a second time")

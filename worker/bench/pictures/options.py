@@ -7,11 +7,20 @@ from worker.bench.pictures.making import STYLES, parse_named
 
 DEFAULT_IMAGES = 150
 
+DEFAULT_SCENES = 300
+"""Means are then known to a third of a point in a hundred."""
+
 
 def add_pictures(commands: Any, shared: argparse.ArgumentParser) -> None:
     """Add the command to `commands`, the subparsers of the benchmarks' parser."""
     pictures = commands.add_parser("pictures", parents=[shared], help="light, colour, cables and clutter of pictures")
     pictures.add_argument("--images", type=int, default=DEFAULT_IMAGES, help="of each style, in the published mix")
+    pictures.add_argument(
+        "--scenes",
+        type=int,
+        default=DEFAULT_SCENES,
+        help="of each category that are labelled without a render, for the published style's coverage; 0 for none",
+    )
     pictures.add_argument(
         "--style",
         choices=STYLES,

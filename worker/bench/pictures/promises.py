@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from farm.category import Category
 from worker.bench.pictures.reference import PUBLISHED, WIDE
-from worker.bench.pictures.survey import Summary
+from worker.bench.pictures.survey import Distribution, Summary
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,9 @@ class Promise:
     kept: bool
 
 
-def promises_of(style: str, summaries: Mapping[Category | None, Summary]) -> list[Promise]:
+def promises_of(
+    style: str, summaries: Mapping[Category | None, Summary], coverage: Mapping[Category, Distribution]
+) -> list[Promise]:
     """The promises of a style; none for a name that is no style.
 
     `published`: the mean of each category lies within what the published examples show. `wide`: its pictures cover a
@@ -35,10 +37,11 @@ def promises_of(style: str, summaries: Mapping[Category | None, Summary]) -> lis
     Args:
         style: its name.
         summaries: of all pictures under None, and by category.
+        coverage: of more scenes than there are pictures, by category; where given, it stands for that of the pictures.
     """
     if style == "published":
         return [
-            _within(category, figure, summary)
+            _within(category, figure, coverage.get(category) if figure == "coverage" else None, summary)
             for category, summary in summaries.items()
             if category is not None
             for figure in PUBLISHED
@@ -46,14 +49,15 @@ def promises_of(style: str, summaries: Mapping[Category | None, Summary]) -> lis
     return [_covers(figure, summaries[None]) for figure in WIDE] if style == "wide" else []
 
 
-def _within(category: Category, figure: str, summary: Summary) -> Promise:
-    asked, mean = PUBLISHED[figure], summary.figures[figure].mean
+def _within(category: Category, figure: str, drawn: Distribution | None, summary: Summary) -> Promise:
+    found = drawn or summary.figures[figure]
+    asked, mean = PUBLISHED[figure], found.mean
     side = "" if asked.holds(mean) else ", too low" if mean < asked.low else ", too high"
     return Promise(
         "published",
         f"{figure} of {category}",
         f"mean within {asked.low:g} to {asked.high:g}",
-        f"{mean:.3g}{side}",
+        f"{mean:.3g} of {found.pictures}{side}",
         asked.holds(mean),
     )
 

@@ -73,6 +73,18 @@ def spread_table(summaries: Mapping[str, Summaries]) -> Table:
     return table
 
 
+def coverage_table(coverage: Mapping[Category, Distribution]) -> Table:
+    """A row a category: what its scenes' labels cover, and how well the mean is known."""
+    table = Table(title="published: coverage of labelled scenes, %", title_justify="left")
+    for number, title in enumerate(("category", "n", "mean ± standard error", "standard deviation")):
+        table.add_column(title, justify="right" if number else "left")
+    for category, found in coverage.items():
+        mean, error = 100 * found.mean, 100 * found.deviation / math.sqrt(found.pictures)
+        deviation = f"{100 * found.deviation:.2f}"
+        table.add_row(words(category), str(found.pictures), f"{mean:.2f} ± {error:.2f}", deviation)
+    return table
+
+
 def promises_table(promises: Sequence[Promise]) -> Table:
     """A row a promise."""
     table = Table(title="what the styles promise", title_justify="left")
@@ -89,14 +101,16 @@ def write_json(
     seed: int,
     measured: Mapping[str, Sequence[MeasuredPicture]],
     summaries: Mapping[str, Summaries],
+    coverage: Mapping[Category, Distribution],
     promises: Sequence[Promise],
 ) -> None:
-    """Every figure of every group and every picture, the promises, and the machine."""
+    """Every figure of every group and every picture, coverage of labelled scenes, the promises, and the machine."""
     content = {
         "machine": machine(),
         "seed": seed,
         "published_examples": {figure: asdict(known) for figure, known in PUBLISHED.items()},
         "photographs": {figure: asdict(known) for figure, known in PHOTOGRAPHS.items()},
+        "labelled_coverage": {str(category): asdict(found) for category, found in coverage.items()},
         "promises": [asdict(promise) for promise in promises],
         "datasets": {
             name: {

@@ -19,9 +19,9 @@ from worker.bench.whole.rows import STAGES
 from worker.bench.whole.stopwatch import Stopwatch
 from worker.bench.whole.writing import write_files
 from worker.gates import measure
+from worker.label import label_scene
 from worker.randomize import draw_scene
 from worker.simulate import let_fall
-from worker.studio import label
 
 
 class Axis(StrEnum):
@@ -119,7 +119,7 @@ def _make(
     with watch.stage("render"):
         image = stage.render()
     with watch.stage("mask"):
-        labels = label(settled.scene, settled.shapes, settings.detail, resolution)
+        labels = label_scene(settled.scene, settled.shapes, settings.detail, resolution)
     with watch.stage("write"):
         write_files(folder, image=image, mask=labels.mask, instances=labels.instances)
     return watch.stages_s

@@ -17,10 +17,10 @@ from worker.bench.whole.renderings import BLENDER, set_picture
 from worker.bench.whole.rows import STAGES, Shot
 from worker.bench.whole.stopwatch import Stopwatch
 from worker.bench.whole.writing import write_files
+from worker.label import label_scene
 from worker.randomize import draw_scene
 from worker.render import render_picture
 from worker.simulate import let_fall
-from worker.studio import label
 
 LEAST_AGREEMENT = 0.9
 """Share of the pixels, of the rendered mask and of the cables' insides, that must be in the other within two pixels."""
@@ -88,7 +88,7 @@ def verify_mask(mask: NDArray[np.uint8], settled: SettledScene) -> None:
     Raises:
         VerificationError: if they are of different cables.
     """
-    drawn = label(settled.scene, settled.shapes, BLENDER.settings.detail, len(mask)).mask
+    drawn = label_scene(settled.scene, settled.shapes, BLENDER.settings.detail, len(mask)).mask
     # Cables of a pixel or two, in small pictures, are lost in the filter of the render: they have no inside.
     inside, near = cv2.erode(drawn, np.ones((3, 3), np.uint8)), cv2.dilate(drawn, np.ones((5, 5), np.uint8))
     agreement = min(_share_within(inside, mask), _share_within(mask, near))

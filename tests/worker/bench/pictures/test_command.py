@@ -77,7 +77,7 @@ def test_a_picture_that_is_no_image_is_told(made: Dataset) -> None:
 def test_everything_is_written_of_a_dataset_that_is_there(made: Dataset, tmp_path: Path) -> None:
     """Under a name of one's own nothing is promised, so nothing is missed."""
     named = NamedDataset("mine", made.storage.location)
-    assert run(tmp_path, seed=0, images=1, styles=(), datasets=[named]) == 0
+    assert run(tmp_path, seed=0, images=1, scenes=0, styles=(), datasets=[named]) == 0
     content = json.loads((tmp_path / "pictures.json").read_text())
     assert content["promises"] == []
     assert content["datasets"]["mine"]["groups"]["all"]["pictures"] == 4
@@ -89,7 +89,9 @@ def test_everything_is_written_of_a_dataset_that_is_there(made: Dataset, tmp_pat
 def test_a_missed_promise_is_told_after_everything_is_written(made: Dataset, tmp_path: Path) -> None:
     """Noise is no picture of cables."""
     with pytest.raises(VerificationError, match="of 8 promises"):
-        run(tmp_path, seed=0, images=1, styles=(), datasets=[NamedDataset("published", made.storage.location)])
+        run(
+            tmp_path, seed=0, images=1, scenes=0, styles=(), datasets=[NamedDataset("published", made.storage.location)]
+        )
     promises = json.loads((tmp_path / "pictures.json").read_text())["promises"]
     assert len(promises) == 8
     assert not all(promise["kept"] for promise in promises)
@@ -105,13 +107,20 @@ def test_what_can_not_be_measured_is_refused(
     """No images, no dataset, or two of one name."""
     datasets = [NamedDataset(name, str(tmp_path / "nowhere")) for name in names]
     with pytest.raises(SpecError):
-        run(tmp_path, seed=0, images=images, styles=styles, datasets=datasets)
+        run(tmp_path, seed=0, images=images, scenes=0, styles=styles, datasets=datasets)
 
 
 def test_a_wrong_path_is_told(tmp_path: Path) -> None:
     """Before anything is made."""
     with pytest.raises(DatasetMissingError):
-        run(tmp_path, seed=0, images=1, styles=STYLES, datasets=[NamedDataset("mine", str(tmp_path / "nowhere"))])
+        run(
+            tmp_path,
+            seed=0,
+            images=1,
+            scenes=0,
+            styles=STYLES,
+            datasets=[NamedDataset("mine", str(tmp_path / "nowhere"))],
+        )
 
 
 def test_a_run_that_fails_is_told(tmp_path: Path) -> None:

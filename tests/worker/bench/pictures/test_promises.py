@@ -26,7 +26,7 @@ def spread(p5: float, p95: float) -> Distribution:
 def test_published_pictures_promise_means_within_the_examples() -> None:
     """Of each category; the side that misses is told. All pictures together are not asked."""
     far = summary(coverage=mean(0.12), grey_level=mean(81.0), grey_deviation=mean(43.0), width_px=mean(5.0))
-    found = promises_of("published", {None: summary(), Category.FAR: far})
+    found = promises_of("published", {None: summary(), Category.FAR: far}, {})
     assert [(promise.what, promise.kept) for promise in found] == [
         ("coverage of far", True),
         ("grey_level of far", True),
@@ -35,6 +35,14 @@ def test_published_pictures_promise_means_within_the_examples() -> None:
     ]
     assert "too high" in found[2].found
     assert "too low" in found[3].found
+
+
+def test_coverage_of_more_scenes_stands_for_that_of_the_pictures() -> None:
+    """Of the categories for which it is known."""
+    pictures = {None: summary(), Category.FAR: summary(coverage=mean(0.10)), Category.FAR_ALIGNED: summary()}
+    far, _, _, _, aligned, *_ = promises_of("published", pictures, {Category.FAR: mean(0.12)})
+    assert far.kept
+    assert not aligned.kept
 
 
 @pytest.mark.parametrize(
@@ -49,7 +57,7 @@ def test_published_pictures_promise_means_within_the_examples() -> None:
 )
 def test_wide_pictures_promise_to_cover_a_range(grey_level: Distribution, missed: str) -> None:
     """One in twenty at or beyond each end."""
-    level, deviation = promises_of("wide", {None: summary(grey_level=grey_level, grey_deviation=spread(20, 75))})
+    level, deviation = promises_of("wide", {None: summary(grey_level=grey_level, grey_deviation=spread(20, 75))}, {})
     assert level.kept == (not missed)
     assert level.found.endswith(missed)
     assert ("misses" in level.found) == bool(missed)
@@ -59,9 +67,9 @@ def test_wide_pictures_promise_to_cover_a_range(grey_level: Distribution, missed
 def test_what_is_not_known_keeps_no_promise() -> None:
     """No picture shows a cable, so there is no width."""
     far = summary(coverage=mean(0.12), grey_level=mean(90.0), grey_deviation=mean(30.0), width_px=mean(float("nan")))
-    assert not promises_of("published", {None: far, Category.FAR: far})[-1].kept
+    assert not promises_of("published", {None: far, Category.FAR: far}, {})[-1].kept
 
 
 def test_other_datasets_promise_nothing() -> None:
     """A name of one's own."""
-    assert promises_of("mine", {None: summary()}) == []
+    assert promises_of("mine", {None: summary()}, {}) == []
