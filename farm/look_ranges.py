@@ -82,7 +82,7 @@ class BundleRanges(Model):
     Attributes:
         share: cables that are bundles.
         strands: how many.
-        strand_diameter_m: of each strand.
+        strand_diameter_m: of each strand; thicker where `CableRanges.narrowest_share` asks for it.
         lay_diameters: length of one turn around each other over the bundle's diameter.
         ties: how many a bundle has.
         tie_width_m: along the bundle.

@@ -93,7 +93,7 @@ def _draw_wear(ranges: WearRanges, rng: np.random.Generator) -> Wear | None:
         mirrored=chance(rng, 0.5),
         pattern_seed=pattern_seed(rng),
     )
-    # Drawn last, so that what was drawn before there were joints stays as it was.
+    # Drawn last, and always, so that joints move no other draw.
     joints = _draw_joint_fill(ranges, rng)
     return worn.model_copy(update={"joints": joints}) if chance(rng, ranges.refilled_share) else worn
 
