@@ -93,6 +93,8 @@ class DevelopmentRanges(Model):
 
     Attributes:
         share: of the pictures that are developed so; the others have Blender's Filmic view.
+        light_floor_ev: by how much more pictures of light floors (`farm.header`) are exposed, since a meter that makes
+            all grey would make a white table grey, and who sets it opens up.
         white_balance_ev: error of red and of blue, in stops.
         noise_share: of the pictures with noise at all.
         full_well: electrons, drawn evenly in its logarithm.
@@ -102,6 +104,7 @@ class DevelopmentRanges(Model):
     share: Fraction = 0.0
     key: Annotated[tuple[Key, Key], AfterValidator(in_order)] = (0.15, 0.38)
     exposure_ev: StopsRange = (-2.0, 1.6)
+    light_floor_ev: StopsRange = (0.2, 1.4)
     contrast: PositiveRange = (0.95, 1.75)
     saturation: NotNegativeRange = (0.7, 1.2)
     white_balance_ev: StopsRange = (-0.25, 0.25)
@@ -113,3 +116,8 @@ class DevelopmentRanges(Model):
     sharpening: NotNegativeRange = (0.0, 1.0)
     jpeg_share: Fraction = 0.6
     jpeg_quality: JpegQualityRange = (50, 97)
+
+    @property
+    def most_ev(self) -> float:
+        """The most that any picture is overexposed: the larger upper end, as the two do not add up beyond it."""
+        return max(self.exposure_ev[1], self.light_floor_ev[1])

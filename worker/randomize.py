@@ -8,7 +8,7 @@ from farm.job import Job
 from farm.lens import SENSOR_MM
 from farm.photograph import Camera
 from farm.ranges import CableRanges
-from farm.scene import Friction, Scene
+from farm.scene import Floor, Friction, Scene
 from farm.seeds import Stage, generator
 from worker.draws.cables import draw_cables, draw_substances
 from worker.draws.clutter import draw_parts, draw_sheets, draw_sticks
@@ -41,6 +41,7 @@ def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
     sticks = draw_sticks(ranges.clutter, _seen_m(camera), clutter_rng) if cluttered else ()
     is_lamp = traits.light is Light.CONCENTRATED
     lighting = draw_lamps(ranges.lamp, ranges.studio, streams(Stage.LIGHT)) if is_lamp else NO_LAMPS
+    floor = draw_floor(ranges.floor, header, streams(Stage.FLOOR), streams(Stage.WEAR)) if is_floor else None
     above = max((stick.start_height_m + 1.5 * stick.diameter_m for stick in sticks), default=0.0)
     return Scene(
         attempt=attempt,
@@ -56,7 +57,7 @@ def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         vertex_mass=vertex_mass,
         friction=friction,
         wind=draw_wind(ranges.wind, streams(Stage.WIND)),
-        floor=draw_floor(ranges.floor, header, streams(Stage.FLOOR), streams(Stage.WEAR)) if is_floor else None,
+        floor=floor,
         lamps=lighting.lamps,
         grey_world=lighting.grey_world,
         hdri_world=None if lighting.lamps else draw_world(header, traits.background, streams(Stage.WORLD)),
@@ -65,9 +66,15 @@ def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         sheets=draw_sheets(ranges.clutter, _seen_m(camera), clutter_rng) if cluttered else (),
         parts=draw_parts(ranges.clutter, _seen_m(camera), clutter_rng) if cluttered else (),
         camera=camera,
-        development=draw_development(ranges.development, streams(Stage.DEVELOPMENT)),
+        development=draw_development(
+            ranges.development, streams(Stage.DEVELOPMENT), over_light_floor=_is_light(header, floor)
+        ),
         render_seed=int(streams(Stage.RENDER).integers(2**31)),
     )
+
+
+def _is_light(header: DatasetHeader, floor: Floor | None) -> bool:
+    return floor is not None and any(surface.light for surface in header.surfaces if surface.name == floor.texture)
 
 
 def _draw_count(ranges: CableRanges, rng: np.random.Generator) -> int:

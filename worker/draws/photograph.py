@@ -28,7 +28,9 @@ def draw_camera(ranges: CameraRanges, rng: np.random.Generator) -> Camera:
     )
 
 
-def draw_development(ranges: DevelopmentRanges, rng: np.random.Generator) -> Development | None:
+def draw_development(
+    ranges: DevelopmentRanges, rng: np.random.Generator, *, over_light_floor: bool
+) -> Development | None:
     """Draw how the sensor's light becomes a picture; None leaves it to Blender."""
     if not chance(rng, ranges.share):
         return None
@@ -36,7 +38,7 @@ def draw_development(ranges: DevelopmentRanges, rng: np.random.Generator) -> Dev
     full_well, quality = log_uniform(rng, ranges.full_well), level(rng, ranges.jpeg_quality)
     red, blue = (2.0 ** uniform(rng, ranges.white_balance_ev) for _ in range(2))
     read_noise = uniform(rng, ranges.read_noise)
-    return Development(
+    developed = Development(
         key=log_uniform(rng, ranges.key),
         exposure_ev=uniform(rng, ranges.exposure_ev),
         contrast=uniform(rng, ranges.contrast),
@@ -50,3 +52,7 @@ def draw_development(ranges: DevelopmentRanges, rng: np.random.Generator) -> Dev
         jpeg_quality=quality if compressed else NO_JPEG,
         seed=pattern_seed(rng),
     )
+    more_ev = uniform(rng, ranges.light_floor_ev)
+    if not over_light_floor:
+        return developed
+    return developed.model_copy(update={"exposure_ev": min(developed.exposure_ev + more_ev, ranges.most_ev)})

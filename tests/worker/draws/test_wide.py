@@ -6,9 +6,12 @@ from hypothesis import strategies as st
 
 from farm.category import Background, Category, Light
 from farm.clutter import PartKind, SheetKind, StickKind
+from farm.header import BuiltinSurfaceRef
+from farm.job import Job
 from farm.lights import StudioLamp
 from farm.scene import Scene
-from tests.worker.scenes import make_scene
+from tests.worker.scenes import make_header, make_scene
+from worker.randomize import draw_scene
 
 
 def wide(category: Category, index: int) -> Scene:
@@ -58,6 +61,24 @@ def test_lamps_vary_in_number_size_and_colour() -> None:
     assert min(warmth) < 3000
     assert max(warmth) > 7000
     assert all((scene.grey_world is not None) == bool(lamps) for scene, lamps in zip(scenes, studio, strict=True))
+
+
+def test_light_floors_are_exposed_for_light() -> None:
+    """By the stops that the ranges give, but no more than any picture may be."""
+    ranges = {"development": {"exposure_ev": [0.0, 1.0], "light_floor_ev": [1.2, 1.2]}, "floor": {"light_share": 0.5}}
+    surfaces = tuple(
+        BuiltinSurfaceRef(name=name, recipe_version=1, light=name == "whiteboard") for name in ("whiteboard", "soil")
+    )
+    header = make_header(style="wide", ranges=ranges).model_copy(update={"surfaces": surfaces})
+    found: dict[bool, list[float]] = {True: [], False: []}
+    for index in range(60):
+        scene = draw_scene(header, Job(category=Category.CLOSE_CONCENTRATED, index=index), 0)
+        assert scene.floor is not None
+        assert scene.development is not None
+        found[scene.floor.texture == "whiteboard"].append(scene.development.exposure_ev)
+    assert set(found[True]) == {1.2}
+    assert all(0.0 <= exposure_ev <= 1.0 for exposure_ev in found[False])
+    assert len(found[False]) > 10
 
 
 def test_a_longer_lens_stands_farther_away() -> None:
