@@ -93,8 +93,9 @@ class DevelopmentRanges(Model):
 
     Attributes:
         share: of the pictures that are developed so; the others have Blender's Filmic view.
-        light_floor_ev: by how much more pictures of light floors (`farm.header`) are exposed, since a meter that makes
-            all grey would make a white table grey, and who sets it opens up.
+        light_floor_share: of the pictures of light floors (`farm.header`) that are exposed more. A meter that makes all
+            grey makes a white table grey: who sets a camera opens up, and an automatic one does not.
+        light_floor_ev: by how much more.
         white_balance_ev: error of red and of blue, in stops.
         noise_share: of the pictures with noise at all.
         full_well: electrons, drawn evenly in its logarithm.
@@ -104,6 +105,7 @@ class DevelopmentRanges(Model):
     share: Fraction = 0.0
     key: Annotated[tuple[Key, Key], AfterValidator(in_order)] = (0.15, 0.38)
     exposure_ev: StopsRange = (-2.0, 1.6)
+    light_floor_share: Fraction = 0.5
     light_floor_ev: StopsRange = (0.2, 1.4)
     contrast: PositiveRange = (0.95, 1.75)
     saturation: NotNegativeRange = (0.7, 1.2)

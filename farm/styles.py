@@ -61,7 +61,7 @@ WIDE = Ranges(
         focus_offset_share=(-0.01, 0.03),
         distortion=(-0.06, 0.03),
     ),
-    development=DevelopmentRanges(share=1.0, contrast=(1.0, 2.0)),
+    development=DevelopmentRanges(share=1.0, contrast=(0.75, 2.05)),
 )
 """What photographs of cables show: thick and thin ones, two colours, bundles, gloss, ends, clutter, a real camera."""
 

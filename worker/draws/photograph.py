@@ -52,7 +52,7 @@ def draw_development(
         jpeg_quality=quality if compressed else NO_JPEG,
         seed=pattern_seed(rng),
     )
-    more_ev = uniform(rng, ranges.light_floor_ev)
-    if not over_light_floor:
+    opened, more_ev = chance(rng, ranges.light_floor_share), uniform(rng, ranges.light_floor_ev)
+    if not (opened and over_light_floor):
         return developed
     return developed.model_copy(update={"exposure_ev": min(developed.exposure_ev + more_ev, ranges.most_ev)})

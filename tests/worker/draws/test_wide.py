@@ -65,7 +65,8 @@ def test_lamps_vary_in_number_size_and_colour() -> None:
 
 def test_light_floors_are_exposed_for_light() -> None:
     """By the stops that the ranges give, but no more than any picture may be."""
-    ranges = {"development": {"exposure_ev": [0.0, 1.0], "light_floor_ev": [1.2, 1.2]}, "floor": {"light_share": 0.5}}
+    development = {"exposure_ev": [0.0, 1.0], "light_floor_ev": [1.2, 1.2], "light_floor_share": 1.0}
+    ranges = {"development": development, "floor": {"light_share": 0.5}}
     surfaces = tuple(
         BuiltinSurfaceRef(name=name, recipe_version=1, light=name == "whiteboard") for name in ("whiteboard", "soil")
     )
