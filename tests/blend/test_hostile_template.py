@@ -37,7 +37,7 @@ def make(kind: str, folder: Path) -> Path:
 def ask_worker(command: list[str], template: Path) -> "subprocess.CompletedProcess[str]":
     """Run one of the worker's commands on a dataset with the template."""
     spec = parse_spec({"quotas": {"far": 1}, "style": "published", "resolution": 64, "quality": "draft"}, source="test")
-    header = make_header(spec, Inputs(template=template), InstalledAssets())
+    header = make_header(spec, Inputs(template=template, environments=False), InstalledAssets())
     options = ["--device", "cpu", "--threads", "1", "--logs", str(template.parent / "logs")]
     return subprocess.run(
         [sys.executable, "-P", "-m", "worker", *command, *options],

@@ -10,10 +10,29 @@ from farm.errors import VerificationError
 
 pytest.importorskip("bpy")
 
-from worker.bench.skips import command  # after importorskip
+from assets.bake import bake_surfaces  # after importorskip
+from worker.bench.skips import command
 from worker.bench.skips.savings import Saving
 
 pytestmark = pytest.mark.blender
+
+
+FLOOR = "linen"
+"""Of the scene under a lamp, which the far one is tried with, too."""
+
+
+@pytest.fixture(scope="module")
+def surfaces(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with that surface alone, small."""
+    folder = tmp_path_factory.mktemp("surfaces")
+    bake_surfaces(folder, pixels=256, names=[FLOOR], processes=1)
+    return folder
+
+
+@pytest.fixture(autouse=True)
+def _found_there(surfaces: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a machine that has baked none."""
+    monkeypatch.setenv("FARM_ASSETS", str(surfaces))
 
 
 @pytest.mark.parametrize("category", [Category.FAR, Category.CLOSE_CONCENTRATED])
