@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from farm.lens import FOCAL_LENGTH_MM
+from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
 from farm.looks import Share
 from farm.model import Model
 
@@ -31,6 +31,11 @@ class Camera(Model):
     distortion: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
     """Radial: how much farther out a corner of the picture is than a lens without any has it, before the picture is
     scaled to be just filled; negative is a barrel."""
+
+    @property
+    def seen_m(self) -> float:
+        """Width of the floor in the picture, as an untilted lens without distortion sees it."""
+        return self.height_m * SENSOR_MM / self.focal_length_mm
 
 
 class Development(Model):

@@ -5,8 +5,6 @@ import numpy as np
 from farm.category import Background, Light
 from farm.header import DatasetHeader
 from farm.job import Job
-from farm.lens import SENSOR_MM
-from farm.photograph import Camera
 from farm.ranges import CableRanges
 from farm.scene import Floor, Friction, Scene
 from farm.seeds import Stage, generator
@@ -38,7 +36,7 @@ def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
     is_floor = traits.background is Background.FLOOR
     clutter_rng = streams(Stage.CLUTTER)
     cluttered = chance(clutter_rng, ranges.clutter.share) and is_floor
-    sticks = draw_sticks(ranges.clutter, _seen_m(camera), clutter_rng) if cluttered else ()
+    sticks = draw_sticks(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else ()
     is_lamp = traits.light is Light.CONCENTRATED
     lighting = draw_lamps(ranges.lamp, ranges.studio, streams(Stage.LIGHT)) if is_lamp else NO_LAMPS
     floor = draw_floor(ranges.floor, header, streams(Stage.FLOOR), streams(Stage.WEAR)) if is_floor else None
@@ -63,8 +61,8 @@ def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         hdri_world=None if lighting.lamps else draw_world(header, traits.background, streams(Stage.WORLD)),
         plate=None if is_floor else draw_plate(header, streams(Stage.PLATE)),
         sticks=sticks,
-        sheets=draw_sheets(ranges.clutter, _seen_m(camera), clutter_rng) if cluttered else (),
-        parts=draw_parts(ranges.clutter, _seen_m(camera), clutter_rng) if cluttered else (),
+        sheets=draw_sheets(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else (),
+        parts=draw_parts(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else (),
         camera=camera,
         development=draw_development(
             ranges.development, streams(Stage.DEVELOPMENT), over_light_floor=_is_light(header, floor)
@@ -79,8 +77,3 @@ def _is_light(header: DatasetHeader, floor: Floor | None) -> bool:
 
 def _draw_count(ranges: CableRanges, rng: np.random.Generator) -> int:
     return max(level(rng, ranges.count) for _ in range(ranges.count_draws))
-
-
-def _seen_m(camera: Camera) -> float:
-    """Width of the floor in the picture."""
-    return camera.height_m * SENSOR_MM / camera.focal_length_mm

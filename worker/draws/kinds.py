@@ -4,7 +4,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from farm.lens import SENSOR_MM
 from farm.look_ranges import BundleRanges, EndRanges, SkinRanges
 from farm.looks import (
     Bundle,
@@ -76,7 +75,7 @@ class _Make:
 
 def draw_kinds(ranges: CableRanges, count: int, camera: Camera, rng: np.random.Generator) -> list[CableKind]:
     """Draw the kind of each cable of a picture."""
-    seen_m = camera.height_m * SENSOR_MM / camera.focal_length_mm
+    seen_m = camera.seen_m
     skinned = chance(rng, ranges.skin.share)
     alike = chance(rng, ranges.skin.alike_share)
     common = _draw_make(ranges, seen_m, rng)
