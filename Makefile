@@ -35,71 +35,71 @@ test: setup ## lint, check types, run the whole test suite
 	$(BIN)/mypy
 	$(BIN)/pytest
 
-chaos: setup ## kill, stop, cut, fill and spoil a farm while it works; writes bench/chaos.json and .png
-	$(BIN)/python -m tests.chaos --out bench
+chaos: setup ## kill, stop, cut, fill and spoil a farm while it works; writes results/chaos.json and .png
+	$(BIN)/python -m tests.chaos --out results
 
 lint: setup ## lint and check types only
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
-bench: setup ## what an image costs, beside the published method; writes bench/whole.json and .png
+bench: setup ## what an image costs, beside the published method; writes results/whole.json and .png
 	$(BIN)/farm assets build --no-environments
-	$(BIN)/python -m worker.bench whole --out bench
+	$(BIN)/python -m benchmarks whole --out results
 
-bench-farm: setup ## images an hour of farm run by workers and threads; writes bench/farm.json and .png
+bench-farm: setup ## images an hour of farm run by workers and threads; writes results/farm.json and .png
 	$(BIN)/farm assets build --no-environments
-	$(BIN)/python -m worker.bench farm --out bench
+	$(BIN)/python -m benchmarks farm --out results
 
-bench-pictures: setup ## light, colour, cables and clutter of each style; writes bench/pictures.json, .png and sheets
+bench-pictures: setup ## light, colour, cables and clutter of each style; writes results/pictures.json, .png and sheets
 	$(BIN)/farm assets build
-	$(BIN)/python -m worker.bench pictures --out bench
+	$(BIN)/python -m benchmarks pictures --out results
 
-bench-training: setup ## a network trained on each style and tested on both; writes bench/training.json and .png
+bench-training: setup ## a network trained on each style and tested on both; writes results/training.json and .png
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[train]'
 	$(BIN)/farm assets build
-	$(BIN)/python -m worker.bench training --out bench
+	$(BIN)/python -m benchmarks training --out results
 
-examples: setup ## contact sheets of every surface, environment and kind of cable, into bench/
+examples: setup ## contact sheets of every surface, environment and kind of cable, into results/
 	$(BIN)/farm assets build
-	$(BIN)/python -m worker.bench examples --out bench
+	$(BIN)/python -m benchmarks examples --out results
 
-bench-surfaces: setup ## CPU seconds of rendering each surface beside a plain one; writes bench/surfaces.json and .png
+bench-surfaces: setup ## CPU seconds of rendering each surface beside a plain one; writes results/surfaces.json and .png
 	$(BIN)/farm assets build --no-environments
-	$(BIN)/python -m worker.bench surfaces --out bench
+	$(BIN)/python -m benchmarks surfaces --out results
 
-masks: setup ## masks against Cycles renders of 1,024 samples; writes bench/masks.json
+masks: setup ## masks against Cycles renders of 1,024 samples; writes results/masks.json
 	$(BIN)/farm assets build --no-environments
-	$(BIN)/python -m worker.bench masks --out bench
+	$(BIN)/python -m benchmarks masks --out results
 
-stress: setup ## 560 falls over the whole range of everything; writes bench/stress.json and .png
-	$(BIN)/python -m worker.bench stress --out bench
+stress: setup ## 560 falls over the whole range of everything; writes results/stress.json and .png
+	$(BIN)/python -m benchmarks stress --out results
 
-bench-physics: setup ## time against error of all simulators; writes bench/physics.json and .png
-	$(BIN)/python -m worker.bench physics --out bench
+bench-physics: setup ## time against error of all simulators; writes results/physics.json and .png
+	$(BIN)/python -m benchmarks physics --out results
 
-bench-render: setup ## time against error of rendering; writes bench/render.json, .png and calibration.json
-	$(BIN)/python -m worker.bench render --out bench
+bench-render: setup ## time against error of rendering; writes results/render.json, .png and calibration.json
+	$(BIN)/python -m benchmarks render --out results
 
-bench-skips: setup ## what is left out of a picture, and the time that saves; writes bench/skips.json and .png
+bench-skips: setup ## what is left out of a picture, and the time that saves; writes results/skips.json and .png
 	$(BIN)/farm assets build --no-environments
-	$(BIN)/python -m worker.bench skips --out bench
+	$(BIN)/python -m benchmarks skips --out results
 
-bench-startup: setup ## from a worker's start to its first picture; writes bench/startup.json and .png
+bench-startup: setup ## from a worker's start to its first picture; writes results/startup.json and .png
 	$(BIN)/farm assets build --no-environments
-	$(BIN)/python -m worker.bench startup --out bench
+	$(BIN)/python -m benchmarks startup --out results
 
-bench-queue: setup ## jobs a second through the queue and what a submission costs; writes bench/queue.* and submit.*
-	$(BIN)/python -m tests.load jobs --out bench
-	$(BIN)/python -m tests.load submit --out bench
+bench-queue: setup ## jobs a second through the queue and what a submission costs; writes results/queue.* and submit.*
+	$(BIN)/python -m tests.load jobs --out results
+	$(BIN)/python -m tests.load submit --out results
 
-soak: setup ## memory of renderers over 1,100 images; writes bench/soak.json and .png
+soak: setup ## memory of renderers over 1,100 images; writes results/soak.json and .png
 	$(BIN)/farm assets build --no-environments
-	$(BIN)/python -m worker.bench soak --out bench
+	$(BIN)/python -m benchmarks soak --out results
 
-fuzz: setup ## feed all parsers hostile bytes, guided by coverage (SECONDS_EACH); writes bench/fuzz.json
+fuzz: setup ## feed all parsers hostile bytes, guided by coverage (SECONDS_EACH); writes results/fuzz.json
 	$(BIN)/pip install --quiet --disable-pip-version-check --only-binary :all: -c constraints.txt -e '.[fuzz]'
-	$(BIN)/python -m tests.fuzz --seconds $(SECONDS_EACH) --out bench
+	$(BIN)/python -m tests.fuzz --seconds $(SECONDS_EACH) --out results
 
 audit: setup ## look all pinned packages up in the databases of known vulnerabilities
 	$(BIN)/python .ci/audit.py
@@ -111,4 +111,4 @@ template: setup ## build blend/template.blend afresh
 	$(BIN)/python -m blend.build
 
 clean: ## remove what the other targets made
-	rm -rf $(VENV) demo bench .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) demo results .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -1,9 +1,9 @@
 """The fall: a drawn scene becomes settled cables, by the simulator that the dataset names."""
 
+from benchmarks.physics.published_cloth import drop_cables as drop_as_published_cloth
 from farm.fall import Fall, Simulator
 from farm.scene import Scene
 from worker.cloth.joined import drop_cables as drop_as_joined_cloth
-from worker.cloth.published import drop_cables as drop_as_published_cloth
 from worker.rod.fall import drop_cables as drop_as_rods
 from worker.shapes import CableShapes
 

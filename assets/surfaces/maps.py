@@ -86,7 +86,7 @@ def _bare(metal: Field) -> Field:
     """Where metal shows, with a narrow edge to what covers it.
 
     Half a metal is no material, and a renderer shades it twice: with a half-metal map an aluminium floor took 1.18
-    times as long as a plain one, with this 1.02 (`python -m worker.bench surfaces`).
+    times as long as a plain one, with this 1.02 (`python -m benchmarks surfaces`).
     """
     return smoothstep(0.35, 0.65, metal)
 

@@ -1,4 +1,4 @@
-"""`python -m tests.chaos --seed 0 --out bench`: faults against a whole farm, and whether it holds.
+"""`python -m tests.chaos --seed 0 --out results`: faults against a whole farm, and whether it holds.
 
 Ends with 0 if every scenario held, else with 1. The files of those that did not are left, and told.
 """
@@ -15,6 +15,7 @@ from pathlib import Path
 
 from rich.console import Console
 
+from benchmarks.terminal import bench_console
 from tests.chaos.blender import blender_is_there, for_blender, tiny_header
 from tests.chaos.expected import made_before
 from tests.chaos.means import lacking, within_means
@@ -22,7 +23,6 @@ from tests.chaos.play import Outcome, play
 from tests.chaos.report import remarks, table, write_json, write_plot
 from tests.chaos.scenarios import BLENDER_SCENARIOS, SCENARIOS, Scenario
 from tests.chaos.schedule import draw_schedule
-from worker.bench.terminal import bench_console
 
 _SIDE_BY_SIDE = 2
 

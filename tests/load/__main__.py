@@ -4,11 +4,11 @@ import argparse
 import sys
 from pathlib import Path
 
+from benchmarks.terminal import bench_console
 from farm.errors import FarmError
 from tests.load.jobs import measure_jobs
 from tests.load.report import jobs_table, plot_jobs, plot_submissions, submission_table, write_json
 from tests.load.submission import measure_submission
-from worker.bench.terminal import bench_console
 
 
 def main(arguments: list[str]) -> int:

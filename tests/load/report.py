@@ -8,9 +8,9 @@ from pathlib import Path
 import matplotlib as mpl
 from rich.table import Table
 
+from benchmarks.physics.report import machine
 from tests.load.jobs import JobCost
 from tests.load.submission import SubmissionCost
-from worker.bench.physics.report import machine
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first

@@ -5,9 +5,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from benchmarks.physics.gates import StressFault, stress_fault
 from farm.fall import RodFall
 from tests.physics.rods import RADIUS_M, curve_m, line, rod, shapes
-from worker.gates import Gate, StressFault, measure, stress_fault
+from worker.gates import Gate, measure
 from worker.rod.contact import UNDOING_S
 from worker.rod.fall import INTERNAL_DAMPING_S
 from worker.rod.model import Rod, Surroundings

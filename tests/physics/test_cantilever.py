@@ -5,9 +5,10 @@ from functools import cache
 import numpy as np
 import pytest
 
+from benchmarks.physics.elastica import droop_ratio
+from benchmarks.physics.gates import CantileverError, cantilever_error, observed_orders
 from tests.physics.rods import GRAVITY_M_S2, line, modulus_pa, rod, weight_per_length_n_m
-from worker.gates import CantileverError, Gate, cantilever_error, observed_orders
-from worker.physics.elastica import droop_ratio
+from worker.gates import Gate
 from worker.rod.model import Rod, Surroundings
 from worker.rod.simulation import RodSimulation
 

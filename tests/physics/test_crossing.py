@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from benchmarks.physics.gates import crossing_error
+from benchmarks.physics.ridge import RidgeCrossing, fit_lifted
 from tests.physics.rods import GRAVITY_M_S2, RADIUS_M, curve_m, line, rod, weight_per_length_n_m
-from worker.gates import Gate, crossing_error
-from worker.physics.ridge import RidgeCrossing, fit_lifted
+from worker.gates import Gate
 from worker.rod.contact import SLOP_RADII
 from worker.rod.floor import SUNK_RADII
 from worker.rod.model import Array, Rod, Surroundings

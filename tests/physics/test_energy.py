@@ -5,10 +5,11 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from benchmarks.physics.gates import energy_rise
 from farm.fall import RodFall
 from tests.physics.rods import IN_THE_AIR, line, rod
 from tests.worker.scenes import make_scene
-from worker.gates import Gate, energy_rise
+from worker.gates import Gate
 from worker.rod.fall import INTERNAL_DAMPING_S, rods_of, surroundings_of
 from worker.rod.model import Rod, Surroundings
 from worker.rod.simulation import RodSimulation

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from benchmarks.physics.closed_forms import euler_fall_m
 from tests.physics.rods import GRAVITY_M_S2, IN_THE_AIR, line, rod
-from worker.physics.closed_forms import euler_fall_m
 from worker.rod.fall import curvature_at_rest
 from worker.rod.simulation import RodSimulation
 from worker.shapes import bent_rod

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from benchmarks.physics.closed_forms import euler_fall_m, incline_acceleration_m_s2
 from tests.physics.rods import GRAVITY_M_S2, RADIUS_M, line, rod
 from worker.gates import Gate
-from worker.physics.closed_forms import euler_fall_m, incline_acceleration_m_s2
 from worker.rod.model import Surroundings
 from worker.rod.simulation import RodSimulation
 

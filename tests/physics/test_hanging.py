@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.special import j0
 
+from benchmarks.physics.closed_forms import catenary, hanging_chain_frequency_rad_s
 from tests.physics.rods import GRAVITY_M_S2, IN_THE_AIR, angular_frequency_rad_s, line, modulus_pa, rod
-from worker.physics.closed_forms import catenary, hanging_chain_frequency_rad_s
 from worker.rod.model import Surroundings
 from worker.rod.simulation import RodSimulation
 

@@ -6,9 +6,9 @@ import sys
 
 import pytest
 
+from benchmarks.physics.gates import same_bits
 from farm.fall import RodFall
 from tests.worker.scenes import make_scene
-from worker.gates import same_bits
 from worker.rod.fall import drop_cables
 
 PROGRAM = """

@@ -5,9 +5,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from benchmarks.physics.gates import largest_movement, observed_orders
 from farm.fall import RodFall
 from tests.physics.rods import line, rod, shapes
-from worker.gates import Gate, largest_movement, observed_orders
+from worker.gates import Gate
 from worker.rod.model import Breeze, Rod, Surroundings
 from worker.rod.simulation import RodSimulation
 from worker.shapes import CableShapes

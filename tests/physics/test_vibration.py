@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from benchmarks.physics.closed_forms import cantilever_frequency_rad_s
 from tests.physics.rods import WEIGHTLESS, angular_frequency_rad_s, line, rod
-from worker.physics.closed_forms import cantilever_frequency_rad_s
 from worker.rod.simulation import RodSimulation
 
 LENGTH_M = 0.2

@@ -8,6 +8,8 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from assets.bake import bake_surfaces  # noqa: E402  # after importorskip
+from benchmarks.masks.agreement import compare  # noqa: E402
+from benchmarks.masks.reference import render_coverage  # noqa: E402
 from blend import names  # noqa: E402
 from farm.asset_source import InstalledAssets  # noqa: E402
 from farm.catalogue import Inputs, make_header  # noqa: E402
@@ -18,8 +20,6 @@ from farm.looks import Bundle, CableEnd, EndKind, Sheath, Tie, envelope_ratio  #
 from farm.scene import Cable, Scene  # noqa: E402
 from farm.spec import parse_spec  # noqa: E402
 from tests.worker.scenes import make_skin  # noqa: E402
-from worker.bench.mask_agreement import compare  # noqa: E402
-from worker.bench.mask_reference import render_coverage  # noqa: E402
 from worker.randomize import draw_scene  # noqa: E402
 from worker.studio import Studio, open_studio  # noqa: E402
 

@@ -6,6 +6,8 @@ from numpy.typing import NDArray
 
 bpy = pytest.importorskip("bpy")
 
+from benchmarks.masks.agreement import compare  # noqa: E402
+from benchmarks.masks.reference import render_coverage  # noqa: E402
 from blend.build import TEMPLATE  # noqa: E402  # after importorskip
 from blend.contract import open_template  # noqa: E402
 from farm.category import Category  # noqa: E402
@@ -13,8 +15,6 @@ from farm.photograph import Camera  # noqa: E402
 from farm.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
 from farm.scene import Scene  # noqa: E402
 from tests.worker.scenes import make_header, make_scene  # noqa: E402
-from worker.bench.mask_agreement import compare  # noqa: E402
-from worker.bench.mask_reference import render_coverage  # noqa: E402
 from worker.images import ImageShelf  # noqa: E402
 from worker.label import label_scene  # noqa: E402
 from worker.library import AssetLibrary  # noqa: E402

@@ -8,23 +8,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from farm.fall import Simulator
-from tests.worker.settled import RADIUS, looped, rod, shapes
-from worker.gates import (
-    Gate,
+from benchmarks.physics.elastica import drooping_shape
+from benchmarks.physics.gates import (
     StressFault,
     cantilever_error,
     crossing_error,
     energy_rise,
     largest_movement,
-    measure,
     observed_orders,
     same_bits,
-    settled_figures,
     stress_fault,
 )
-from worker.physics.elastica import drooping_shape
-from worker.physics.ridge import RidgeCrossing
+from benchmarks.physics.ridge import RidgeCrossing
+from farm.fall import Simulator
+from tests.worker.settled import RADIUS, looped, rod, shapes
+from worker.gates import Gate, measure, settled_figures
 from worker.shapes import CableShapes, Points
 
 

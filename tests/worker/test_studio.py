@@ -10,6 +10,9 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from assets.bake import bake_surfaces  # noqa: E402  # after importorskip
+from benchmarks.masks.agreement import compare  # noqa: E402
+from benchmarks.masks.reference import render_coverage  # noqa: E402
+from benchmarks.pictures.drawn_coverage import drawn_coverage  # noqa: E402
 from blend.build import TEMPLATE  # noqa: E402
 from blend.contract import open_template  # noqa: E402
 from farm.asset_source import InstalledAssets  # noqa: E402
@@ -19,9 +22,6 @@ from farm.errors import AssetError, EnvironmentMissingError, SceneError, SpecErr
 from farm.header import DatasetHeader, FileRef  # noqa: E402
 from farm.job import Job  # noqa: E402
 from farm.spec import parse_spec  # noqa: E402
-from worker.bench.mask_agreement import compare  # noqa: E402
-from worker.bench.mask_reference import render_coverage  # noqa: E402
-from worker.bench.pictures.drawn_coverage import drawn_coverage  # noqa: E402
 from worker.gates import settled_figures  # noqa: E402
 from worker.library import checked  # noqa: E402
 from worker.render import render_picture  # noqa: E402

@@ -1,0 +1,1 @@
+"""Masks against white-on-black Cycles renders of many samples."""

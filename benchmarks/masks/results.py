@@ -1,0 +1,118 @@
+"""What the comparison of masks with renders found: the bounds, what they say, and the table."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from rich.table import Table
+
+from benchmarks.masks.agreement import Agreement
+from farm.category import Category
+from farm.errors import VerificationError
+
+WIDE_PX = 6.0
+MAX_BOUNDARY_ERROR_PX = 1.0
+AIM_MS = 20.0
+"""What labelling may take. It is told, and fails nothing: time depends on the machine."""
+
+
+class Width(StrEnum):
+    """Width of the cables in the picture: an edge's error counts the more, the narrower the cable."""
+
+    NARROW = "4 px"
+    WIDE = "≥ 6 px"
+
+
+MIN_IOU = {Width.NARROW: 0.985, Width.WIDE: 0.995}
+
+
+@dataclass(frozen=True, slots=True)
+class LabelledImage:
+    """One picture's result.
+
+    Attributes:
+        category: of the picture.
+        width_px: of the thinnest cable on the floor.
+        label_ms: CPU milliseconds that labelling takes, on one core.
+        agreement: of the mask with the reference.
+    """
+
+    category: Category
+    width_px: float
+    label_ms: float
+    agreement: Agreement
+
+    @property
+    def width(self) -> Width:
+        """The class that decides how well mask and reference must agree."""
+        return Width.WIDE if self.width_px >= WIDE_PX else Width.NARROW
+
+    @property
+    def passes(self) -> bool:
+        """Whether the mask is right."""
+        error_px = max(self.agreement.edge_error_px, self.agreement.gap_error_px)
+        return self.agreement.iou >= MIN_IOU[self.width] and error_px <= MAX_BOUNDARY_ERROR_PX
+
+
+_COLUMNS = ("category", "width", "images", "IoU mean", "least", "edge px", "gap px", "in gaps", "area", "CPU ms", "max")
+
+
+def check(found: list[LabelledImage]) -> None:
+    """Look at every mask.
+
+    Raises:
+        VerificationError: if one is wrong.
+    """
+    wrong = [image for image in found if not image.passes]
+    if wrong:
+        worst = min(wrong, key=lambda image: image.agreement.iou)
+        raise VerificationError(
+            f"{len(wrong)} of {len(found)} masks are wrong; {worst.width_px:.1f} px wide cables in {worst.category}: "
+            f"IoU {worst.agreement.iou:.4f}, edge off by {worst.agreement.edge_error_px:.2f} px, in gaps by "
+            f"{worst.agreement.gap_error_px} px; see masks.json"
+        )
+
+
+def table(found: list[LabelledImage], title: str) -> Table:
+    """A row for each category and class of width."""
+    lines = Table(
+        title=title,
+        caption=f"pass: no boundary off by over {MAX_BOUNDARY_ERROR_PX:.0f} px, IoU at least "
+        + ", ".join(f"{least} ({width})" for width, least in MIN_IOU.items()),
+    )
+    for name in _COLUMNS:
+        lines.add_column(name, justify="left" if name == "category" else "right")
+    lines.add_column("")
+    for category in Category:
+        for width in Width:
+            row = [image for image in found if image.category is category and image.width is width]
+            if row:
+                lines.add_row(category.value, width.value, *_cells(row))
+    return lines
+
+
+def _cells(row: list[LabelledImage]) -> list[str]:
+    agreements = [image.agreement for image in row]
+    iou = [agreement.iou for agreement in agreements]
+    times_ms = [image.label_ms for image in row]
+    return [
+        str(len(row)),
+        f"{np.mean(iou):.4f}",
+        f"{min(iou):.4f}",
+        f"{max(agreement.edge_error_px for agreement in agreements):.2f}",
+        f"{max(agreement.gap_error_px for agreement in agreements)}",
+        f"{np.mean([agreement.gap_pixels for agreement in agreements]):.1f}",
+        f"{np.mean([agreement.area_ratio for agreement in agreements]):.4f}",
+        f"{np.median(times_ms):.1f}",
+        f"{max(times_ms):.1f}",
+        "pass" if all(image.passes for image in row) else "FAIL",
+    ]
+
+
+def times(found: list[LabelledImage]) -> str:
+    """What labelling took, in words."""
+    times_ms = [image.label_ms for image in found]
+    verdict = "within" if max(times_ms) <= AIM_MS else "over"
+    return (
+        f"labelling: median {np.median(times_ms):.1f} ms of CPU, max {max(times_ms):.1f} ms, {verdict} {AIM_MS:.0f} ms"
+    )

@@ -1,0 +1,180 @@
+"""DOC benchmarks/physics/gates.py."""
+
+from dataclasses import dataclass, fields
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.physics.elastica import droop_ratio
+from benchmarks.physics.ridge import RidgeCrossing, fit_lifted
+from worker.gates import Gate, measure
+from worker.shapes import CableShapes, Points
+
+STRESS_RUNS = 500
+"""No failure in so many runs bounds the true rate at 0.6 %, with 95 % confidence."""
+
+
+@dataclass(frozen=True, slots=True)
+class CantileverError:
+    """Gate 5: |H/W over the reference - 1|, and the free length's slenderness w L^3 / EI."""
+
+    slenderness: float
+    error: float
+
+    @property
+    def gate(self) -> Gate:
+        """Which row of the gate it is measured by."""
+        return Gate.CANTILEVER if self.slenderness <= 100 else Gate.SLENDER_CANTILEVER
+
+
+def cantilever_error(
+    nodes_m: Points, *, bending_stiffness_n_m2: float, weight_per_length_n_m: float
+) -> CantileverError:
+    """Gate 5: a settled cantilever against the heavy elastica.
+
+    Clamping the first two nodes fixes the slope of the edge between them, which is the slope at its middle; so the free
+    length is (n - 1/2) l for n edges of length l. From the first node the error would be first order in 1/n.
+
+    Args:
+        nodes_m: (N, 3), N >= 3, from the clamp to the free end.
+        bending_stiffness_n_m2: EI.
+        weight_per_length_n_m: rho g A.
+
+    Raises:
+        ValueError: if the first edge is not level within 1e-3, or the slenderness has no reference.
+    """
+    edges = np.diff(nodes_m, axis=0)
+    if abs(edges[0, 2]) > 1e-3 * np.linalg.norm(edges[0]):
+        raise ValueError("the clamped edge is not level")
+    free_length = float(np.linalg.norm(edges, axis=1).mean()) * (len(edges) - 0.5)
+    slenderness = weight_per_length_n_m * free_length**3 / bending_stiffness_n_m2
+    tip = nodes_m[-1] - (nodes_m[0] + nodes_m[1]) / 2
+    droop = float(-tip[2] / np.hypot(tip[0], tip[1]))
+    return CantileverError(slenderness, abs(droop / droop_ratio(slenderness) - 1))
+
+
+@dataclass(frozen=True, slots=True)
+class CrossingError:
+    """Gate 6.
+
+    Attributes:
+        lift_off_error: |fitted half length in the air over the reference's - 1|.
+        reaction_error: |force of the ridge over the reference's - 1|.
+        misfit: root mean square distance from the fitted shape, over the lift; large where the fit means nothing.
+    """
+
+    lift_off_error: float
+    reaction_error: float
+    misfit: float
+
+
+def crossing_error(
+    nodes_m: Points, reactions_n: NDArray[np.float64], *, radius_m: float, reference: RidgeCrossing
+) -> CrossingError:
+    """Gate 6: a settled cable that lies across a rigid ridge against the beam on a floor.
+
+    The height is fitted like the lift-off length, not imposed: a cable pressed into the ridge is gate 2's affair.
+
+    Args:
+        nodes_m: (N, 3), from end to end over one ridge; both ends lie on the floor, at height zero.
+        reactions_n: (N,), upward force on each node from whatever it touches.
+        radius_m: of the cable.
+        reference: the crossing as it should be.
+
+    Raises:
+        ValueError: if fewer than four nodes are in the air.
+    """
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(nodes_m[:, :2], axis=0), axis=1))])
+    fit = fit_lifted(along, nodes_m[:, 2] - radius_m)
+    # Between the ridge and half way to the touchdowns nothing else pushes.
+    reaction = float(reactions_n[np.abs(along - fit.place_m) < fit.lift_off_m / 2].sum())
+    return CrossingError(
+        lift_off_error=abs(fit.lift_off_m / reference.lift_off_m - 1),
+        reaction_error=abs(reaction / reference.ridge_reaction_n - 1),
+        misfit=fit.misfit,
+    )
+
+
+def energy_rise(energies_j: NDArray[np.float64]) -> float:
+    """Gate 7: greatest rise in one step over the start's energy; 0 if it never rises.
+
+    Args:
+        energies_j: (steps + 1,), kinetic, bending, stretching and height's energy together, the floor at zero.
+
+    Raises:
+        ValueError: if the start has no energy.
+    """
+    if energies_j[0] == 0:
+        raise ValueError("the start has no energy to compare with")
+    return float(np.maximum(np.diff(energies_j), 0).max() / abs(energies_j[0]))
+
+
+def observed_orders(errors: tuple[float, float, float]) -> tuple[float, float]:
+    """Gate 8: the order in the time step from errors at h, h/2 and h/4: from the first two, and from the last two.
+
+    Raises:
+        ValueError: if an error is not positive.
+    """
+    if not min(errors) > 0:
+        raise ValueError("an order needs errors above zero")
+    coarse, middle, fine = errors
+    return float(np.log2(coarse / middle)), float(np.log2(middle / fine))
+
+
+def largest_movement(one: CableShapes, other: CableShapes) -> float:
+    """Gate 8: greatest distance between a node and itself in another run, over its cable's radius.
+
+    Raises:
+        ValueError: if the runs have not the same numbers of cables and nodes.
+    """
+    return max(
+        float(np.linalg.norm(here - there, axis=1).max() / radius)
+        for here, there, radius in zip(one.nodes_m, other.nodes_m, one.radii_m, strict=True)
+    )
+
+
+def same_bits(one: CableShapes, other: CableShapes) -> bool:
+    """Gate 9: whether two runs agree to the last bit; 0 and -0 do not, NaN with the same bits does."""
+    return all(_bits(getattr(one, field.name)) == _bits(getattr(other, field.name)) for field in fields(CableShapes))
+
+
+def _bits(value: object) -> object:
+    if isinstance(value, tuple):
+        return tuple(_bits(each) for each in value)
+    array = np.asarray(value)
+    return array.dtype.str, array.shape, array.tobytes()
+
+
+class StressFault(Enum):
+    """How a run of the stress grid fails."""
+
+    NOT_FINITE = "not finite"
+    ESCAPED = "escaped"
+    PASSED_THROUGH = "passed through"
+    STRETCHED = "stretched"
+    NOT_AT_REST = "not at rest"
+
+
+def stress_fault(shapes: CableShapes, *, reach_m: float, passes: int | None = None) -> StressFault | None:
+    """Gate 10: why a run failed, the first reason in the order of `StressFault`; None if it did not.
+
+    Args:
+        shapes: of the run's end, finite or not.
+        reach_m: farther than this from the origin, in any direction, a cable has escaped.
+        passes: how often a cable passed through one, as seen on the way; None: count them from the order of the start.
+    """
+    nodes, speeds = np.concatenate(shapes.nodes_m), np.concatenate(shapes.speeds_m_s)
+    if not (np.isfinite(nodes).all() and np.isfinite(speeds).all()):
+        return StressFault.NOT_FINITE
+    if np.linalg.norm(nodes, axis=1).max() > reach_m:
+        return StressFault.ESCAPED
+    figures = measure(shapes)
+    passes = figures.pass_throughs if passes is None else passes
+    broken = {
+        StressFault.PASSED_THROUGH: passes + figures.floor_pass_throughs > 0,
+        StressFault.STRETCHED: Gate.LENGTH.is_broken_by(figures.length_error),
+        StressFault.NOT_AT_REST: not Gate.SPEED_RMS.on_target(figures.speed_rms_mm_s)
+        or not Gate.SPEED_MAX.on_target(figures.speed_max_mm_s),
+    }
+    return next((fault for fault, is_so in broken.items() if is_so), None)

@@ -1,0 +1,43 @@
+"""Playing scenes at a setting, and timing the fall alone."""
+
+import time
+from collections.abc import Sequence
+
+import numpy as np
+
+from benchmarks.physics.rows import Played
+from benchmarks.physics.settings import Setting
+from farm.errors import SceneError
+from farm.fall import Simulator
+from farm.scene import Scene
+from worker.gates import measure
+from worker.shapes import CableShapes
+from worker.simulate import let_fall
+
+
+def play(setting: Setting, scenes: Sequence[Scene]) -> tuple[Played, ...]:
+    """Let the scenes fall one after the other."""
+    return tuple(_play(setting, scene) for scene in scenes)
+
+
+def warm_up(settings: Sequence[Setting], scene: Scene) -> None:
+    """Let a scene fall by each simulator, so that none loads or compiles anything when it is timed."""
+    for simulator in dict.fromkeys(setting.simulator for setting in settings):
+        if simulator is not Simulator.CLOTH_PUBLISHED:  # all of it is loaded by the other cloth
+            _play(next(setting for setting in settings if setting.simulator is simulator), scene)
+
+
+def _play(setting: Setting, scene: Scene) -> Played:
+    start = time.process_time()
+    try:
+        shapes = let_fall(scene, setting.simulator, setting.fall)
+    except SceneError as error:
+        return Played(time.process_time() - start, 0.0, 0, None, str(error))
+    cpu_s = time.process_time() - start
+    if not _is_finite(shapes):
+        return Played(cpu_s, shapes.fall_s, shapes.steps, None, "the cables' places or speeds are not finite")
+    return Played(cpu_s, shapes.fall_s, shapes.steps, measure(shapes))
+
+
+def _is_finite(shapes: CableShapes) -> bool:
+    return all(bool(np.isfinite(each).all()) for each in (*shapes.nodes_m, *shapes.speeds_m_s))

@@ -1,0 +1,184 @@
+"""What was measured at one setting on one number of cables, and how settings compare."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from benchmarks.physics.gates import CantileverError
+from benchmarks.physics.settings import Setting
+from farm.errors import VerificationError
+from farm.fall import Simulator
+from farm.manifest import SettleFigures
+from worker.gates import Gate, settled_figures
+
+SCENE_GATES = (
+    Gate.LENGTH,
+    Gate.CABLE_PENETRATION,
+    Gate.FLOOR_PENETRATION,
+    Gate.CABLE_PASS_THROUGH,
+    Gate.FLOOR_PASS_THROUGH,
+    Gate.SPEED_RMS,
+    Gate.SPEED_MAX,
+)
+"""Gates 1 to 4."""
+
+ERROR_GATES = (Gate.LENGTH, Gate.CABLE_PENETRATION, Gate.FLOOR_PENETRATION)
+"""What of a scene makes its error; the others are counts, or say whether a fall was over."""
+
+
+@dataclass(frozen=True, slots=True)
+class Played:
+    """One fall.
+
+    Attributes:
+        cpu_s: of the whole process while it fell, and nothing else.
+        fall_s: simulated.
+        steps: of the rod solver, or frames of the cloth.
+        figures: None if it did not end in finite places.
+        fault: why, else empty.
+    """
+
+    cpu_s: float
+    fall_s: float
+    steps: int
+    figures: SettleFigures | None
+    fault: str = ""
+
+    @property
+    def gates(self) -> Mapping[Gate, float]:
+        """The figure of each of gates 1 to 4; infinite where nothing could be measured."""
+        return settled_figures(self.figures) if self.figures else dict.fromkeys(SCENE_GATES, np.inf)
+
+
+@dataclass(frozen=True, slots=True)
+class Textbook:
+    """Gates 5 and 6 at one setting; they do not depend on a scene.
+
+    Attributes:
+        cantilevers: infinite errors where one diverged or did not come to rest.
+        lift_off_error: None where it is not measured.
+        reaction_error: the same.
+    """
+
+    cantilevers: tuple[CantileverError, ...]
+    lift_off_error: float | None = None
+    reaction_error: float | None = None
+
+    @property
+    def gates(self) -> Sequence[tuple[Gate, float]]:
+        """Every figure with its gate."""
+        crossing = ((Gate.LIFT_OFF, self.lift_off_error), (Gate.RIDGE_REACTION, self.reaction_error))
+        found = [(each.gate, each.error) for each in self.cantilevers]
+        return found + [(gate, figure) for gate, figure in crossing if figure is not None]
+
+    @property
+    def error(self) -> float:
+        """The worst cantilever over its target."""
+        return max((over_target(each.gate, each.error) for each in self.cantilevers), default=0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One setting on one number of cables."""
+
+    setting: Setting
+    cables: int
+    falls: tuple[Played, ...]
+    textbook: Textbook
+
+    @property
+    def cpu_s(self) -> float:
+        """Mean over the scenes."""
+        return float(np.mean([fall.cpu_s for fall in self.falls]))
+
+    @property
+    def cpu_max_s(self) -> float:
+        """Of the slowest scene."""
+        return max(fall.cpu_s for fall in self.falls)
+
+    @property
+    def fall_s(self) -> float:
+        """Mean simulated seconds."""
+        return float(np.mean([fall.fall_s for fall in self.falls]))
+
+    @property
+    def cost(self) -> float:
+        """Seconds of computing for a simulated second; 0 where nothing fell."""
+        fallen = sum(fall.fall_s for fall in self.falls)
+        return sum(fall.cpu_s for fall in self.falls) / fallen if fallen else 0.0
+
+    @property
+    def worst(self) -> Mapping[Gate, float]:
+        """Of each of gates 1 to 4 the worst figure over the scenes."""
+        return {gate: float(np.max([fall.gates[gate] for fall in self.falls])) for gate in SCENE_GATES}
+
+    @property
+    def error(self) -> float:
+        """The worst figure of gates 1, 2 and 5 over the target that the rods have."""
+        worst = self.worst
+        return max(self.textbook.error, *(over_target(gate, worst[gate]) for gate in ERROR_GATES))
+
+    @property
+    def off_target(self) -> int:
+        """Scenes that miss a target of gates 1 to 4, the rods' targets for all."""
+        return sum(any(not gate.on_target(x) for gate, x in fall.gates.items()) for fall in self.falls)
+
+    @property
+    def broken(self) -> int:
+        """Scenes with a figure that gates 1 to 4 never allow."""
+        return sum(any(gate.is_broken_by(x) for gate, x in fall.gates.items()) for fall in self.falls)
+
+    def meets(self, simulator: Simulator) -> bool:
+        """Whether every scene and cantilever meets every target that `simulator` has in gates 1 to 5."""
+        scenes = (gate.on_target(x, simulator) for fall in self.falls for gate, x in fall.gates.items())
+        return all(scenes) and all(each.gate.on_target(each.error, simulator) for each in self.textbook.cantilevers)
+
+    @property
+    def breaches(self) -> list[str]:
+        """What of gates 1 to 6 is never allowed, in words."""
+        figures = [*self.textbook.gates, *((gate, x) for fall in self.falls for gate, x in fall.gates.items())]
+        found = [f"{gate.value.name} {x:.3g} {gate.value.unit}".strip() for gate, x in figures if gate.is_broken_by(x)]
+        return [fall.fault for fall in self.falls if fall.fault] + found
+
+
+def over_target(gate: Gate, figure: float) -> float:
+    """A figure over the target that the rods have; infinite for what is no number."""
+    return abs(figure) / gate.value.target if np.isfinite(figure) else np.inf
+
+
+def best(rows: Iterable[Row], targets: Simulator) -> Row | None:
+    """The fastest of the rows that meet all targets of one simulator's column, None if none does."""
+    return min((row for row in rows if row.meets(targets)), key=lambda row: row.cpu_s, default=None)
+
+
+def closest(rows: Iterable[Row]) -> Row:
+    """The row of the least error; of equals the fastest."""
+    return min(rows, key=lambda row: (row.error, row.cpu_s))
+
+
+def time_ratio(slow: Row, fast: Row) -> float:
+    """How many times longer one takes than the other on the scenes that both played, the first ones of each."""
+    both = min(len(slow.falls), len(fast.falls))
+    return sum(fall.cpu_s for fall in slow.falls[:both]) / sum(fall.cpu_s for fall in fast.falls[:both])
+
+
+def growth(few: Row, many: Row) -> float:
+    """The power of the number of cables with which the cost of a simulated second grows."""
+    return float(np.log(many.cost / few.cost) / np.log(many.cables / few.cables))
+
+
+def is_rod_default(row: Row) -> bool:
+    """Whether the row is of the rod solver as the farm has it."""
+    return row.setting.simulator is Simulator.ROD and row.setting.is_default
+
+
+def verify_default(rows: Iterable[Row]) -> None:
+    """Look at what the rods do at their default; other settings are there to show what they cost.
+
+    Raises:
+        VerificationError: if a figure is one that a gate never allows, or there is none.
+    """
+    for row in rows:
+        if is_rod_default(row) and row.breaches:
+            raise VerificationError(f"the rod solver's default, {row.cables} cables: {row.breaches[0]}")

@@ -1,0 +1,76 @@
+"""The scenes that all simulators play: drawn like those of a dataset, cut or extended to a number of cables."""
+
+from importlib.metadata import version
+
+from benchmarks.bench_dataset import PUBLISHED
+from farm.category import Category
+from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
+from farm.job import Job
+from farm.scene import Cable, Scene
+from farm.spec import parse_spec
+from farm.styles import merge_tables
+from worker.randomize import draw_scene
+
+CATEGORIES = (Category.FAR, Category.FAR_ALIGNED)
+DRAWN_CABLES = 8
+"""As many as a scene can be drawn with."""
+
+MOST_CABLES = {"cable": {"count": [DRAWN_CABLES, DRAWN_CABLES]}}
+"""The ranges of a spec whose scenes all have so many."""
+
+SPACING_M = 0.004
+"""Height of each further cable above the one before, as in drawn scenes."""
+
+_JOBS_APART = 100_000
+"""Between the numbers of a scene's own job and those from which its further cables come."""
+
+
+def bench_scenes(count: int, cables: int, seed: int) -> tuple[Scene, ...]:
+    """Scenes of so many cables, the categories taking turns.
+
+    A scene of fewer cables is the start of the same scene with more.
+
+    Args:
+        count: of scenes.
+        cables: of each scene.
+        seed: of the dataset they are drawn as.
+    """
+    header = _header(seed)
+    kinds = len(CATEGORIES)
+    return tuple(crowd(header, CATEGORIES[number % kinds], number // kinds, cables) for number in range(count))
+
+
+def crowd(header: DatasetHeader, category: Category, index: int, cables: int) -> Scene:
+    """The scene of a job's first attempt, with so many cables; see `bench_scenes`.
+
+    Args:
+        header: one that draws `DRAWN_CABLES` cables.
+        category: of the scene.
+        index: of the scene.
+        cables: of the scene.
+    """
+    scene = draw_scene(header, Job(category=category, index=index), 0)
+    drawn: list[Cable] = list(scene.cables)
+    further = index
+    while len(drawn) < cables:
+        further += _JOBS_APART
+        drawn += draw_scene(header, Job(category=category, index=further), 0).cables
+    lowest = drawn[0].start_height_m
+    stacked = [
+        cable if level < DRAWN_CABLES else cable.model_copy(update={"start_height_m": lowest + SPACING_M * level})
+        for level, cable in enumerate(drawn[:cables])
+    ]
+    return scene.model_copy(update={"cables": tuple(stacked)})
+
+
+def _header(seed: int) -> DatasetHeader:
+    """One that names a surface and an HDRI which need not be there, since nothing is rendered."""
+    nothing = "0" * 64
+    description = {**PUBLISHED, "images": DRAWN_CABLES, "seed": seed}
+    return DatasetHeader(
+        farm_version=version("cable-farm"),
+        spec=parse_spec(merge_tables(description, {"ranges": MOST_CABLES}), source="benchmark"),
+        template=TemplateRef(path=None, sha256=nothing),
+        surfaces=(BuiltinSurfaceRef(name="none", recipe_version=1),),
+        hdris=(HdriRef(name="none", path=None, sha256=nothing, dark=False),),
+    )

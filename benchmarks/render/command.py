@@ -1,0 +1,86 @@
+"""`python -m benchmarks render`: time against error of rendering, and the calibration of qualities."""
+
+from pathlib import Path
+
+from rich.progress import track
+
+from benchmarks.bench_dataset import bench_header
+from benchmarks.render.geometry import compare_geometry, geometry_table
+from benchmarks.render.measure import Measurement
+from benchmarks.render.references import References
+from benchmarks.render.report import calibrate, ladder_table, turns_table, verdicts, write_json, write_plot
+from benchmarks.render.rows import disturbing_settings, idle_settings
+from benchmarks.render.stage_set import Stage, settle
+from benchmarks.render.variants import BASE, Group, Variant, ladder, turns
+from benchmarks.terminal import bench_console, blender_writes_to
+from farm.category import Category
+from farm.errors import VerificationError
+
+DEFAULT_SCENES = 4
+"""Of each category."""
+
+DEFAULT_TURN_SCENES = 1
+"""Of each category, of which single settings are turned."""
+
+RESOLUTION = 512
+
+
+def run(out: Path, *, seed: int, scenes: int | None, turn_scenes: int | None) -> int:
+    """Measure, print, write `render.json`, `render.png` and `calibration.json` into `out`.
+
+    Args:
+        out: a folder that is there.
+        seed: of the scenes.
+        scenes: of each category, for the ladder of samples.
+        turn_scenes: of them, for the settings turned one at a time.
+
+    Raises:
+        VerificationError: if a setting changed a picture that may not.
+        FarmError: if a scene can't be made.
+    """
+    console = bench_console()
+    log_file = out / "render.log"
+    header = bench_header(1, seed)
+    with blender_writes_to(log_file):
+        stage = Stage(header, RESOLUTION)
+        settled = list(settle(header, tuple(Category), scenes or DEFAULT_SCENES))
+    references = References(header, stage, RESOLUTION)
+    missing = sum(not references.path(scene).exists() for scene in settled)
+    if missing:
+        console.print(f"{missing} references are to be rendered first, a few minutes each; they are kept")
+    climbing = Measurement(stage, references, log_file)
+    turning = Measurement(stage, references, log_file)
+    few = len(Category) * (DEFAULT_TURN_SCENES if turn_scenes is None else turn_scenes)
+    for number, scene in enumerate(track(settled, "scenes", console=console, transient=True)):
+        with blender_writes_to(log_file):
+            references.picture(scene)
+            # The scene's textures are read before the clock runs.
+            stage.set(scene, BASE)
+            stage.render()
+        climbing.measure(scene, ladder())
+        if number < few:
+            turning.measure(scene, (_BASE_FIRST, *turns()))
+    rows, turned = climbing.rows(), [row for row in turning.rows() if row.variant is not _BASE_FIRST]
+    console.print(ladder_table(rows))
+    if turned:
+        console.print(turns_table(turned))
+    with blender_writes_to(log_file):
+        shapes = compare_geometry(stage, settled[: len(Category)])
+    console.print(geometry_table(shapes))
+    calibration = calibrate(rows)
+    for line in verdicts(calibration):
+        console.print(line, highlight=False)
+    write_json(out / "render.json", [*rows, *turned], shapes, seed=seed)
+    write_plot(out / "render.png", rows)
+    (out / "calibration.json").write_text(calibration.model_dump_json(indent=1) + "\n")
+    idle = idle_settings(turned)
+    if idle:
+        console.print(f"changed no picture: {', '.join(idle)}", highlight=False)
+    disturbing = disturbing_settings(turned)
+    if disturbing:
+        raise VerificationError(f"these may not change a picture, and did: {', '.join(disturbing)}")
+    return 0
+
+
+_BASE_FIRST = Variant("base first", Group.SAMPLES, BASE)
+"""Rendered before the turns and not counted, so that each of them follows the same."""

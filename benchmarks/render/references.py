@@ -1,0 +1,81 @@
+"""Pictures almost free of noise, with nothing left out, that others are compared with; rendered once and kept."""
+
+import hashlib
+from pathlib import Path
+
+import bpy
+import cv2
+import numpy as np
+import pydantic_core
+from numpy.typing import NDArray
+
+from benchmarks.render.stage_set import SettledScene, Stage
+from farm.catalogue import template_ref
+from farm.errors import AssetError
+from farm.header import DatasetHeader
+from farm.machine import cache_folder
+from farm.quality import REFERENCE
+from worker.upload import encode_png
+
+VERSION = 1
+"""To be raised when references must be rendered anew, since the farm shows the same scene otherwise."""
+
+SHARE = 0.5
+"""Of a picture's edge that its reference covers, about the middle, where the cables are: a quarter of the time."""
+
+SEED = 0x5EED
+"""Of the references' sampling, so that they share no noise with what is compared."""
+
+
+class References:
+    """A folder of reference pictures, each named by all that decides it."""
+
+    def __init__(self, header: DatasetHeader, stage: Stage, resolution: int, folder: Path | None = None) -> None:
+        """Look up nothing yet; `folder` is the farm's cache if not given."""
+        self._header, self._stage, self._resolution = header, stage, resolution
+        self._folder = folder or cache_folder() / "references"
+
+    def path(self, settled: SettledScene) -> Path:
+        """Where a scene's reference is, or will be."""
+        digest = hashlib.sha256()
+        floor, world = settled.scene.floor, settled.scene.hdri_world
+        content = {
+            "scene": settled.scene,
+            "version": VERSION,
+            "samples": REFERENCE.cycles.samples,
+            "resolution": self._resolution,
+            "share": SHARE,
+            "template": template_ref(None),
+            "surfaces": [surface for surface in self._header.surfaces if floor and surface.name == floor.texture],
+            "hdris": [hdri for hdri in self._header.hdris if world and hdri.name == world.hdri],
+            "blender": bpy.app.version_string,
+        }
+        digest.update(pydantic_core.to_json(content))
+        for nodes in settled.shapes.nodes_m:
+            digest.update(np.ascontiguousarray(nodes).tobytes())
+        return self._folder / f"{settled.job.id}-{digest.hexdigest()[:16]}.png"
+
+    def picture(self, settled: SettledScene) -> NDArray[np.uint8]:
+        """The middle of a scene's reference (H, W, 3), rendered now if it is not there yet.
+
+        Raises:
+            AssetError: if the file there is no picture.
+        """
+        path = self.path(settled)
+        if not path.exists():
+            self._stage.set(settled, REFERENCE, seed=SEED, share=SHARE)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            partial = path.with_suffix(".partial")
+            partial.write_bytes(encode_png(self._stage.render()))
+            partial.replace(path)
+        pixels = cv2.imread(str(path), cv2.IMREAD_COLOR)
+        if pixels is None:
+            raise AssetError(f"{path}: can't be read as a picture; delete it, and it is rendered again")
+        return np.ascontiguousarray(pixels[:, :, ::-1]).astype(np.uint8, copy=False)
+
+
+def middle(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """The part of a picture (H, W, 3) that its reference covers."""
+    rows, columns = picture.shape[:2]
+    top, left = round(rows * (1 - SHARE) / 2), round(columns * (1 - SHARE) / 2)
+    return np.ascontiguousarray(picture[top : rows - top, left : columns - left])

@@ -1,0 +1,58 @@
+"""Seconds with something and without it, and what leaving it out saves of a picture in the published mix."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from benchmarks.skips.skips import Skip
+from farm.category import Category
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """One scene, made both ways.
+
+    Attributes:
+        with_s: seconds with what is left out otherwise.
+        without_s: seconds as the farm does it.
+        same: whether both pictures are the same to the byte; None where none is made.
+    """
+
+    category: Category
+    with_s: float
+    without_s: float
+    same: bool | None
+
+
+@dataclass(frozen=True, slots=True)
+class Saving:
+    """A skip, tried on scenes of all of its categories."""
+
+    skip: Skip
+    trials: tuple[Trial, ...]
+
+    @property
+    def with_s(self) -> float:
+        """Mean seconds a picture of the skip's categories, in the shares of the published mix."""
+        return self._mean([trial.with_s for trial in self.trials])
+
+    @property
+    def without_s(self) -> float:
+        """The same without what is left out."""
+        return self._mean([trial.without_s for trial in self.trials])
+
+    @property
+    def mix_s(self) -> float:
+        """Seconds saved a picture of the published mix."""
+        share = sum(category.traits.weight for category in self.skip.categories)
+        return (self.with_s - self.without_s) * share / sum(category.traits.weight for category in Category)
+
+    @property
+    def is_wrong(self) -> bool:
+        """Whether it changed a picture that it may not change."""
+        return self.skip.same_picture and any(trial.same is False for trial in self.trials)
+
+    def _mean(self, seconds: Sequence[float]) -> float:
+        weights = [trial.category.traits.weight for trial in self.trials]
+        return float(np.average(seconds, weights=weights))

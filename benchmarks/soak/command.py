@@ -1,0 +1,97 @@
+"""`python -m benchmarks soak`: one run by two workers; one has its renderer replaced now and then, one never."""
+
+import tempfile
+from collections import defaultdict
+from collections.abc import Mapping
+from contextlib import ExitStack
+from pathlib import Path
+
+from benchmarks.soak.growth import Sample
+from benchmarks.soak.report import soak_table, write_json, write_plot
+from benchmarks.terminal import bench_console
+from farm.asset_source import InstalledAssets
+from farm.catalogue import Inputs, make_header
+from farm.coordinator import Coordinator
+from farm.dataset import Destination, create_dataset
+from farm.errors import VerificationError
+from farm.local.redis_server import PrivateRedis
+from farm.local.workers import LocalWorkers, WorkerOptions
+from farm.progress import Progress
+from farm.queue.broker import connect
+from farm.redis_hints import redis_hints
+from farm.spec import parse_spec
+from farm.verify import verify
+
+RECYCLED_AFTER = 50
+
+_NEVER = 10**9
+"""As images, and as KiB: neither number nor memory replaces the process."""
+
+
+def run(out: Path, *, seed: int, images: int, quality: str, resolution: int) -> int:
+    """Render, print the table, write `soak.json` and `soak.png` into `out`.
+
+    Args:
+        out: a folder that is there.
+        seed: of the dataset.
+        images: of both workers together, in the published mix and style.
+        quality: a preset.
+        resolution: edge in pixels.
+
+    Raises:
+        VerificationError: if the dataset is not complete and as its manifests tell.
+        FarmError: that with which a worker ended.
+    """
+    spec = {"seed": seed, "style": "published", "images": images, "quality": quality, "resolution": resolution}
+    header = make_header(parse_spec(spec, source="benchmark"), Inputs(environments=False), InstalledAssets())
+    samples: dict[str, list[Sample]] = defaultdict(list)
+
+    def look(progress: Progress) -> None:
+        for report in progress.workers or ():
+            samples[report.name.partition("-1@")[0]].append(Sample(report.done, report.rss_bytes))
+
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="cable-farm-")))
+        server = stack.enter_context(PrivateRedis())
+        dataset = create_dataset(Destination(str(folder), "soak"), header)
+        coordinator = Coordinator(dataset, redis_hints(dataset, server.url, connect(server.url)))
+        coordinator.submit_missing()
+        workers = [
+            stack.enter_context(LocalWorkers(1, _options(name, after, folder, out, server.url), name=name))
+            for name, after in (("recycled", RECYCLED_AFTER), ("kept", _NEVER))
+        ]
+
+        def supervise() -> None:
+            for each in workers:
+                each.supervise()
+
+        with bench_console().status(f"{images} images"):
+            coordinator.watch(look, supervise=supervise)
+        verdict = verify(dataset)
+    if not verdict.clean or verdict.images != images:
+        raise VerificationError(f"{verdict.images} of {images} images are as they should be")
+    _require_both(samples)
+    console = bench_console()
+    console.print(soak_table(samples))
+    write_json(out / "soak.json", samples, spec)
+    write_plot(out / "soak.png", samples)
+    return 0
+
+
+def _options(name: str, after: int, folder: Path, out: Path, url: str) -> WorkerOptions:
+    return WorkerOptions(
+        store=str(folder),
+        broker_url=url,
+        device="cpu",
+        threads=1,
+        assets=None,
+        logs=out / f"soak-{name}-logs",
+        tasks_per_child=after,
+        memory_per_child_kib=_NEVER,
+    )
+
+
+def _require_both(samples: Mapping[str, list[Sample]]) -> None:
+    for name in ("recycled", "kept"):
+        if not samples[name] or samples[name][-1].done == 0:
+            raise VerificationError(f"the worker '{name}' has made no image")

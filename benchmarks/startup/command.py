@@ -1,0 +1,52 @@
+"""`python -m benchmarks startup`: from a worker's start to its first picture, and where the time goes."""
+
+import tempfile
+from pathlib import Path
+
+from rich.progress import track
+
+from benchmarks.bench_dataset import bench_header
+from benchmarks.startup.report import once_table, start_table, write_json, write_plot
+from benchmarks.startup.starts import start_once
+from benchmarks.terminal import bench_console
+from farm.category import Category
+from farm.job import Job
+
+DEFAULT_STARTS = 5
+
+RESOLUTION = 128
+"""Pixels along an edge: small, so that what is paid once stands out from the rendering of every picture."""
+
+CATEGORY = Category.CLOSE_DISTRIBUTED
+"""It shows the most: a floor's textures and an HDRI."""
+
+
+def run(out: Path, *, seed: int, starts: int | None) -> int:
+    """Measure, print, write `startup.json` and `startup.png` into `out`.
+
+    Args:
+        out: a folder that is there.
+        seed: of the picture.
+        starts: how often a worker is started.
+
+    Raises:
+        VerificationError: if a start made no picture.
+        AssetError: if the built-in assets are not complete.
+    """
+    console = bench_console()
+    header, job = bench_header(1, seed, resolution=RESOLUTION), Job(category=CATEGORY, index=0)
+    with tempfile.TemporaryDirectory(prefix="cable-farm-") as name:
+        folder = Path(name)
+        # Not counted: it fills the system's file cache, and compiles what the disk lacks.
+        start_once(header, job, folder)
+        rounds = range(starts or DEFAULT_STARTS)
+        measured = [start_once(header, job, folder) for _ in track(rounds, "starts", console=console, transient=True)]
+    console.print(start_table(measured, RESOLUTION))
+    console.print(once_table(measured))
+    last = measured[-1]
+    console.print(
+        f"compiled functions that Python calls: {last.read} read from disk, {last.compiled} compiled; {last.device}"
+    )
+    write_json(out / "startup.json", measured, seed=seed)
+    write_plot(out / "startup.png", measured)
+    return 0

@@ -1,0 +1,41 @@
+"""`python -X importtime -m benchmarks.startup.timeline SPAWNED_S RESULT`: a worker's start, up to two pictures.
+
+It does in one process what a worker's main process and its child do one after the other. The header, a line break and
+the job's id come by stdin. Nothing is imported before its time is taken.
+"""
+
+import sys
+import time
+
+
+def main(spawned_s: float, result: str) -> None:
+    """Start, make a picture, make it again, and write the seconds of each step.
+
+    Args:
+        spawned_s: the system's monotonic clock just before this process was asked for.
+        result: the JSON file to write.
+    """
+    marks = [spawned_s, time.perf_counter()]
+    import worker.command  # noqa: PLC0415  # what the main process imports
+
+    marks.append(time.perf_counter())
+    import worker.studio  # noqa: PLC0415  # what the child imports
+
+    marks.append(time.perf_counter())
+    # Whatever else the measurement needs comes after the imports that it times, and between the marks.
+    from benchmarks.startup import watch  # noqa: PLC0415
+
+    header, job = watch.read_task(sys.stdin.read())
+    pause_s = time.perf_counter() - marks[-1]
+    with watch.asset_checks() as assets:
+        studio = worker.studio.open_studio(header, device="auto", threads=0, assets=None)
+        marks.append(time.perf_counter())
+        pictures = [watch.make(studio, job, header, assets) for _ in range(2)]
+    watch.write(result, marks, pause_s, pictures)
+
+
+if __name__ == "__main__":
+    main(float(sys.argv[1]), sys.argv[2])
+    from worker.leave import leave
+
+    leave(0)

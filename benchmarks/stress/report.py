@@ -1,0 +1,157 @@
+"""What the stress test found: tables, a JSON file and a picture."""
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
+from enum import Enum
+from pathlib import Path
+from typing import Literal
+
+import matplotlib as mpl
+import numpy as np
+from rich.table import Table
+
+from benchmarks.physics.gates import StressFault
+from benchmarks.stress.play import Result
+from benchmarks.stress.scenes import AXES, Axis, Case, Scale, Start
+
+mpl.use("Agg")
+from matplotlib import pyplot as plt  # the backend must be chosen first
+from matplotlib.axes import Axes
+
+_PARTS = 4
+_PLANES = (("radius", "modulus"), ("wind", "drop"), ("steps", "density"))
+_MARKS = dict(zip(StressFault, "vsxPo", strict=True))
+
+
+def replay_command(case: Case, out: Path) -> str:
+    """What plays this one scene again."""
+    return f"python -m benchmarks stress --out {out} --seed {case.seed} --runs {case.runs} --only {case.number}"
+
+
+def failures(results: Iterable[Result], out: Path) -> list[str]:
+    """A line for each run that failed: why, and how to see it again."""
+    return [
+        f"{result.fault.value} ({result.detail}), {result.case.start.value}: {replay_command(result.case, out)}"
+        for result in results
+        if result.fault
+    ]
+
+
+def axis_table(results: Sequence[Result]) -> Table:
+    """Failures and runs in each quarter of each axis."""
+    table = _table("failures of runs in each quarter of each axis", "axis", "from", "1st", "2nd", "3rd", "4th", "to")
+    for axis in AXES:
+        values = np.array([getattr(result.case, axis.name) for result in results])
+        inner = [axis.at(part / _PARTS) for part in range(1, _PARTS)]
+        part = np.searchsorted(inner, values, side="right")
+        failed = np.array([result.fault is not None for result in results])
+        cells = [f"{np.count_nonzero(failed[part == n])}/{np.count_nonzero(part == n)}" for n in range(_PARTS)]
+        table.add_row(f"{axis.name} {axis.unit}", f"{axis.low:g}", *cells, f"{max(axis.high, *values):g}")
+    return table
+
+
+def kind_table(results: Sequence[Result]) -> Table:
+    """Runs and faults by start, placement and mixture."""
+    table = _table("faults by kind of scene", "scenes", "runs", *(fault.value for fault in StressFault))
+    rows = {start.value: [each for each in results if each.case.start is start] for start in Start}
+    rows["aligned"] = [each for each in results if each.case.aligned]
+    rows["mixed"] = [each for each in results if each.case.mixed]
+    rows["all"] = list(results)
+    for name, those in rows.items():
+        count = Counter(result.fault for result in those)
+        table.add_row(name, str(len(those)), *(str(count[fault]) for fault in StressFault))
+    return table
+
+
+def gate_table(results: Sequence[Result]) -> Table:
+    """Of gates 1 to 4 the worst figure, and how many runs are off target and beyond the bound."""
+    table = _table("gates 1 to 4 over all runs", "figure", "worst", "in run", "off target", "beyond the bound")
+    measured = [result for result in results if result.figures]
+    for gate in measured[0].gates if measured else ():
+        figures = [result.gates[gate] for result in measured]
+        worst = int(np.argmax(figures))
+        off = sum(not gate.on_target(figure) for figure in figures)
+        beyond = sum(gate.is_broken_by(figure) for figure in figures)
+        name = f"{gate.value.name} {gate.value.unit}"
+        table.add_row(name, f"{figures[worst]:.3g}", str(measured[worst].case.number), str(off), str(beyond))
+    return table
+
+
+def slowest_table(results: Sequence[Result], count: int = 5) -> Table:
+    """The runs that took longest."""
+    columns = ("run", "seconds", "steps", "simulated s", "cables", "radius m", "wind m/s")
+    table = _table("the slowest runs", "start", *columns)
+    for result in sorted(results, key=lambda each: -each.wall_s)[:count]:
+        case = result.case
+        cells = (case.number, f"{result.wall_s:.1f}", result.steps, f"{result.fall_s:.2f}", case.cables)
+        table.add_row(case.start.value, *map(str, cells), f"{case.radius:.2g}", f"{case.wind:.2g}")
+    return table
+
+
+def summary(results: Sequence[Result]) -> str:
+    """What the tables leave out, in a sentence or two."""
+    undone, slips = (sum(getattr(each, name) for each in results) for name in ("undone", "end_slips"))
+    deepest = max((each.figures.cable_penetration_max for each in results if each.figures), default=0.0)
+    sunk = sum(each.sunk_nodes > 0 for each in results)
+    failed = sum(each.fault is not None for each in results)
+    return (
+        f"{failed} of {len(results)} runs failed. On the way {undone} passages were undone and {slips} slipped round "
+        f"an end; in {sunk} runs a centreline dipped below the floor. Deepest place at the end: {deepest:.3g} radii."
+    )
+
+
+def write_json(path: Path, results: Sequence[Result]) -> None:
+    """Every case and what came of it."""
+    content = [asdict(result) | _figures(result) for result in results]
+    path.write_text(json.dumps(content, indent=1, default=_plain) + "\n")
+
+
+def write_plot(path: Path, results: Sequence[Result]) -> None:
+    """Runs over pairs of axes, those that failed marked by their fault."""
+    figure, planes = plt.subplots(1, len(_PLANES), figsize=(15, 4.8), layout="constrained")
+    for plane, names in zip(planes, _PLANES, strict=True):
+        _draw_plane(plane, names, results)
+    figure.legend(*planes[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(_MARKS) + 1)
+    failed = sum(result.fault is not None for result in results)
+    figure.suptitle(f"{len(results)} runs of the rod solver, {failed} failed")
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def _draw_plane(plane: Axes, names: tuple[str, str], results: Sequence[Result]) -> None:
+    axes = {axis.name: axis for axis in AXES}
+    places = np.array([[getattr(result.case, name) for name in names] for result in results])
+    sound = np.array([result.fault is None for result in results])
+    plane.plot(*places[sound].T, ".", color="0.7", markersize=4, label="sound")
+    for fault, mark in _MARKS.items():
+        those = np.array([result.fault is fault for result in results])
+        if those.any():
+            plane.plot(*places[those].T, mark, markersize=7, label=fault.value)
+    across, up = (axes[name] for name in names)
+    plane.set_xscale(_plot_scale(across))
+    plane.set_yscale(_plot_scale(up))
+    plane.set_xlabel(f"{across.name}, {across.unit}")
+    plane.set_ylabel(f"{up.name}, {up.unit}")
+
+
+def _plot_scale(axis: Axis) -> Literal["log", "linear"]:
+    return "log" if axis.scale is Scale.LOGARITHMIC else "linear"
+
+
+def _table(title: str, *columns: str) -> Table:
+    table = Table(title=title)
+    for number, name in enumerate(columns):
+        table.add_column(name, justify="right" if number else "left")
+    return table
+
+
+def _figures(result: Result) -> dict[str, object]:
+    return {"figures": result.figures.model_dump() if result.figures else None}
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, Enum):
+        return value.value
+    raise TypeError(f"{type(value).__name__} has no place in the JSON")

@@ -1,0 +1,104 @@
+"""A picture at the published method's costs: eight cloths, Blender's own sampling, and a second render for the mask."""
+
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.masks.white_on_black import white_on_black
+from benchmarks.render.stage_set import SettledScene, Stage
+from benchmarks.whole.renderings import BLENDER, set_picture
+from benchmarks.whole.rows import STAGES, Shot
+from benchmarks.whole.stopwatch import Stopwatch
+from benchmarks.whole.writing import write_files
+from farm.errors import SceneError, VerificationError
+from farm.fall import Simulator
+from farm.header import DatasetHeader
+from farm.job import Job
+from worker.label import label_scene
+from worker.randomize import draw_scene
+from worker.render import render_picture
+from worker.simulate import let_fall
+
+LEAST_AGREEMENT = 0.9
+"""Share of the pixels, of the rendered mask and of the cables' insides, that must be in the other within two pixels."""
+
+
+def make_published(stage: Stage, header: DatasetHeader, job: Job, folder: Path) -> Shot:
+    """Make the picture of a job's drawn scene, and its mask.
+
+    Nothing is checked between the fall and the picture. A fall that diverges is drawn again, and its seconds count.
+
+    Args:
+        stage: the open template.
+        header: names the assets.
+        job: whose scene is drawn.
+        folder: takes the picture and the mask.
+
+    Raises:
+        SceneError: if no drawn scene came to an end.
+        VerificationError: if the mask is not of the picture's cables.
+        RenderError: if Blender gives no picture.
+    """
+    watch = Stopwatch()
+    settled = _settle(header, job, watch)
+    with watch.stage("realize"):
+        set_picture(stage, settled, BLENDER)
+    with watch.stage("render"):
+        picture = stage.render()
+    with watch.stage("mask"):
+        mask = render_mask()
+    with watch.stage("write"):
+        write_files(folder, image=picture, mask=mask)
+    verify_mask(mask, settled)
+    # It has no check, which takes no time then.
+    return Shot(job, {stage: watch.stages_s.get(stage, 0.0) for stage in STAGES})
+
+
+def _settle(header: DatasetHeader, job: Job, watch: Stopwatch) -> SettledScene:
+    fault = ""
+    for attempt in range(header.spec.fall.max_attempts):
+        with watch.stage("randomize"):
+            scene = draw_scene(header, job, attempt)
+        try:
+            with watch.stage("simulate"):
+                return SettledScene(job, scene, let_fall(scene, Simulator.CLOTH_PUBLISHED, header.spec.fall))
+        except SceneError as error:
+            fault = str(error)
+    raise SceneError(f"{job.id}: the published set-up diverged in every drawn scene; the last: {fault}")
+
+
+def render_mask() -> NDArray[np.uint8]:
+    """Render the set scene with white cables on black, sampled as set, and threshold it: (H, W), 0 or 255.
+
+    Raises:
+        RenderError: if Blender gives no picture.
+    """
+    with white_on_black():
+        grey = cv2.cvtColor(render_picture(), cv2.COLOR_RGB2GRAY)
+    mask: NDArray[np.uint8] = np.where(grey >= 128, 255, 0).astype(np.uint8)
+    return mask
+
+
+def verify_mask(mask: NDArray[np.uint8], settled: SettledScene) -> None:
+    """Compare a rendered mask (H, W) with that of the geometry.
+
+    Raises:
+        VerificationError: if they are of different cables.
+    """
+    drawn = label_scene(settled.scene, settled.shapes, BLENDER.settings.detail, len(mask)).mask
+    # Cables of a pixel or two, in small pictures, are lost in the filter of the render: they have no inside.
+    inside, near = cv2.erode(drawn, np.ones((3, 3), np.uint8)), cv2.dilate(drawn, np.ones((5, 5), np.uint8))
+    agreement = min(_share_within(inside, mask), _share_within(mask, near))
+    if agreement < LEAST_AGREEMENT:
+        raise VerificationError(
+            f"{settled.job.id}: the rendered mask agrees to {agreement:.0%} with the cables it shows"
+        )
+
+
+def _share_within(part: NDArray[Any], whole: NDArray[Any]) -> float:
+    """How much of one mask (H, W) is in another; all of it, if it is empty."""
+    pixels = np.count_nonzero(part)
+    return np.count_nonzero((part > 0) & (whole > 0)) / pixels if pixels else 1.0

@@ -1,0 +1,101 @@
+"""The farm's own pictures: made as a worker makes them, written and verified."""
+
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.render.stage_set import SettledScene
+from benchmarks.whole.rows import STAGES, Row, Shot, Way
+from farm.completion import parse_manifest
+from farm.dataset import Dataset
+from farm.errors import VerificationError
+from farm.job import Job
+from farm.layout import FileRole, file_path, manifest_path
+from farm.verify import verify
+from worker.simulate import let_fall
+from worker.studio import open_studio
+from worker.upload import upload
+
+_BYTES_PER_UNIT = 1 if sys.platform == "darwin" else 1024
+"""Of the kernel's peak memory."""
+
+
+_WARM_UP = 1_000_000
+"""Index of a scene that is in no benchmark."""
+
+
+@dataclass(frozen=True, slots=True)
+class Standard:
+    """The standard pictures.
+
+    Attributes:
+        open_s: seconds to open the template, once a process.
+        peak_mib: most resident memory of this process until they were made.
+    """
+
+    row: Row
+    open_s: float
+    peak_mib: float
+
+
+def make_standard(dataset: Dataset, jobs: Sequence[Job], on_image: Callable[[], None] = lambda: None) -> Standard:
+    """Make the pictures of all jobs of a dataset with all cores, and check the written dataset.
+
+    A picture of another scene comes first and does not count, as it loads the solver and the renderer's kernels.
+
+    Raises:
+        VerificationError: if it does not verify.
+        FarmError: if an image can't be made.
+    """
+    start = time.perf_counter()
+    studio = open_studio(dataset.header, device="cpu", threads=0, assets=None)
+    open_s = time.perf_counter() - start
+    studio.make(Job(category=jobs[0].category, index=_WARM_UP), dataset.header)
+    shots = []
+    for job in jobs:
+        timings = upload(studio.make(job, dataset.header), job, dataset).timings_s
+        shots.append(Shot(job, {stage: timings.get(stage, 0.0) for stage in STAGES}))
+        on_image()
+    peak_mib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * _BYTES_PER_UNIT / 2**20
+    verdict = verify(dataset)
+    if not verdict.clean:
+        raise VerificationError(f"the benchmark's own images do not verify: {verdict.findings[0]}")
+    return Standard(Row(Way.STANDARD, tuple(shots)), open_s, peak_mib)
+
+
+def settled_again(dataset: Dataset, job: Job) -> SettledScene:
+    """The scene of a picture that was made, and its cables at rest, from the manifest: falls repeat to the bit.
+
+    Raises:
+        VerificationError: if the picture is not there.
+    """
+    manifest = parse_manifest(dataset.storage.read(manifest_path(job)), dataset, job)
+    if manifest is None:
+        raise VerificationError(f"{job.id}: its manifest is not readable")
+    spec = dataset.header.spec
+    return SettledScene(job, manifest.scene, let_fall(manifest.scene, spec.simulator, spec.fall))
+
+
+def written_picture(dataset: Dataset, job: Job) -> NDArray[np.uint8]:
+    """A picture that was made, (H, W, 3)."""
+    content = np.frombuffer(dataset.storage.read(file_path(job, FileRole.IMAGE)), np.uint8)
+    picture: NDArray[np.uint8] = np.ascontiguousarray(cv2.imdecode(content, cv2.IMREAD_COLOR)[:, :, ::-1])
+    return picture
+
+
+def start_up_s() -> float:
+    """Median seconds from the start of a process until Blender and the worker's stages are loaded in it."""
+    command = [sys.executable, "-c", "import os, worker.studio; os._exit(0)"]
+    seconds = []
+    for _ in range(3):
+        start = time.perf_counter()
+        subprocess.run(command, check=True, capture_output=True)  # noqa: S603  # our own program
+        seconds.append(time.perf_counter() - start)
+    return float(np.median(seconds))
