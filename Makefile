@@ -18,7 +18,7 @@ $(VENV)/installed: pyproject.toml constraints.txt docker/debian-packages.txt
 	@docker/missing-packages.sh docker/debian-packages.txt
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[worker,local,s3,flower,metrics,dev]'
-	$(BIN)/python -m worker.rod
+	$(BIN)/python -m worker.simulate.rod
 	@touch $@
 
 setup: $(VENV)/installed ## make .venv, install the pinned dependencies, compile the rod solver

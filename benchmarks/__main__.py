@@ -12,7 +12,7 @@ from benchmarks.soak.options import add_soak
 from benchmarks.training.options import add_training, training_plan_of
 from benchmarks.whole.options import add_whole, plan_of
 from farm.errors import FarmError
-from worker.leave import leave
+from worker.service.exit import leave
 
 
 def main(arguments: list[str]) -> int:

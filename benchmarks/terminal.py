@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from worker.process import send_output_to
+from worker.service.process import send_output_to
 
 _TABLE_WIDTH = 130
 

@@ -6,7 +6,7 @@ PICTURE_SCENE: Final = "picture"
 """What is rendered, in metres."""
 
 FALL_SCENE: Final = "fall"
-"""What is simulated, in a unit that follows the cable's radius (`worker.cloth.scale`)."""
+"""What is simulated, in a unit that follows the cable's radius (`worker.simulate.cloth.scale`)."""
 
 CABLE: Final = "cable"
 """The cable that every rendered cable is a copy of, and its material."""

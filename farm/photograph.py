@@ -42,7 +42,7 @@ class Development(Model):
     """From light on the sensor to 8 bits a channel, as a camera does it.
 
     Attributes:
-        key: linear level, 0 to 1, to which the exposure brings the picture's mean; see `worker.develop.expose`.
+        key: linear level, 0 to 1, to which the exposure brings the picture's mean; see `worker.camera.develop.expose`.
         exposure_ev: the exposure's error, in stops.
         contrast: slope of the tone curve at mid-grey over that of the plain sRGB curve.
         saturation: 1 leaves colours as they are.

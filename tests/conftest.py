@@ -15,7 +15,7 @@ from farm.local.redis_server import find_redis_server, private_redis
 from farm.queue.broker import connect
 from tests.object_store import ObjectStore, has_object_store, private_object_store
 from tests.stand_in import stand_in_header
-from worker.leave import leave
+from worker.service.exit import leave
 
 BUCKET = "farm-tests"
 

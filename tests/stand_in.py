@@ -28,10 +28,10 @@ from farm.looks import CableMaterial
 from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
 from farm.photograph import Camera
 from farm.scene import Cable, Floor, Friction, Scene, Wind
-from farm.seeds import Stage, generator
 from farm.spec import parse_spec
-from worker.command import main
-from worker.made import ImageMaker, MadeImage
+from worker.cli import main
+from worker.sample.seeds import Stage, generator
+from worker.service.picture import ImageMaker, MadeImage
 
 SHA = "0" * 64
 
@@ -109,7 +109,7 @@ def stand_in_pixels(job: Job, header: DatasetHeader) -> tuple[NDArray[np.uint8],
 
 
 class StandInMaker:
-    """Implements `worker.made.ImageMaker`."""
+    """Implements `worker.service.picture.ImageMaker`."""
 
     def make(self, job: Job, header: DatasetHeader) -> MadeImage:
         """Draw noise, with one cable across."""

@@ -3,8 +3,8 @@
 import sys
 import traceback
 
-from worker.command import main
-from worker.leave import leave
+from worker.cli import main
+from worker.service.exit import leave
 
 if __name__ == "__main__":
     try:

@@ -11,7 +11,7 @@ from benchmarks.examples.groups import GROUPS, Example
 from benchmarks.examples.sheet import draw_sheet, examples_a_row
 from benchmarks.terminal import bench_console, blender_writes_to
 from farm.job import Job
-from worker.studio import open_studio
+from worker.blender.renderer import open_studio
 
 DEFAULT_EACH = 4
 

@@ -16,11 +16,11 @@ from farm.category import Category
 from farm.errors import VerificationError
 from farm.header import DatasetHeader
 from farm.scene import Scene
-from worker.label import label_scene
-from worker.made import MadeImage
-from worker.simulate import let_fall
-from worker.studio import open_studio
-from worker.view import View
+from worker.blender.renderer import open_studio
+from worker.camera.view import View
+from worker.label.label import label_scene
+from worker.service.picture import MadeImage
+from worker.simulate.simulate import let_fall
 
 DEFAULT_IMAGES = 2
 REPEATS = 5

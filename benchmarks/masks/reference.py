@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from benchmarks.masks.white_on_black import white_on_black
 from farm.photograph import Camera
-from worker.render import render_picture
+from worker.blender.render import render_picture
 
 SAMPLES = 1024
 

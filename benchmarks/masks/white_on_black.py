@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 
 from blend import names
-from worker.piece import OCCLUDER
+from worker.cable.piece import OCCLUDER
 
 
 @contextmanager

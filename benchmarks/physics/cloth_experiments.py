@@ -14,12 +14,12 @@ from benchmarks.physics.ridge import fit_lifted
 from blend.fall import add_cables, add_floor
 from farm.errors import SceneError
 from farm.fall import ClothFall
-from worker.cloth.joined import FLOOR_SINK, set_material
-from worker.cloth.material import SEGMENT_UNITS, SOLVER_GRAVITY, STRIP_WIDTH, achieved_stiffness, material_for
-from worker.cloth.scale import RADIUS_UNITS
-from worker.cloth.stage import modifier, read_vertices, set_frames, temporary_scene
-from worker.cloth.strip import centreline, zigzag, zigzag_faces
-from worker.shapes import Points
+from worker.curves import Points
+from worker.simulate.cloth.joined import FLOOR_SINK, set_material
+from worker.simulate.cloth.material import SEGMENT_UNITS, SOLVER_GRAVITY, STRIP_WIDTH, achieved_stiffness, material_for
+from worker.simulate.cloth.scale import RADIUS_UNITS
+from worker.simulate.cloth.stage import modifier, read_vertices, set_frames, temporary_scene
+from worker.simulate.cloth.strip import centreline, zigzag, zigzag_faces
 
 VERTEX_MASS = 0.4
 """The middle of the published range; a strip at rest does not depend on it."""

@@ -1,4 +1,4 @@
-"""DOC benchmarks/physics/gates.py."""
+"""Gates 5 to 10, which hold for a simulator: how each is measured on scenes laid out for the purpose."""
 
 from dataclasses import dataclass, fields
 from enum import Enum
@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from benchmarks.physics.elastica import droop_ratio
 from benchmarks.physics.ridge import RidgeCrossing, fit_lifted
-from worker.gates import Gate, measure
-from worker.shapes import CableShapes, Points
+from worker.curves import Points
+from worker.simulate.checks.measure import Gate, measure
+from worker.simulate.shapes import CableShapes
 
 STRESS_RUNS = 500
 """No failure in so many runs bounds the true rate at 0.6 %, with 95 % confidence."""

@@ -10,9 +10,9 @@ from benchmarks.physics.settings import Setting
 from farm.errors import SceneError
 from farm.fall import Simulator
 from farm.scene import Scene
-from worker.gates import measure
-from worker.shapes import CableShapes
-from worker.simulate import let_fall
+from worker.simulate.checks.measure import measure
+from worker.simulate.shapes import CableShapes
+from worker.simulate.simulate import let_fall
 
 
 def play(setting: Setting, scenes: Sequence[Scene]) -> tuple[Played, ...]:

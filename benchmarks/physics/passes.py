@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from worker.physics.contact import segment_gap
-from worker.physics.plan_view import END_RADII
-from worker.physics.spans import Indices
-from worker.rod.compiled import compiled
-from worker.shapes import Points
+from worker.curves import Points
+from worker.simulate.checks.contact import segment_gap
+from worker.simulate.checks.plan_view import END_RADII
+from worker.simulate.checks.spans import Indices
+from worker.simulate.rod.compiled import compiled
 
 UNDECIDED_RADII = 1e-6
 """Centrelines nearer than this are on no side of each other: what parts them is rounding, or nothing."""

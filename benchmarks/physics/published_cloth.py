@@ -5,9 +5,9 @@ Collision. All eight fall however many are shown. Settings that the publication 
 
 The publication gives no size either. In metres a cable of 2 mm is thinner than the solver's collision distances can
 follow, and falls through the floor. Here a radius is `RADIUS_UNITS` units, one unit a centimetre for that cable, and
-gravity is 9.81 units, so that the fall is the true one slowed down (`worker.cloth.scale`). Smaller, cables sink deeper
-into each other; larger, 100 frames are too short for them to land. The objects' colliders wait on each other in a
-circle, which Blender breaks as it sees fit and reports on standard output; nothing warrants that runs agree.
+gravity is 9.81 units, so that the fall is the true one slowed down (`worker.simulate.cloth.scale`). Smaller, cables
+sink deeper into each other; larger, 100 frames are too short for them to land. The objects' colliders wait on each
+other in a circle, which Blender breaks as it sees fit and reports on standard output; nothing warrants that runs agree.
 """
 
 from dataclasses import dataclass
@@ -21,11 +21,12 @@ from blend.fall import add_floor, add_wind
 from farm.errors import SceneError
 from farm.fall import ClothFall
 from farm.scene import Cable, Scene
-from worker.cloth.joined import set_wind, start_line
-from worker.cloth.scale import FallScale
-from worker.cloth.stage import modifier, read_vertices, set_frames, temporary_scene
-from worker.cloth.strip import ladder, ladder_faces
-from worker.shapes import CableShapes, Points
+from worker.curves import Points
+from worker.simulate.cloth.joined import set_wind, start_line
+from worker.simulate.cloth.scale import FallScale
+from worker.simulate.cloth.stage import modifier, read_vertices, set_frames, temporary_scene
+from worker.simulate.cloth.strip import ladder, ladder_faces
+from worker.simulate.shapes import CableShapes
 
 CABLES = 8
 FRAMES = 100

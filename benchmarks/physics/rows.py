@@ -10,7 +10,7 @@ from benchmarks.physics.settings import Setting
 from farm.errors import VerificationError
 from farm.fall import Simulator
 from farm.manifest import SettleFigures
-from worker.gates import Gate, settled_figures
+from worker.simulate.checks.measure import Gate, settled_figures
 
 SCENE_GATES = (
     Gate.LENGTH,

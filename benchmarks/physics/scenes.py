@@ -9,7 +9,7 @@ from farm.job import Job
 from farm.scene import Cable, Scene
 from farm.spec import parse_spec
 from farm.styles import merge_tables
-from worker.randomize import draw_scene
+from worker.sample.scene import draw_scene
 
 CATEGORIES = (Category.FAR, Category.FAR_ALIGNED)
 DRAWN_CABLES = 8

@@ -14,9 +14,9 @@ from benchmarks.physics.rows import Textbook
 from benchmarks.physics.settings import Setting
 from farm.errors import SceneError
 from farm.fall import ClothFall, RodFall, Simulator
-from worker.cloth import material, scale
-from worker.rod.model import Rod, Surroundings
-from worker.rod.simulation import DivergedError, RodSimulation
+from worker.simulate.cloth import material, scale
+from worker.simulate.rod.model import Rod, Surroundings
+from worker.simulate.rod.simulation import DivergedError, RodSimulation
 
 SLENDERNESS = (1.0, 10.0, 100.0, 1000.0)
 

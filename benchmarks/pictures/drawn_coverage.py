@@ -12,9 +12,9 @@ from farm.category import Category
 from farm.header import DatasetHeader
 from farm.job import Job
 from farm.rendering import CableDetail
-from worker.label import label_scene
-from worker.randomize import draw_scene
-from worker.rod.fall import drop_cables
+from worker.label.label import label_scene
+from worker.sample.scene import draw_scene
+from worker.simulate.rod.fall import drop_cables
 
 
 def drawn_coverage(header: DatasetHeader, category: Category, scenes: int) -> Iterator[float]:

@@ -19,7 +19,7 @@ from benchmarks.render.stage_set import SettledScene, Stage
 from benchmarks.render.variants import BASE
 from blend import names
 from farm.rendering import CableDetail, PictureSettings
-from worker.shapes import Points, smooth
+from worker.curves import Points, smooth
 
 _FINE = CableDetail(sides=64, points_per_segment=10)
 _BEVEL_RESOLUTION = 8

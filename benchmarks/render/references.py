@@ -15,7 +15,7 @@ from farm.errors import AssetError
 from farm.header import DatasetHeader
 from farm.machine import cache_folder
 from farm.quality import REFERENCE
-from worker.upload import encode_png
+from worker.service.upload import encode_png
 
 VERSION = 1
 """To be raised when references must be rendered anew, since the farm shows the same scene otherwise."""

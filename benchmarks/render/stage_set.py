@@ -14,14 +14,14 @@ from farm.header import DatasetHeader
 from farm.job import Job
 from farm.rendering import PictureSettings
 from farm.scene import Scene
-from worker.images import ImageShelf
-from worker.library import AssetLibrary
-from worker.matte import Backdrop
-from worker.randomize import draw_scene
-from worker.realize import realize
-from worker.render import configure_cycles, configure_picture, render_scene
-from worker.shapes import CableShapes
-from worker.simulate import let_fall
+from worker.backdrop.matte import Backdrop
+from worker.blender.asset_files import AssetLibrary
+from worker.blender.build_scene import realize
+from worker.blender.image_cache import ImageShelf
+from worker.blender.render import configure_cycles, configure_picture, render_scene
+from worker.sample.scene import draw_scene
+from worker.simulate.shapes import CableShapes
+from worker.simulate.simulate import let_fall
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,14 +16,14 @@ from farm.header import DatasetHeader
 from farm.job import Job
 from farm.rendering import Economy, PictureSettings
 from farm.scene import Scene
-from worker.floor import set_floor
-from worker.images import ImageShelf
-from worker.library import AssetLibrary
-from worker.randomize import draw_scene
-from worker.rod.fall import rods_of, surroundings_of
-from worker.rod.simulation import RodSimulation
-from worker.simulate import let_fall
-from worker.upload import encode_png
+from worker.blender.asset_files import AssetLibrary
+from worker.blender.floor import set_floor
+from worker.blender.image_cache import ImageShelf
+from worker.sample.scene import draw_scene
+from worker.service.upload import encode_png
+from worker.simulate.rod.fall import rods_of, surroundings_of
+from worker.simulate.rod.simulation import RodSimulation
+from worker.simulate.simulate import let_fall
 
 Action = Callable[[], NDArray[np.uint8] | None]
 """What is timed; it returns the picture, where it makes one."""

@@ -46,7 +46,7 @@ def seconds_by_library(lines: str, root: str) -> dict[str, float]:
 
 def _library(path: list[str]) -> str:
     libraries = (_LIBRARIES.get(module.partition(".")[0]) for module in path)
-    own = ROD if path[-1].startswith("worker.rod") else OWN
+    own = ROD if path[-1].startswith("worker.simulate.rod") else OWN
     return next(filter(None, libraries), own)
 
 

@@ -96,8 +96,8 @@ def read_start(content: Mapping[str, Any], imports: str) -> Start:
     steps = content["steps"]
     return Start(
         interpreter_s=steps["interpreter"],
-        main=_by_library(imports, "worker.command", steps["main"]),
-        child=_by_library(imports, "worker.studio", steps["child"]),
+        main=_by_library(imports, "worker.cli", steps["main"]),
+        child=_by_library(imports, "worker.blender.renderer", steps["child"]),
         open_s=content["open_s"],
         first=first["seconds"],
         second=second["seconds"],

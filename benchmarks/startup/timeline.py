@@ -16,10 +16,10 @@ def main(spawned_s: float, result: str) -> None:
         result: the JSON file to write.
     """
     marks = [spawned_s, time.perf_counter()]
-    import worker.command  # noqa: PLC0415  # what the main process imports
+    import worker.cli  # noqa: PLC0415  # what the main process imports
 
     marks.append(time.perf_counter())
-    import worker.studio  # noqa: PLC0415  # what the child imports
+    import worker.blender.renderer  # noqa: PLC0415  # what the child imports
 
     marks.append(time.perf_counter())
     # Whatever else the measurement needs comes after the imports that it times, and between the marks.
@@ -28,7 +28,7 @@ def main(spawned_s: float, result: str) -> None:
     header, job = watch.read_task(sys.stdin.read())
     pause_s = time.perf_counter() - marks[-1]
     with watch.asset_checks() as assets:
-        studio = worker.studio.open_studio(header, device="auto", threads=0, assets=None)
+        studio = worker.blender.renderer.open_studio(header, device="auto", threads=0, assets=None)
         marks.append(time.perf_counter())
         pictures = [watch.make(studio, job, header, assets) for _ in range(2)]
     watch.write(result, marks, pause_s, pictures)
@@ -36,6 +36,6 @@ def main(spawned_s: float, result: str) -> None:
 
 if __name__ == "__main__":
     main(float(sys.argv[1]), sys.argv[2])
-    from worker.leave import leave
+    from worker.service.exit import leave
 
     leave(0)

@@ -13,8 +13,8 @@ from numba.core.dispatcher import Dispatcher
 
 from farm.header import DatasetHeader
 from farm.job import Job
-from worker.library import AssetLibrary, SurfaceFiles
-from worker.made import ImageMaker
+from worker.blender.asset_files import AssetLibrary, SurfaceFiles
+from worker.service.picture import ImageMaker
 
 Seconds = dict[str, float]
 
@@ -47,7 +47,7 @@ def asset_checks() -> Iterator[Seconds]:
             seconds["assets"] += time.perf_counter() - start
             return path
 
-    with patch("worker.studio.AssetLibrary", TimedLibrary):
+    with patch("worker.blender.renderer.AssetLibrary", TimedLibrary):
         yield seconds
 
 

@@ -11,10 +11,10 @@ from benchmarks.physics.passes import PassWatch
 from benchmarks.stress.scenes import Case
 from benchmarks.stress.starts import GRAVITY_M_S2, Setting, set_up
 from farm.manifest import SettleFigures
-from worker.gates import Gate, measure, settled_figures
-from worker.rod.fall import REST_FASTEST_M_S, REST_RMS_M_S, REST_S
-from worker.rod.simulation import DivergedError, RodSimulation
-from worker.shapes import CableShapes
+from worker.simulate.checks.measure import Gate, measure, settled_figures
+from worker.simulate.rod.fall import REST_FASTEST_M_S, REST_RMS_M_S, REST_S
+from worker.simulate.rod.simulation import DivergedError, RodSimulation
+from worker.simulate.shapes import CableShapes
 
 LOOK_RADII = 0.25
 """Passages are looked for each time that some node may have come so far, in the least radius, or after every step."""

@@ -6,9 +6,9 @@ from itertools import pairwise
 import numpy as np
 
 from benchmarks.stress.scenes import MIN_LENGTH_RADII, SEGMENT_RADII, Case, Start
-from worker.rod.fall import INTERNAL_DAMPING_S, RESISTANCE, curvature_at_rest, segment_m
-from worker.rod.model import Array, Breeze, Rod, Surroundings
-from worker.shapes import bent_rod
+from worker.simulate.rod.fall import INTERNAL_DAMPING_S, RESISTANCE, curvature_at_rest, segment_m
+from worker.simulate.rod.model import Array, Breeze, Rod, Surroundings
+from worker.simulate.shapes import bent_rod
 
 GRAVITY_M_S2 = 9.81
 SPACING_RADII = 3.0

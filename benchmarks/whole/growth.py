@@ -18,10 +18,10 @@ from benchmarks.whole.writing import write_files
 from farm.category import Category
 from farm.header import DatasetHeader
 from farm.job import Job
-from worker.gates import measure
-from worker.label import label_scene
-from worker.randomize import draw_scene
-from worker.simulate import let_fall
+from worker.label.label import label_scene
+from worker.sample.scene import draw_scene
+from worker.simulate.checks.measure import measure
+from worker.simulate.simulate import let_fall
 
 
 class Axis(StrEnum):

@@ -17,10 +17,10 @@ from farm.errors import SceneError, VerificationError
 from farm.fall import Simulator
 from farm.header import DatasetHeader
 from farm.job import Job
-from worker.label import label_scene
-from worker.randomize import draw_scene
-from worker.render import render_picture
-from worker.simulate import let_fall
+from worker.blender.render import render_picture
+from worker.label.label import label_scene
+from worker.sample.scene import draw_scene
+from worker.simulate.simulate import let_fall
 
 LEAST_AGREEMENT = 0.9
 """Share of the pixels, of the rendered mask and of the cables' insides, that must be in the other within two pixels."""

@@ -19,9 +19,9 @@ from farm.errors import VerificationError
 from farm.job import Job
 from farm.layout import FileRole, file_path, manifest_path
 from farm.verify import verify
-from worker.simulate import let_fall
-from worker.studio import open_studio
-from worker.upload import upload
+from worker.blender.renderer import open_studio
+from worker.service.upload import upload
+from worker.simulate.simulate import let_fall
 
 _BYTES_PER_UNIT = 1 if sys.platform == "darwin" else 1024
 """Of the kernel's peak memory."""
@@ -92,7 +92,7 @@ def written_picture(dataset: Dataset, job: Job) -> NDArray[np.uint8]:
 
 def start_up_s() -> float:
     """Median seconds from the start of a process until Blender and the worker's stages are loaded in it."""
-    command = [sys.executable, "-c", "import os, worker.studio; os._exit(0)"]
+    command = [sys.executable, "-c", "import os, worker.blender.renderer; os._exit(0)"]
     seconds = []
     for _ in range(3):
         start = time.perf_counter()

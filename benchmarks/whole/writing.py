@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from farm.storage import LocalStorage
-from worker.upload import encode_png
+from worker.service.upload import encode_png
 
 
 def write_files(folder: Path, **pictures: NDArray[np.uint8] | NDArray[np.uint16]) -> None:

@@ -13,7 +13,7 @@ import bpy
 
 from blend import names
 from blend.build import TEMPLATE
-from worker.leave import leave
+from worker.service.exit import leave
 
 
 def _touch(marker: str) -> str:

@@ -9,7 +9,7 @@ from farm.header import DatasetHeader
 from farm.job import Job
 from farm.layout import FileRole, file_path
 from tests.stand_in import stand_in_pixels
-from worker.upload import encode_png
+from worker.service.upload import encode_png
 
 Expected = Callable[[Job], Mapping[FileRole, bytes]]
 

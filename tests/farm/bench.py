@@ -13,7 +13,7 @@ from farm.progress import Hints, Progress
 from farm.queue.memory import MemoryQueue
 from farm.redis_hints import run_of
 from tests.stand_in import StandInMaker
-from worker.runner import JobRunner
+from worker.service.runner import JobRunner
 
 
 class Bench:

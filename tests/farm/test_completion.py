@@ -16,7 +16,7 @@ from farm.job_set import JobSet
 from farm.layout import FileRole, file_path, manifest_path
 from farm.storage import LocalStorage, StoredFile
 from tests.stand_in import StandInMaker, stand_in_header
-from worker.upload import upload
+from worker.service.upload import upload
 
 JOB = Job.from_id("far-000001")
 ALL = ["close_concentrated_light-000000", "close_concentrated_light-000001", "far-000000", "far-000001"]

@@ -9,7 +9,7 @@ from farm.contact_sheet import make_contact_sheet
 from farm.dataset import Dataset
 from farm.errors import IncompleteError
 from tests.stand_in import StandInMaker
-from worker.upload import upload
+from worker.service.upload import upload
 
 
 def test_a_row_for_each_category_with_a_quota(dataset: Dataset) -> None:

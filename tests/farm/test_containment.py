@@ -15,7 +15,7 @@ from farm.errors import AssetError, DestinationError, MessageError
 from farm.job import DatasetName, Job, JobMessage
 from farm.layout import FileRole, file_path, manifest_path
 from tests.stand_in import SHA, StandInMaker
-from worker.upload import upload
+from worker.service.upload import upload
 
 HOSTILE = [
     "..",

@@ -32,7 +32,7 @@ from farm.storage import LocalStorage, StoredFile, is_temporary
 from farm.verify import verify
 from tests.farm.bench import Bench
 from tests.stand_in import StandInMaker, stand_in_header
-from worker.upload import upload
+from worker.service.upload import upload
 
 JOB = Job.from_id("far-000001")
 NEVER_S = 1e9

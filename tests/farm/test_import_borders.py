@@ -42,7 +42,9 @@ def test_all_modules_together() -> None:
     assert result.stdout.split() == []
 
 
-@pytest.mark.parametrize("module", ["worker.process", "worker.command", "worker.tasks", "worker.upload"])
+@pytest.mark.parametrize(
+    "module", ["worker.service.process", "worker.cli", "worker.service.tasks", "worker.service.upload"]
+)
 def test_worker_process_starts_without_blender(module: str) -> None:
     """Celery's main process forks, so what it imports must not bring Blender."""
     result = subprocess.run([sys.executable, "-c", PROGRAM, module], capture_output=True, text=True, check=False)

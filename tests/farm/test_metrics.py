@@ -24,7 +24,7 @@ from farm.quarantine import put_in_quarantine
 from farm.queue.memory import MemoryQueue
 from farm.redis_hints import redis_hints
 from tests.stand_in import StandInMaker
-from worker.upload import upload
+from worker.service.upload import upload
 
 DONE, GIVEN_UP = Job.from_id("far-000000"), Job.from_id("far-000001")
 

@@ -11,7 +11,7 @@ from farm.layout import quarantine_path
 from farm.quarantine import LOG_LENGTH, Quarantine, QuarantineRecord, is_in_quarantine, put_in_quarantine
 from farm.verify import verify
 from tests.stand_in import StandInMaker
-from worker.upload import upload
+from worker.service.upload import upload
 
 JOB = Job.from_id("far-000001")
 OTHER = Job.from_id("far-000000")

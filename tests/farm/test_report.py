@@ -13,7 +13,7 @@ from farm.layout import INDEX_FILE, REPORT_FILE
 from farm.manifest import Manifest
 from farm.report import write_report
 from tests.stand_in import StandInMaker
-from worker.upload import upload
+from worker.service.upload import upload
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ import pytest
 from farm.dataset import Dataset
 from farm.report import write_report
 from tests.stand_in import StandInMaker
-from worker.upload import upload
+from worker.service.upload import upload
 
 pytestmark = pytest.mark.browser
 

@@ -18,7 +18,7 @@ from farm.storage import LocalStorage
 from farm.verify import Fault, verify
 from tests.object_store import ObjectStore
 from tests.stand_in import StandInMaker
-from worker.upload import encode_png, upload
+from worker.service.upload import encode_png, upload
 
 JOB = Job.from_id("far-000001")
 IMAGE, MASK, INSTANCES = (file_path(JOB, role) for role in FileRole)

@@ -29,7 +29,7 @@ from farm.quality import read_quality
 from farm.queue.broker import broker_url, masked
 from farm.queue.wire import ENVELOPE_BYTES, checked_envelope, decode_json
 from tests.stand_in import StandInMaker, stand_in_header
-from worker.upload import upload
+from worker.service.upload import upload
 
 JOB = Job.from_id("far-000000")
 _SPEC = b"""

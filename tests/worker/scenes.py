@@ -6,9 +6,9 @@ from farm.job import Job
 from farm.looks import Sheath, Skin
 from farm.scene import Scene
 from farm.spec import parse_spec
-from worker.piece import Tubular
-from worker.randomize import draw_scene
-from worker.shapes import Points
+from worker.cable.piece import Tubular
+from worker.curves import Points
+from worker.sample.scene import draw_scene
 
 SHA = "0" * 64
 

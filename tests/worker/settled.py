@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from worker.shapes import CableShapes, Points
+from worker.curves import Points
+from worker.simulate.shapes import CableShapes
 
 RADIUS = 0.001
 

@@ -135,7 +135,7 @@ def test_what_is_there_is_not_rendered_again(rendered: Path) -> None:
 
 
 def test_the_middle_column_looks_along_x(monkeypatch: pytest.MonkeyPatch) -> None:
-    """And what is right of it lies towards -y, as `worker.panorama` has it; the zenith is at the top."""
+    """And what is right of it lies towards -y, as `worker.backdrop.panorama` has it; the zenith is at the top."""
 
     def three_lamps(_recipe: object) -> Built:
         bpy.ops.wm.read_factory_settings(use_empty=True)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from farm.clutter import Part
 from worker.clutter.parts import part_extent
-from worker.shapes import Points
+from worker.curves import Points
 
 
 def parts_that_fit(
@@ -19,7 +19,7 @@ def parts_that_fit(
         parts: as drawn.
         curves: settled centrelines (N, 3) of cables and sticks, metres, finely sampled or nodes.
         radii_m: (curves,), radius of each.
-        slope: how far sideways a thing hides another, in its height; see `worker.view.View.steepest_slope`.
+        slope: how far sideways a thing hides another, in its height; see `worker.camera.view.View.steepest_slope`.
     """
     kept: list[tuple[Part, float]] = []
     for part in parts:

@@ -3,8 +3,8 @@
 import numpy as np
 
 from farm.clutter import Sheet
-from worker.clutter.canvas import Print, ink, levels, pixels_of, plain, relief
-from worker.grain import Field, rough_noise, smooth_noise, smooth_step
+from worker.clutter.print import Print, ink, levels, pixels_of, plain, relief
+from worker.noise import Field, rough_noise, smooth_noise, smooth_step
 
 
 def draw_painted_line(sheet: Sheet, rng: np.random.Generator) -> Print:

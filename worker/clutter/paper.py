@@ -6,20 +6,8 @@ import cv2
 import numpy as np
 
 from farm.clutter import Sheet
-from worker.clutter.canvas import (
-    TEXEL_M,
-    Print,
-    bars,
-    ink,
-    levels,
-    lines,
-    on_floor,
-    pixels_of,
-    plain,
-    relief,
-    write,
-)
-from worker.grain import Field, rough_noise, smooth_noise
+from worker.clutter.print import TEXEL_M, Print, bars, ink, levels, lines, on_floor, pixels_of, plain, relief, write
+from worker.noise import Field, rough_noise, smooth_noise
 
 MM = 1e-3 / TEXEL_M
 """Texels a millimetre."""

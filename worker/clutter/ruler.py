@@ -3,8 +3,8 @@
 import numpy as np
 
 from farm.clutter import Sheet
-from worker.clutter.canvas import Print, bars, ink, levels, on_floor, pixels_of, plain, relief, write
-from worker.grain import rough_noise, smooth_noise
+from worker.clutter.print import Print, bars, ink, levels, on_floor, pixels_of, plain, relief, write
+from worker.noise import rough_noise, smooth_noise
 
 TICK_M = 0.16e-3
 ZERO_M = 5e-3

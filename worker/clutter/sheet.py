@@ -5,9 +5,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from farm.clutter import Sheet, SheetKind
-from worker.clutter.canvas import Print
 from worker.clutter.ground import draw_painted_line, draw_seam, draw_slot
 from worker.clutter.paper import draw_label, draw_paper
+from worker.clutter.print import Print
 from worker.clutter.ruler import draw_ruler
 from worker.clutter.solid import Array
 from worker.clutter.tape import draw_hazard_tape, draw_tape

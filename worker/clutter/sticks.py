@@ -5,7 +5,7 @@ import numpy as np
 from farm.clutter import Stick
 from worker.clutter.solid import Array, Finish, Section, Solid, joined, turned_on_lathe
 from worker.clutter.stick_kinds import SIDES, TURNERS
-from worker.shapes import Points
+from worker.curves import Points
 
 OUTLINE_STEP = 0.02
 """Of the radius: how finely cones are cut into cylinders."""

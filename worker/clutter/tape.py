@@ -5,8 +5,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from farm.clutter import Sheet
-from worker.clutter.canvas import TEXEL_M, Levels, Print, ink, levels, on_floor, pixels_of, plain, relief
-from worker.grain import Field, rough_noise, smooth_noise, smooth_step
+from worker.clutter.print import TEXEL_M, Levels, Print, ink, levels, on_floor, pixels_of, plain, relief
+from worker.noise import Field, rough_noise, smooth_noise, smooth_step
 
 HAZARDS = (((236, 186, 24), (24, 24, 26)), ((236, 186, 24), (24, 24, 26)), ((188, 28, 30), (230, 230, 228)))
 """Yellow and black, as a rule, or red and white."""

@@ -11,7 +11,7 @@ from benchmarks.examples.options import GROUP_NAMES
 from benchmarks.examples.sheet import EDGE_PX, draw_sheet, examples_a_row
 from farm.job import Job
 from farm.looks import Bundle, Skin
-from worker.randomize import draw_scene
+from worker.sample.scene import draw_scene
 
 
 def test_the_options_name_all_groups() -> None:

@@ -17,7 +17,7 @@ from benchmarks.terminal import bench_console
 from farm.dataset import Dataset
 from farm.errors import SpecError
 from tests.stand_in import StandInMaker
-from worker.upload import upload
+from worker.service.upload import upload
 
 
 def played(split: Split, *after_s: float, opened: int | None = None, wall_s: float = 100.0) -> Throughput:

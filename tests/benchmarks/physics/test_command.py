@@ -19,7 +19,7 @@ from benchmarks.terminal import bench_console
 from farm.errors import VerificationError
 from farm.fall import Simulator
 from tests.worker.settled import rod, shapes
-from worker.gates import measure
+from worker.simulate.checks.measure import measure
 
 FIGURES = measure(shapes(rod())).model_copy(update={"length_error": 0.0, "floor_penetration": 0.0})
 EXACT = Textbook((CantileverError(1.0, 0.0), CantileverError(1000.0, 0.0)))

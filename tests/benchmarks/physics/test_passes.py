@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 
 from benchmarks.physics.passes import Passage, PassWatch, passes_between, sunk_between
 from tests.worker.settled import RADIUS, looped, rod
-from worker.physics.plan_view import END_RADII
-from worker.shapes import Points
+from worker.curves import Points
+from worker.simulate.checks.plan_view import END_RADII
 
 RADII = np.full(2, RADIUS)
 

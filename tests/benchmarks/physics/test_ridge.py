@@ -8,7 +8,7 @@ from scipy.optimize import lsq_linear
 
 from benchmarks.physics.gates import crossing_error
 from benchmarks.physics.ridge import RidgeCrossing, fit_lifted
-from worker.gates import Gate
+from worker.simulate.checks.measure import Gate
 
 positive = st.floats(1e-6, 1e3)
 

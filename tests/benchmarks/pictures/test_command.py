@@ -20,7 +20,7 @@ from farm.errors import DatasetMissingError, FarmError, SpecError, VerificationE
 from farm.job import Job
 from farm.layout import FileRole, file_path
 from tests.stand_in import StandInMaker, stand_in_header
-from worker.upload import upload
+from worker.service.upload import upload
 
 
 @pytest.fixture

@@ -20,13 +20,13 @@ import time:       100 |        100 | site
 import time:      1000 |       1000 |     redis.client
 import time:       500 |       1500 |   redis
 import time:      2000 |       2000 |   numpy
-import time:       300 |       3800 | worker.command
+import time:       300 |       3800 | worker.cli
 a line of Blender's
 import time:      4000 |       4000 |       numpy.testing
 import time:      6000 |      10000 |     numba
-import time:       700 |      10700 |   worker.rod.compiled
+import time:       700 |      10700 |   worker.simulate.rod.compiled
 import time:      9000 |       9000 |   bpy
-import time:       200 |      19900 | worker.studio
+import time:       200 |      19900 | worker.blender.renderer
 """
 
 
@@ -42,14 +42,14 @@ def content(again: str = "a") -> dict[str, Any]:
 
 def test_seconds_go_to_the_outermost_library() -> None:
     """What numba imports of NumPy is numba's doing."""
-    assert seconds_by_library(IMPORTS, "worker.studio") == pytest.approx(
+    assert seconds_by_library(IMPORTS, "worker.blender.renderer") == pytest.approx(
         {"numba": 0.010, ROD: 0.0007, "Blender": 0.009, OWN: 0.0002}
     )
 
 
 def test_a_module_that_was_not_imported_took_no_time() -> None:
     """As of a process that ended early."""
-    assert seconds_by_library("Killed", "worker.studio") == {}
+    assert seconds_by_library("Killed", "worker.blender.renderer") == {}
 
 
 def test_a_start_adds_up_to_its_first_picture() -> None:

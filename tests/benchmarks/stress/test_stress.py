@@ -16,7 +16,7 @@ from benchmarks.stress.report import replay_command
 from benchmarks.stress.scenes import AXES, CROWD, Axis, Case, Start, draw_cases
 from benchmarks.stress.starts import set_up
 from tests.worker.settled import rod, shapes
-from worker.gates import measure
+from worker.simulate.checks.measure import measure
 
 CASES = draw_cases(DEFAULT_RUNS, 0)
 

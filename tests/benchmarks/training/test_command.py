@@ -20,7 +20,7 @@ from benchmarks.training.plot import overlay
 from farm.dataset import Dataset, Destination, create_dataset
 from farm.errors import EnvironmentMissingError, SpecError
 from tests.stand_in import StandInMaker, stand_in_header
-from worker.upload import upload
+from worker.service.upload import upload
 
 EDGE = 32
 

@@ -12,7 +12,7 @@ from benchmarks.training.examples import EDGE_PX, examples_of, photographs_in
 from farm.dataset import Dataset, Destination, create_dataset
 from farm.errors import SpecError, VerificationError
 from tests.stand_in import StandInMaker, stand_in_header
-from worker.upload import upload
+from worker.service.upload import upload
 
 
 def made(folder: Path, resolution: int) -> Dataset:

@@ -24,7 +24,7 @@ from benchmarks.whole.published import render_mask, verify_mask  # noqa: E402
 from benchmarks.whole.renderings import BLENDER, BLENDERPROC, set_picture  # noqa: E402
 from benchmarks.whole.rows import STAGES  # noqa: E402
 from blend import names  # noqa: E402  # after importorskip
-from worker.randomize import draw_scene  # noqa: E402
+from worker.sample.scene import draw_scene  # noqa: E402
 
 pytestmark = pytest.mark.blender
 

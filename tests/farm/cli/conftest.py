@@ -10,7 +10,7 @@ from farm.cli import main
 from farm.dataset import Dataset
 from tests.farm.cli.result import Farm, Result
 from tests.stand_in import StandInMaker
-from worker.upload import upload
+from worker.service.upload import upload
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ import pytest
 
 from farm.clutter import SheetKind
 from tests.worker.clutter.things import make_sheet
-from worker.clutter.canvas import TEXEL_M
+from worker.clutter.print import TEXEL_M
 from worker.clutter.sheet import print_sheet, sheet_corners
 
 

@@ -10,11 +10,11 @@ from farm.clutter import StickKind
 from tests.worker.clutter.test_solid import volume_m3
 from tests.worker.clutter.things import make_stick
 from tests.worker.scenes import tubular
+from worker.camera.view import View
 from worker.clutter.stick_kinds import PENCIL_CORNER, SIDES
 from worker.clutter.sticks import placed_on, stick_outline, stick_solid
-from worker.coverage import cover
-from worker.silhouette import silhouettes
-from worker.view import View
+from worker.label.coverage import cover
+from worker.label.silhouette import silhouettes
 
 SEEDS = range(4)
 

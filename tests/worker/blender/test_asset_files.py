@@ -1,0 +1,98 @@
+"""Asset files, found by the names that scenes use."""
+
+from pathlib import Path
+
+import pytest
+
+from assets.bake import bake_surfaces
+from assets.environments import EnvironmentKind, EnvironmentRecord, environment_directory
+from assets.files import sha256
+from farm.errors import AssetError
+from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, PlateRef
+from worker.blender.asset_files import AssetLibrary
+
+SHOWN, OTHER = "stucco", "galvanised_steel"
+
+
+@pytest.fixture(scope="module")
+def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two small surfaces, one of which is damaged."""
+    folder = tmp_path_factory.mktemp("surfaces")
+    bake_surfaces(folder, pixels=64, names=[SHOWN, OTHER], processes=1)
+    (folder / OTHER / "colour.jpg").write_bytes(b"damaged")
+    return folder
+
+
+def library(header: DatasetHeader, baked: Path, name: str, version: int = 1) -> AssetLibrary:
+    """A library of a header that names one surface."""
+    surface = BuiltinSurfaceRef(name=name, recipe_version=version)
+    return AssetLibrary(header.model_copy(update={"surfaces": (surface,)}), baked)
+
+
+def test_a_surface_is_found_whatever_the_others_are_like(header: DatasetHeader, baked: Path) -> None:
+    """Only what a scene shows is read."""
+    assert library(header, baked, SHOWN).surface(SHOWN).colour == baked / SHOWN / "colour.jpg"
+
+
+def test_a_damaged_surface_is_refused(header: DatasetHeader, baked: Path) -> None:
+    """When a scene shows it."""
+    with pytest.raises(AssetError, match=r"colour\.jpg: differs from its checksum"):
+        library(header, baked, OTHER).surface(OTHER)
+
+
+def test_a_surface_that_is_not_baked_says_what_to_run(header: DatasetHeader, baked: Path) -> None:
+    """The error names folder, surface and command."""
+    with pytest.raises(AssetError, match=r"the surface 'linen' is not baked here; run `farm assets build`"):
+        library(header, baked, "linen").surface("linen")
+
+
+def test_another_version_of_a_surface_is_refused(header: DatasetHeader, baked: Path) -> None:
+    """Its texels would be others than the dataset's."""
+    with pytest.raises(AssetError, match="is of version 1, not 99"):
+        library(header, baked, SHOWN, version=99).surface(SHOWN)
+
+
+@pytest.mark.parametrize("change", [None, b"another"])
+def test_a_photograph_is_checked(header: DatasetHeader, tmp_path: Path, change: bytes | None) -> None:
+    """It is found where the header says; one that has changed since then, or is gone, is refused."""
+    path = tmp_path / "lab.jpg"
+    path.write_bytes(b"a photograph")
+    plate = PlateRef(name="lab", path=str(path), sha256=sha256(b"a photograph"))
+    with_plate = header.model_copy(update={"plates": (plate,)})
+    assert AssetLibrary(with_plate, tmp_path).plate("lab") == path
+    path.unlink() if change is None else path.write_bytes(change)
+    with pytest.raises(AssetError, match=r"lab\.jpg: (can't be read|has changed since)"):
+        AssetLibrary(with_plate, tmp_path).plate("lab")
+
+
+def with_environment(header: DatasetHeader, folder: Path, version: int) -> AssetLibrary:
+    """A library of a header that names an environment of some version, where version 1 is on disk."""
+    directory = environment_directory(folder, "yard_1")
+    directory.mkdir(parents=True)
+    (directory / "panorama.exr").write_bytes(b"light")
+    record = EnvironmentRecord(
+        name="yard_1", kind=EnvironmentKind.YARD, version=1, pixels=64, sha256=sha256(b"light"), mean_luminance=0.8
+    )
+    (directory / "environment.json").write_text(record.model_dump_json())
+    hdri = HdriRef(name="yard_1", path=None, dark=False, recipe_version=version)
+    return AssetLibrary(header.model_copy(update={"hdris": (hdri,)}), folder)
+
+
+def test_an_environment_is_found_by_its_name(header: DatasetHeader, tmp_path: Path) -> None:
+    """Beside the surfaces."""
+    path = with_environment(header, tmp_path, 1).hdri("yard_1")
+    assert path == tmp_path / "environments" / "yard_1" / "panorama.exr"
+
+
+def test_another_version_of_an_environment_is_refused(header: DatasetHeader, tmp_path: Path) -> None:
+    """It would show another place than the dataset's other pictures."""
+    with pytest.raises(AssetError, match=r"'yard_1' is of version 1, not 2; run `farm assets build`"):
+        with_environment(header, tmp_path, 2).hdri("yard_1")
+
+
+def test_a_damaged_environment_is_refused(header: DatasetHeader, tmp_path: Path) -> None:
+    """When a scene shows it."""
+    library = with_environment(header, tmp_path, 1)
+    (environment_directory(tmp_path, "yard_1") / "panorama.exr").write_bytes(b"dark")
+    with pytest.raises(AssetError, match=r"panorama\.exr: differs from its checksum"):
+        library.hdri("yard_1")

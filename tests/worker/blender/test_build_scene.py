@@ -1,0 +1,155 @@
+"""What is left out of a scene does not show."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+bpy = pytest.importorskip("bpy")
+
+from assets.bake import bake_surfaces  # noqa: E402  # after importorskip
+from blend import names  # noqa: E402
+from blend.build import TEMPLATE  # noqa: E402
+from blend.contract import open_template  # noqa: E402
+from blend.world import is_as_built  # noqa: E402
+from farm.asset_source import InstalledAssets  # noqa: E402
+from farm.catalogue import Inputs, make_header  # noqa: E402
+from farm.category import Category  # noqa: E402
+from farm.header import DatasetHeader  # noqa: E402
+from farm.job import Job  # noqa: E402
+from farm.photograph import Camera  # noqa: E402
+from farm.quality import REFERENCE  # noqa: E402
+from farm.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
+from farm.spec import parse_spec  # noqa: E402
+from worker.backdrop.matte import Backdrop  # noqa: E402
+from worker.blender.asset_files import AssetLibrary  # noqa: E402
+from worker.blender.build_scene import realize  # noqa: E402
+from worker.blender.image_cache import ImageShelf  # noqa: E402
+from worker.blender.render import configure_cycles, configure_picture, render_picture  # noqa: E402
+from worker.sample.scene import draw_scene  # noqa: E402
+from worker.simulate.simulate import let_fall  # noqa: E402
+
+pytestmark = pytest.mark.blender
+
+SURFACES = ("concrete_smooth", "rusted_steel")
+RESOLUTION = 128
+
+TILTED = Camera(
+    height_m=0.12,
+    f_number=8.0,
+    focal_length_mm=35.0,
+    tilt_deg=25.0,
+    tilt_bearing_deg=130.0,
+    roll_deg=50.0,
+    focus_offset_m=0.005,
+)
+
+
+@pytest.fixture(scope="module")
+def header() -> DatasetHeader:
+    """Of pictures over two surfaces."""
+    spec = parse_spec({"seed": 0, "style": "published", "images": 600}, source="test")
+    made = make_header(spec, Inputs(environments=False), InstalledAssets())
+    return made.model_copy(update={"surfaces": tuple(s for s in made.surfaces if s.name in SURFACES)})
+
+
+@pytest.fixture
+def library(header: DatasetHeader, tmp_path: Path) -> AssetLibrary:
+    """The surfaces, small, and a fresh template open."""
+    bake_surfaces(tmp_path, pixels=512, names=SURFACES, processes=1)
+    open_template(TEMPLATE)
+    return AssetLibrary(header, tmp_path)
+
+
+def set_up(
+    header: DatasetHeader,
+    library: AssetLibrary,
+    job: Job,
+    samples: int,
+    economy: Economy,
+    camera: Camera | None = None,
+) -> Backdrop | None:
+    """Make a job's scene ready to render, as seen by another camera if one is given."""
+    scene = draw_scene(header, job, 0)
+    scene = scene.model_copy(update={"camera": camera or scene.camera})
+    shapes = let_fall(scene, header.spec.simulator, header.spec.fall)
+    settings = PictureSettings(cycles=CyclesSettings(samples=samples, denoiser=Denoiser.NONE), economy=economy)
+    behind = realize(
+        scene,
+        shapes,
+        library,
+        ImageShelf(),
+        traits=job.category.traits,
+        resolution=RESOLUTION,
+        detail=CableDetail(),
+        economy=economy,
+    )
+    configure_cycles(configure_picture(RESOLUTION, 0), settings, "cpu", scene.render_seed)
+    return behind
+
+
+def picture(
+    header: DatasetHeader,
+    library: AssetLibrary,
+    category: Category,
+    samples: int,
+    economy: Economy,
+    camera: Camera | None = None,
+) -> NDArray[np.float64]:
+    """The first picture of a category, levels 0 to 255."""
+    behind = set_up(header, library, Job(category=category, index=0), samples, economy, camera)
+    return render_picture(behind).astype(np.float64)
+
+
+def psnr_db(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+    """Peak signal over noise."""
+    return float(10 * np.log10(255.0**2 / max(np.mean((a - b) ** 2), 1e-9)))
+
+
+@pytest.mark.parametrize("camera", [None, TILTED], ids=["down", "tilted"])
+@pytest.mark.parametrize("field", ["texture_window", "cables_in_view"])
+def test_what_is_out_of_view_is_not_missed(
+    header: DatasetHeader, library: AssetLibrary, field: str, camera: Camera | None
+) -> None:
+    """With the same samples, a lamp's picture is the same to 45 dB, which is a level and a half."""
+    whole = REFERENCE.economy
+    without = whole.model_copy(update={field: True})
+    less, more = (picture(header, library, Category.CLOSE_CONCENTRATED, 8, each, camera) for each in (without, whole))
+    assert psnr_db(less, more) > 45
+
+
+@pytest.mark.parametrize("camera", [None, TILTED], ids=["down", "tilted"])
+def test_what_is_behind_is_what_paths_would_find(
+    header: DatasetHeader, library: AssetLibrary, camera: Camera | None
+) -> None:
+    """A far picture with the HDRI looked up is that of 256 samples to 35 dB, which leaves their noise."""
+    looked_up = picture(header, library, Category.FAR, 64, Economy(), camera)
+    sampled = picture(header, library, Category.FAR, 256, REFERENCE.economy, camera)
+    assert psnr_db(looked_up, sampled) > 35
+    assert looked_up.mean() == pytest.approx(sampled.mean(), rel=0.01)
+
+
+def test_the_upper_world_lights_as_the_whole_does(header: DatasetHeader, library: AssetLibrary) -> None:
+    """A floor under an HDRI is as bright, within 2 %, and alike to 30 dB at samples that leave noise."""
+    upper = picture(header, library, Category.CLOSE_DISTRIBUTED, 64, Economy())
+    whole = picture(header, library, Category.CLOSE_DISTRIBUTED, 256, REFERENCE.economy)
+    assert upper.mean() == pytest.approx(whole.mean(), rel=0.02)
+    assert psnr_db(upper, whole) > 30
+
+
+def test_a_world_that_an_artist_changed_is_sampled(header: DatasetHeader, library: AssetLibrary) -> None:
+    """With a node of theirs between HDRI and background, nothing is looked up in the HDRI alone."""
+    tree = bpy.data.worlds[names.WORLD].node_tree
+    assert is_as_built(bpy.data.worlds[names.WORLD])
+    tint = tree.nodes.new("ShaderNodeGamma")
+    tree.links.new(tree.nodes[names.WORLD_IMAGE].outputs["Color"], tint.inputs["Color"])
+    tree.links.new(tint.outputs["Color"], tree.nodes["plain"].inputs["Color"])
+    assert not is_as_built(bpy.data.worlds[names.WORLD])
+    assert set_up(header, library, Job(category=Category.FAR, index=0), 1, Economy()) is None
+
+
+def test_a_lens_that_an_artist_changed_is_sampled(header: DatasetHeader, library: AssetLibrary) -> None:
+    """Six blades blur to hexagons, which the disc does not."""
+    bpy.data.objects[names.CAMERA].data.dof.aperture_blades = 6
+    assert set_up(header, library, Job(category=Category.FAR, index=0), 1, Economy()) is None

@@ -1,0 +1,142 @@
+"""Clutter in a real Blender: it is seen, it leaves labels alone, and it is gone from the next picture."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+bpy = pytest.importorskip("bpy")
+
+from assets.bake import bake_surfaces  # noqa: E402  # after importorskip
+from blend.build import TEMPLATE  # noqa: E402
+from blend.contract import open_template  # noqa: E402
+from farm.asset_source import InstalledAssets  # noqa: E402
+from farm.catalogue import Inputs  # noqa: E402
+from farm.catalogue import make_header as catalogue_header  # noqa: E402
+from farm.category import Category  # noqa: E402
+from farm.clutter import PartKind, SheetKind, StickKind  # noqa: E402
+from farm.header import DatasetHeader  # noqa: E402
+from farm.job import Job  # noqa: E402
+from farm.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
+from farm.scene import Scene, Wear  # noqa: E402
+from farm.spec import parse_spec  # noqa: E402
+from tests.worker.clutter.things import make_part, make_sheet, make_stick  # noqa: E402
+from worker.blender.asset_files import AssetLibrary  # noqa: E402
+from worker.blender.build_scene import realize  # noqa: E402
+from worker.blender.clutter import PREFIX  # noqa: E402
+from worker.blender.image_cache import ImageShelf  # noqa: E402
+from worker.blender.render import configure_cycles, configure_picture, render_picture  # noqa: E402
+from worker.sample.scene import draw_scene  # noqa: E402
+from worker.simulate.simulate import let_fall  # noqa: E402
+
+pytestmark = pytest.mark.blender
+
+RESOLUTION = 96
+NEUTRAL = Wear(
+    brightness=1.0,
+    tint=(1.0, 1.0, 1.0),
+    saturation=1.0,
+    contrast=1.0,
+    stains=0.0,
+    scratches=0.0,
+    dust=0.0,
+    mirrored=False,
+    pattern_seed=0,
+)
+
+
+class Stage:
+    """An open template over one small surface."""
+
+    def __init__(self, folder: Path) -> None:
+        bake_surfaces(folder, pixels=256, names=("concrete_smooth",), processes=1)
+        spec = parse_spec({"seed": 0, "images": 60, "style": "published"}, source="test")
+        made: DatasetHeader = catalogue_header(spec, Inputs(environments=False), InstalledAssets())
+        self.header = made.model_copy(
+            update={"surfaces": tuple(each for each in made.surfaces if each.name == "concrete_smooth")}
+        )
+        open_template(TEMPLATE)
+        self.library, self.shelf = AssetLibrary(self.header, folder), ImageShelf()
+        self.job = Job(category=Category.CLOSE_CONCENTRATED, index=0)
+        self.plain = draw_scene(self.header, self.job, 0)
+
+    def picture(self, scene: Scene) -> NDArray[np.uint8]:
+        """Fallen and rendered."""
+        realize(
+            scene,
+            let_fall(scene, self.header.spec.simulator, self.header.spec.fall),
+            self.library,
+            self.shelf,
+            traits=self.job.category.traits,
+            resolution=RESOLUTION,
+            detail=CableDetail(),
+            economy=Economy(),
+        )
+        settings = PictureSettings(cycles=CyclesSettings(samples=4, denoiser=Denoiser.NONE), economy=Economy())
+        configure_cycles(configure_picture(RESOLUTION, 1), settings, "cpu", 0)
+        return render_picture()
+
+
+@pytest.fixture(scope="module")
+def stage(tmp_path_factory: pytest.TempPathFactory) -> Stage:
+    """Shared: each test renders what it needs."""
+    return Stage(tmp_path_factory.mktemp("surfaces"))
+
+
+def cluttered(plain: Scene) -> Scene:
+    """One of each kind, where the camera sees them, and cables that start above the sticks."""
+    edge = 0.012
+    return plain.model_copy(
+        update={
+            "cables": tuple(
+                cable.model_copy(update={"start_height_m": cable.start_height_m + 0.08}) for cable in plain.cables
+            ),
+            "sticks": tuple(
+                make_stick(kind, x_m=edge * (k - 2), start_height_m=0.001 + 0.015 * k, rotation_deg=30.0 * k)
+                for k, kind in enumerate(StickKind)
+            ),
+            "sheets": tuple(make_sheet(kind, y_m=edge * (k - 4), seed=k) for k, kind in enumerate(SheetKind)),
+            "parts": tuple(make_part(kind, x_m=0.2, y_m=0.05 * k) for k, kind in enumerate(PartKind)),
+        }
+    )
+
+
+def test_every_kind_of_clutter_is_put_in_the_picture(stage: Stage) -> None:
+    """An object each, above the floor and, if it is a sheet, by less than a tenth of a millimetre."""
+    scene = cluttered(stage.plain)
+    stage.picture(scene)
+    found = [each for each in bpy.data.scenes["picture"].objects if each.name.startswith(f"{PREFIX}.")]
+    assert len(found) == len(scene.sticks) + len(scene.sheets) + len(scene.parts)
+    for each in found:
+        heights = [vertex.co.z for vertex in each.data.vertices]
+        assert min(heights) >= -1e-6
+        if "sheet" in each.name:
+            assert 0 < max(heights) < 1e-4
+
+
+def test_a_picture_does_not_depend_on_the_clutter_of_the_one_before(stage: Stage) -> None:
+    """The same bytes before and after it, and nothing of it is left."""
+    before = stage.picture(stage.plain)
+    between = stage.picture(cluttered(stage.plain))
+    after = stage.picture(stage.plain)
+    assert before.tobytes() == after.tobytes()
+    assert np.abs(between.astype(int) - before.astype(int)).mean() > 3
+    for collection in (bpy.data.objects, bpy.data.meshes, bpy.data.materials, bpy.data.images):
+        assert not [block.name for block in collection if block.name.startswith(f"{PREFIX}.")]
+
+
+def test_wear_that_changes_nothing_does_not_show(stage: Stage) -> None:
+    """Byte by byte the picture of a floor without any."""
+    assert stage.plain.floor is not None
+    worn = stage.plain.floor.model_copy(update={"wear": NEUTRAL})
+    same = stage.picture(stage.plain.model_copy(update={"floor": worn}))
+    assert same.tobytes() == stage.picture(stage.plain).tobytes()
+
+
+def test_a_worn_floor_shows_it(stage: Stage) -> None:
+    """Half as bright, the picture is darker."""
+    assert stage.plain.floor is not None
+    worn = stage.plain.floor.model_copy(update={"wear": NEUTRAL.model_copy(update={"brightness": 0.3})})
+    dark = stage.picture(stage.plain.model_copy(update={"floor": worn}))
+    assert dark.mean() < 0.8 * stage.picture(stage.plain).mean()

@@ -1,0 +1,130 @@
+"""Whole pictures as a camera takes them: repeatable, rightly masked, and without a trace in those after them."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+bpy = pytest.importorskip("bpy")
+
+from assets.bake import bake_surfaces  # noqa: E402  # after importorskip
+from farm.asset_source import InstalledAssets  # noqa: E402
+from farm.catalogue import Inputs, make_header  # noqa: E402
+from farm.category import Category  # noqa: E402
+from farm.header import DatasetHeader  # noqa: E402
+from farm.job import Job  # noqa: E402
+from farm.lights import GreyWorld, StudioLamp  # noqa: E402
+from farm.photograph import Camera, Development  # noqa: E402
+from farm.scene import Scene  # noqa: E402
+from farm.spec import parse_spec  # noqa: E402
+from worker.blender.renderer import Studio, open_studio  # noqa: E402
+from worker.sample.scene import draw_scene  # noqa: E402
+from worker.service.picture import MadeImage  # noqa: E402
+
+pytestmark = pytest.mark.blender
+
+CAMERA = Camera(
+    height_m=0.15,
+    f_number=6.0,
+    focal_length_mm=35.0,
+    tilt_deg=20.0,
+    tilt_bearing_deg=70.0,
+    roll_deg=25.0,
+    distortion=-0.1,
+)
+
+DEVELOPMENT = Development(
+    key=0.2,
+    exposure_ev=0.2,
+    contrast=1.2,
+    saturation=1.1,
+    white_balance=(1.1, 0.9),
+    vignetting=0.2,
+    chromatic_aberration=0.001,
+    full_well=3000.0,
+    read_noise=3.0,
+    sharpening=0.5,
+    jpeg_quality=85,
+    seed=0,
+)
+
+LAMPS = (
+    StudioLamp(
+        bearing_deg=0.0, elevation_deg=40.0, distance_m=1.0, irradiance_w_m2=2.0, size_m=0.05, temperature_k=3000.0
+    ),
+    StudioLamp(
+        bearing_deg=150.0, elevation_deg=70.0, distance_m=2.0, irradiance_w_m2=1.0, size_m=0.8, temperature_k=6500.0
+    ),
+)
+
+
+@pytest.fixture(scope="module")
+def header() -> DatasetHeader:
+    """Draft pictures of 128 pixels over one surface."""
+    spec = parse_spec(
+        {"seed": 0, "style": "published", "images": 600, "resolution": 128, "quality": "draft"}, source="test"
+    )
+    made = make_header(spec, Inputs(environments=False), InstalledAssets())
+    return made.model_copy(update={"surfaces": tuple(s for s in made.surfaces if s.name == "concrete_smooth")})
+
+
+@pytest.fixture
+def studio(header: DatasetHeader, tmp_path: Path) -> Studio:
+    """With a fresh template."""
+    bake_surfaces(tmp_path, pixels=256, names=("concrete_smooth",), processes=1)
+    return open_studio(header, device="cpu", threads=0, assets=tmp_path)
+
+
+@contextmanager
+def photographed(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Let scenes be drawn with the camera above, its development, and under lamps the lamps above."""
+
+    def draw(header: DatasetHeader, job: Job, attempt: int) -> Scene:
+        scene = draw_scene(header, job, attempt)
+        update: dict[str, object] = {"camera": CAMERA, "development": DEVELOPMENT}
+        if scene.lamps:
+            update |= {"lamps": LAMPS, "grey_world": GreyWorld(radiance=0.3, temperature_k=5000.0)}
+        return scene.model_copy(update=update)
+
+    with monkeypatch.context() as patch:
+        patch.setattr("worker.blender.renderer.draw_scene", draw)
+        yield
+
+
+def same(one: MadeImage, other: MadeImage) -> bool:
+    """Picture and labels, to the byte."""
+    return one.image.tobytes() == other.image.tobytes() and one.instances.tobytes() == other.instances.tobytes()
+
+
+@pytest.mark.parametrize("category", [Category.CLOSE_CONCENTRATED, Category.FAR])
+def test_a_photograph_leaves_nothing_behind(
+    studio: Studio, header: DatasetHeader, monkeypatch: pytest.MonkeyPatch, category: Category
+) -> None:
+    """A published picture is the same before and after it; so is the photograph itself a second time."""
+    job = Job(category=category, index=1)
+    before = studio.make(job, header)
+    with photographed(monkeypatch):
+        first = studio.make(job, header)
+    after = studio.make(job, header)
+    with photographed(monkeypatch):
+        again = studio.make(job, header)
+    assert same(before, after)
+    assert same(first, again)
+    assert not same(before, first)
+
+
+@pytest.mark.parametrize("category", [Category.CLOSE_CONCENTRATED, Category.FAR])
+def test_a_photograph_is_lit_and_masked(
+    studio: Studio, header: DatasetHeader, monkeypatch: pytest.MonkeyPatch, category: Category
+) -> None:
+    """Neither black nor white; its gradients are on the mask's edges rather than beside them."""
+    with photographed(monkeypatch):
+        made = studio.make(Job(category=category, index=1), header)
+    assert 40 < made.image.mean() < 200
+    grey = made.image.astype(float).mean(axis=2)
+    slope = np.hypot(*np.gradient(grey))
+    inside = made.mask == 255
+    edge = np.hypot(*np.gradient(inside.astype(float))) > 0
+    assert slope[edge].mean() > 2 * slope[~edge].mean()

@@ -1,0 +1,112 @@
+"""A lens's distortion: of places, of pictures, and that they are the same."""
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from tests.worker.scenes import tubular
+from worker.backdrop.matte import covered_by
+from worker.camera.distortion import Distortion
+from worker.camera.view import View
+from worker.curves import Points
+from worker.label.coverage import covered_share
+from worker.label.label import label_cables
+from worker.label.silhouette import silhouettes
+
+amounts = st.floats(-0.2, 0.2)
+EDGE = np.sqrt(0.5)
+
+
+def border(count: int) -> NDArray[np.float64]:
+    """Places along the picture's border."""
+    along = np.linspace(-EDGE, EDGE, count)
+    edge = np.full(count, EDGE)
+    sides = [np.stack(pair, axis=1) for pair in ((along, edge), (along, -edge), (edge, along), (-edge, along))]
+    return np.concatenate(sides)
+
+
+def test_none_moves_nothing() -> None:
+    """Neither places nor pictures, to the last bit."""
+    picture = np.random.default_rng(0).random((16, 16, 3), np.float32)
+    assert (Distortion(0.0).move(border(9)) == border(9)).all()
+    assert Distortion(0.0).distort(picture) is picture
+
+
+@given(amount=amounts)
+def test_the_picture_is_just_filled(amount: float) -> None:
+    """The border goes nowhere inside the picture, and somewhere it stays on it."""
+    moved = np.abs(Distortion(amount).move(border(101))).max(axis=1)
+    assert moved.min() == pytest.approx(EDGE)
+
+
+@given(amount=amounts)
+def test_a_corner_moves_against_the_middle_as_told(amount: float) -> None:
+    """By 1 + the amount, beside the scale of the picture's middle."""
+    lens = Distortion(amount)
+    middle, corner = (lens.move(radius * np.array([[EDGE, EDGE]]))[0] / radius for radius in (1e-6, 1.0))
+    assert corner / middle == pytest.approx(np.full(2, 1.0 + amount), rel=1e-6)
+
+
+@given(amount=amounts, radius=st.floats(0, 50), further=st.floats(1e-3, 10))
+def test_what_is_farther_out_stays_farther_out(amount: float, radius: float, further: float) -> None:
+    """Even far outside: nothing is folded back into the picture."""
+    near, far = Distortion(amount).move(np.array([[radius, 0.0], [radius + further, 0.0]]))[:, 0]
+    assert far > near
+
+
+@pytest.mark.parametrize("amount", [-0.2, -0.05, 0.05, 0.2])
+def test_pictures_are_distorted_as_places_are(amount: float) -> None:
+    """Blurred dots: the centroid of each is where its place moves, within 0.06 pixels."""
+    size, sigma = 256, 2.0
+    places = np.array([[128.0, 128.0], [60.3, 90.7], [200.2, 50.5], [30.9, 220.1], [222.0, 222.0]])
+    moved = size * EDGE * Distortion(amount).move((places - size / 2) / (size * EDGE)) + size / 2
+    rows, columns = np.indices((size, size)) + 0.5
+    for place, expected in zip(places, moved, strict=True):
+        dot = np.exp(-((columns - place[0]) ** 2 + (rows - place[1]) ** 2) / (2 * sigma**2))
+        seen = Distortion(amount).distort(np.repeat(dot[..., None], 3, axis=2).astype(np.float32))[..., 0]
+        found = np.array([np.average(columns, weights=seen), np.average(rows, weights=seen)])
+        # The map's curvature takes a dot's centroid off the place of its middle, too.
+        assert found == pytest.approx(expected, abs=0.06)
+
+
+@pytest.mark.parametrize("amount", [-0.2, 0.2])
+@pytest.mark.parametrize(("tilt", "roll"), [(0.0, 0.0), (25.0, 40.0)])
+def test_a_mask_agrees_with_its_distorted_picture(amount: float, tilt: float, roll: float) -> None:
+    """Coverage through an undistorted lens, distorted as a picture, against that of distorted silhouettes.
+
+    In each row a nearly upright cable's edges are apart by what it covers, and in their middle by its centroid.
+    """
+    view = View(height_m=0.12, resolution=256, tilt_deg=tilt, tilt_bearing_deg=70.0, roll_deg=roll, distortion=amount)
+    across = view.rotation[:, :2] @ [[1.0, 0.2], [0.0, 1.0]]
+    across[2] = 0.001
+    along = np.linspace(-0.06, 0.06, 601)
+    curve: Points = np.stack([0.012 * np.ones_like(along), along], axis=1) @ across[:2].T
+    curve = np.column_stack([curve, np.full(len(curve), 0.001)])
+    tube = [tubular(curve, 0.001)]
+    ideal = covered_by(tube, view.undistorted(), 0.0, 64)
+    # A renderer's pixels overlap. Of a step from a pixel to the next, nothing between them can be looked up.
+    ideal = cv2.GaussianBlur(ideal, (0, 0), 0.7).astype(np.float32)
+    picture = Distortion(amount).distort(np.repeat(ideal[..., None], 3, axis=2))[..., 0]
+    quads = silhouettes(tube, view, 64).quads_px
+    mask = covered_share(quads, 256, 256)
+    assert mask.sum() > 1000
+    columns = np.arange(256) + 0.5
+    inner = slice(8, -8)
+    width = picture.sum(axis=1)[inner], mask.sum(axis=1)[inner]
+    place = (picture @ columns)[inner] / width[0], (mask @ columns)[inner] / width[1]
+    assert np.abs(width[0] - width[1]).max() < 0.1
+    assert np.abs(place[0] - place[1]).max() < 0.1
+    labels = label_cables(tube, view, 64)
+    assert np.mean((labels.mask > 0) != (picture > 0.5)) < 0.002
+
+
+def test_red_is_larger_and_blue_smaller() -> None:
+    """A white dot to the right of the middle comes apart: red outside, blue inside, by the share of its distance."""
+    picture = np.zeros((201, 201, 3), np.float32)
+    cv2.circle(picture, (180, 100), 3, (1.0, 1.0, 1.0), -1)
+    seen = Distortion(0.0).distort(picture, (1.01, 1.0, 0.99))
+    found = [np.average(np.arange(201), weights=seen[..., k].sum(axis=0)) - 100 for k in range(3)]
+    assert found == pytest.approx([80.8, 80.0, 79.2], abs=0.05)

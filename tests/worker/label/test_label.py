@@ -1,0 +1,151 @@
+"""Masks and instances, against silhouettes that are known."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.spatial import Delaunay
+
+import worker.label.silhouette
+from tests.worker.scenes import tubular
+from worker.cable.piece import OCCLUDER, Convex, Plain, Substance
+from worker.cable.tube import sweep
+from worker.camera.view import View
+from worker.curves import Points
+from worker.label.label import label_cables
+
+RADIUS = 0.001
+SIDES = 20
+VIEW = View(height_m=0.15, resolution=256)
+
+
+def bar(angle_deg: float = 0.0, z: float = RADIUS, shift: float = 0.0, length: float = 0.4) -> Points:
+    """A straight cable through the middle of the view."""
+    s = np.linspace(-length / 2, length / 2, 401)
+    a = np.radians(angle_deg)
+    return np.stack([s * np.cos(a) - shift * np.sin(a), s * np.sin(a) + shift * np.cos(a), np.full_like(s, z)], axis=1)
+
+
+def label(*curves: Points) -> tuple[NDArray[np.uint8], NDArray[np.uint16]]:
+    """Mask and instances of cables of one radius."""
+    labels = label_cables([tubular(curve, RADIUS, number) for number, curve in enumerate(curves, 1)], VIEW, SIDES)
+    return labels.mask, labels.instances
+
+
+@pytest.mark.parametrize("angle", [10.0, 17.0, 35.0, 80.0])
+def test_the_area_of_a_straight_cable_is_its_width_times_its_length(angle: float) -> None:
+    """Width of a cylinder of radius r seen from distance d: f 2 r / sqrt(d^2 - r^2), within 2 % (0.15 px)."""
+    mask, _ = label(bar(angle))
+    distance = VIEW.height_m - RADIUS
+    width = VIEW.resolution * 50 / 36 * 2 * RADIUS / np.sqrt(distance**2 - RADIUS**2)
+    middle = 128 / max(abs(np.cos(np.radians(angle))), abs(np.sin(np.radians(angle))))
+    assert np.count_nonzero(mask) == pytest.approx(width * 2 * middle, rel=0.02)
+
+
+def test_a_mask_is_0_or_255() -> None:
+    """As published."""
+    mask, _ = label(bar(), bar(60.0, z=3 * RADIUS))
+    assert mask.dtype == np.uint8
+    assert set(np.unique(mask)) == {0, 255}
+
+
+def test_instances_fill_the_mask() -> None:
+    """A pixel has an instance exactly where the mask is set."""
+    mask, instances = label(bar(), bar(60.0, z=3 * RADIUS), bar(30.0, z=5 * RADIUS))
+    assert ((instances > 0) == (mask == 255)).all()
+    assert set(np.unique(instances)) == {0, 1, 2, 3}
+
+
+@pytest.mark.parametrize("upper", [1, 2])
+def test_the_upper_cable_hides_the_lower(upper: int) -> None:
+    """At the crossing in the middle of the picture."""
+    heights = (3 * RADIUS, RADIUS) if upper == 1 else (RADIUS, 3 * RADIUS)
+    _, instances = label(bar(z=heights[0]), bar(90.0, z=heights[1]))
+    assert (instances[126:130, 126:130] == upper).all()
+
+
+def test_a_point_above_the_middle_of_the_floor_is_in_the_middle_of_the_picture() -> None:
+    """And y points up."""
+    pixels = VIEW.project(np.array([[0.0, 0.0, 0.0], [0.0, 0.01, 0.0], [0.01, 0.0, 0.0]]))
+    assert pixels[0] == pytest.approx([128.0, 128.0])
+    assert pixels[1][1] < 128.0
+    assert pixels[2][0] > 128.0
+
+
+def test_an_end_in_the_picture_is_cut_flat() -> None:
+    """A cable of 20 mm shows both its ends: the mask is 20 mm long, within a pixel."""
+    mask, _ = label(bar(length=0.02))
+    columns = np.flatnonzero(mask.any(axis=0))
+    expected = VIEW.resolution * 50 / 36 * 0.02 / (VIEW.height_m - RADIUS)
+    assert columns.max() - columns.min() + 1 == pytest.approx(expected, abs=1.0)
+
+
+def test_what_hides_a_cable_is_background() -> None:
+    """An occluder that crosses above cuts the mask in two; one that lies below changes nothing."""
+    lower, occluder = tubular(bar(z=RADIUS), RADIUS, 1), tubular(bar(90.0, z=3 * RADIUS), RADIUS, OCCLUDER)
+    hidden = label_cables([lower, occluder], VIEW, SIDES)
+    assert not hidden.mask[:, 126:130].any()
+    assert set(np.unique(hidden.instances)) == {0, 1}
+    upper, below = tubular(bar(z=3 * RADIUS), RADIUS, 1), tubular(bar(90.0, z=RADIUS), RADIUS, OCCLUDER)
+    assert (label_cables([upper, below], VIEW, SIDES).mask == label_cables([upper], VIEW, SIDES).mask).all()
+
+
+@pytest.mark.parametrize("tilt", [0.0, 15.0, 30.0])
+def test_what_leans_on_the_camera_s_side_of_a_thick_thing_is_before_it(tilt: float) -> None:
+    """Half-way up a stick, where its own axis is: seen from the side, none of the stick is before it."""
+    view = View(0.24, 256, focal_length_mm=24.0, tilt_deg=tilt, tilt_bearing_deg=180.0)
+    along = np.linspace(-0.05, 0.05, 51)
+    stick, cable = (
+        np.stack([np.full_like(along, x), along, np.full_like(along, 0.006)], axis=1) for x in (0.12, 0.113)
+    )
+    alone = label_cables([tubular(cable, 0.001)], view, SIDES)
+    hidden = label_cables([tubular(stick, 0.006, OCCLUDER), tubular(cable, 0.001)], view, SIDES)
+    assert alone.mask.any()
+    assert (alone.mask == hidden.mask).all()
+
+
+def test_a_solid_covers_the_hull_of_its_corners() -> None:
+    """A box of 20 by 10 mm just above the floor, as an occluder on a wide cable, leaves a hole of its size."""
+    x, y = np.array([-0.01, 0.01, 0.01, -0.01]), np.array([-0.005, -0.005, 0.005, 0.005])
+    rings = np.stack([np.stack([x, y, np.full(4, z)], axis=1) for z in (0.0101, 0.0102)])
+    box = Convex(OCCLUDER, rings, np.array([0.0, 0.0, 0.0102]), Plain(Substance.PLASTIC, (0, 0, 0)))
+    wide = tubular(bar(z=0.005), 0.01)
+    open_px = np.count_nonzero(label_cables([wide], VIEW, SIDES).mask)
+    left_px = np.count_nonzero(label_cables([wide, box], VIEW, SIDES).mask)
+    expected = 0.02 * 0.01 * (VIEW.resolution * 50 / 36 / (VIEW.height_m - 0.0102)) ** 2
+    assert open_px - left_px == pytest.approx(expected, rel=0.03)
+
+
+def test_cables_outside_the_view_leave_nothing() -> None:
+    """A cable that lies to the side of the picture."""
+    mask, instances = label(bar(shift=0.5))
+    assert not mask.any()
+    assert not instances.any()
+
+
+@pytest.mark.parametrize(("angle", "shift", "rise"), [(10.0, 0.0, 0.0), (50.0, 0.02, 0.0), (80.0, -0.03, 0.2)])
+def test_the_mask_is_the_silhouette_of_the_rendered_tube(angle: float, shift: float, rise: float) -> None:
+    """A straight tube with both its ends in the picture is convex, so its silhouette is the hull of its corners."""
+    curve = bar(angle, z=0.01, shift=shift, length=0.03)[::20]
+    curve[:, 2] += rise * np.linspace(-0.015, 0.015, len(curve))
+    mask, _ = label(curve)
+    corners = VIEW.project(sweep(curve, RADIUS, SIDES).vertices_m.astype(np.float64))
+    middles = np.stack(np.meshgrid(np.arange(256), np.arange(256)), axis=-1) + 0.5
+    inside = Delaunay(corners).find_simplex(middles) >= 0
+    assert np.count_nonzero(inside != (mask > 0)) <= 4  # at the corners of the ends, less than half is covered
+
+
+def test_bands_leave_no_trace(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Labelled a few rows at a time, a picture is the same."""
+    cables = bar(10.0), bar(75.0, z=3 * RADIUS), bar(0.0, z=5 * RADIUS, shift=0.01)
+    whole = label(*cables)
+    monkeypatch.setattr(worker.label.silhouette, "_BAND_PIXELS", 7 * 256)
+    banded = label(*cables)
+    assert (whole[0] == banded[0]).all()
+    assert (whole[1] == banded[1]).all()
+
+
+def test_a_cable_that_reaches_the_camera_spoils_nothing() -> None:
+    """A steep one that ends above the camera hides no more than it covers."""
+    steep = np.linspace([-0.05, 0.05, RADIUS], [0.0, 0.05, 0.2], 201)
+    _, instances = label(bar(), steep)
+    assert (instances[126:130] == 1).all()

@@ -1,0 +1,63 @@
+"""Sticks hide cables in the labels."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from farm.category import Category
+from farm.clutter import StickKind
+from tests.worker.clutter.things import make_stick
+from tests.worker.scenes import make_scene, tubular
+from worker.camera.view import View
+from worker.curves import Points
+from worker.label.label import label_cables
+from worker.label.occluders import hiding_pieces
+from worker.simulate.shapes import CableShapes
+
+
+def straight(first: tuple[float, float, float], last: tuple[float, float, float], nodes: int = 60) -> Points:
+    """A straight line of points."""
+    return np.linspace(first, last, nodes)
+
+
+def settled(stick_height_m: float) -> CableShapes:
+    """A cable along x on the floor, and a pipe across it at some height."""
+    cable = straight((-0.1, 0.0, 0.001), (0.1, 0.0, 0.001))
+    stick = straight((0.0, -0.05, stick_height_m), (0.0, 0.05, stick_height_m))
+    return CableShapes(
+        nodes_m=(cable,),
+        radii_m=np.array([0.001]),
+        lengths_m=np.array([0.2]),
+        speeds_m_s=(np.zeros(60),),
+        start_order=(0, 1),
+        fall_s=0.0,
+        steps=0,
+        sticks_m=(stick,),
+        stick_radii_m=np.array([0.004]),
+    )
+
+
+def labelled(shapes: CableShapes, category: Category = Category.CLOSE_CONCENTRATED) -> NDArray[np.bool_]:
+    """Where a picture of the cable and the pipe shows the cable."""
+    scene = make_scene(category).model_copy(update={"sticks": (make_stick(StickKind.PIPE, length_m=0.1),)})
+    pieces = [tubular(shapes.nodes_m[0], 0.001), *hiding_pieces(scene, shapes)]
+    return label_cables(pieces, View(height_m=0.2, resolution=256), 20).mask > 0
+
+
+def test_a_stick_above_a_cable_cuts_its_label() -> None:
+    """Over the stick's width, and nowhere else."""
+    seen = labelled(settled(stick_height_m=0.006))
+    row = seen[127]
+    hidden = np.flatnonzero(~row)
+    width_px = 256 / (0.2 * 36 / 50) * 0.008 * 0.2 / (0.2 - 0.006)
+    assert abs(len(hidden) - width_px) <= 2
+    assert abs(hidden.mean() - 127.5) <= 1
+
+
+def test_a_stick_below_a_cable_leaves_its_label_whole() -> None:
+    """The cable lies on it."""
+    assert labelled(settled(stick_height_m=-0.006))[127].all()
+
+
+def test_no_stick_hides_anything_where_the_floor_is_not_seen() -> None:
+    """It is not rendered there either."""
+    assert labelled(settled(stick_height_m=0.006), Category.FAR)[127].all()

@@ -1,0 +1,86 @@
+"""Holding a worker back."""
+
+import shutil
+from collections import namedtuple
+from pathlib import Path
+
+import pytest
+
+from worker.service.backoff import Hold, free_bytes
+
+MIB = 2**20
+Usage = namedtuple("Usage", "total used free")
+
+
+class Clock:
+    """Goes on when told to."""
+
+    now_s = 1000.0
+
+    def __call__(self) -> float:
+        """The time, in seconds."""
+        return self.now_s
+
+
+@pytest.fixture
+def clock() -> Clock:
+    """The worker's clock."""
+    return Clock()
+
+
+@pytest.fixture
+def hold(tmp_path: Path, clock: Clock) -> Hold:
+    """Of a store whose disk has room enough."""
+    return Hold(str(tmp_path), 0, clock)
+
+
+def pause_after_failure(hold: Hold, clock: Clock) -> float:
+    """How long a failure holds the worker, to the second."""
+    hold.fail("disk full")
+    start_s = clock.now_s
+    while hold.reason():
+        assert hold.reason() == "disk full"
+        clock.now_s += 1.0
+    return clock.now_s - start_s
+
+
+def test_nothing_holds_at_first(hold: Hold) -> None:
+    """A worker whose store has not failed takes jobs."""
+    assert hold.reason() == ""
+
+
+def test_pauses_grow(hold: Hold, clock: Clock) -> None:
+    """Each failure in a row holds twice as long as the last, up to a minute; a success starts anew."""
+    assert [pause_after_failure(hold, clock) for _ in range(7)] == [2, 4, 8, 16, 32, 60, 60]
+    hold.succeed()
+    assert pause_after_failure(hold, clock) == 2
+
+
+def test_success_does_not_end_a_pause(hold: Hold) -> None:
+    """A job that ended well beside a failure does not open the store again at once."""
+    hold.fail("disk full")
+    hold.succeed()
+    assert hold.reason() == "disk full"
+
+
+def test_low_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With less room than asked for the worker is held, and told how much there is; room that was made frees it."""
+    free = [9 * MIB]
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: Usage(100 * MIB, 0, free[0]))
+    hold = Hold(str(tmp_path), 10 * MIB)
+    assert hold.reason() == f"{tmp_path}: 9 MiB free, kept free are 10; make room"
+    free[0] = 10 * MIB
+    assert hold.reason() == ""
+
+
+@pytest.mark.parametrize("store", ["s3://bucket/folder", "memory://folder", "/nowhere/at/all"])
+def test_room_that_is_not_known(store: str) -> None:
+    """Of a bucket, and of a folder that is not there yet, the room is not known, and holds nobody."""
+    assert free_bytes(store) is None
+    assert Hold(store, 2**62).reason() == ""
+
+
+def test_room_by_url(tmp_path: Path) -> None:
+    """A local folder's room is known by its URL, too."""
+    assert free_bytes(f"file://{tmp_path}") is not None
+    assert "make room" in Hold(f"file://{tmp_path}", 2**62).reason()

@@ -1,0 +1,52 @@
+"""How many cores libraries see."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from worker.service.cores import only_so_many_seen
+
+pytestmark = pytest.mark.skipif(
+    not hasattr(os, "sched_getaffinity"), reason="this system can't limit a process's cores"
+)
+
+
+@pytest.mark.parametrize("threads", [0, 1, 10_000])
+def test_cores_are_hidden_for_a_while(threads: int) -> None:
+    """Inside, as many are seen as asked for and there; afterwards all are back."""
+    before = os.sched_getaffinity(0)
+    with only_so_many_seen(threads):
+        assert len(os.sched_getaffinity(0)) == min(threads or len(before), len(before))
+    assert os.sched_getaffinity(0) == before
+
+
+def test_cores_are_back_after_an_error() -> None:
+    """A library that does not load leaves the process with all of its cores."""
+    before = os.sched_getaffinity(0)
+    with pytest.raises(ImportError), only_so_many_seen(1):
+        raise ImportError
+    assert os.sched_getaffinity(0) == before
+
+
+@pytest.mark.blender
+def test_blender_starts_no_thread_for_a_hidden_core() -> None:
+    """Loaded among fewer cores, Blender has fewer threads, and so none that keeps a core busy waiting."""
+    if len(os.sched_getaffinity(0)) == 1:
+        pytest.skip("one core can't be hidden")
+    program = (
+        "import os, sys\n"
+        "from worker.service.cores import only_so_many_seen\n"
+        "with only_so_many_seen(int(sys.argv[1])):\n"
+        "    import bpy\n"
+        "sys.stdout.write(f'threads {len(os.listdir(\"/proc/self/task\"))}\\n')\n"
+        "sys.stdout.flush()\n"
+        "os._exit(0)\n"
+    )
+    threads = []
+    for seen in ("1", "0"):
+        command = [sys.executable, "-c", program, seen]
+        printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        threads.append(int(printed.splitlines()[-1].removeprefix("threads ")))
+    assert threads[0] < threads[1]

@@ -1,0 +1,156 @@
+"""Keeping a claim alive, and knowing when it may be another's."""
+
+import time
+from unittest.mock import patch
+
+import pytest
+
+from farm.errors import BrokerError
+from farm.ledger.memory import MemoryLedger
+from worker.service.lease import ClaimLostError, HeldClaim
+
+JOB_ID = "far-000001"
+
+
+class ShortLedger(MemoryLedger):
+    """Its claims last a fifth of a second, and it counts their refreshments."""
+
+    refreshed = 0
+
+    def refresh(self, job_id: str, owner: str, ttl_s: float = 0.2) -> bool:
+        """See `Ledger.refresh`."""
+        self.refreshed += 1
+        return super().refresh(job_id, owner, min(ttl_s, 0.2))
+
+
+class Clock:
+    """Goes on when told to."""
+
+    now_s = 1000.0
+
+    def __call__(self) -> float:
+        """The time, in seconds."""
+        return self.now_s
+
+
+@pytest.fixture
+def clock() -> Clock:
+    """The worker's own clock."""
+    return Clock()
+
+
+@pytest.fixture
+def ledger(clock: Clock) -> MemoryLedger:
+    """A ledger by the same clock, in which the job is claimed for a minute."""
+    ledger = MemoryLedger(clock)
+    ledger.claim(JOB_ID, "a:1", ttl_s=60.0)
+    return ledger
+
+
+@pytest.fixture
+def claim(ledger: MemoryLedger, clock: Clock) -> HeldClaim:
+    """The claim, whose thread is not started."""
+    return HeldClaim(ledger, JOB_ID, "a:1", ttl_s=60.0, clock=clock)
+
+
+def wait_for_beats(ledger: ShortLedger, count: int) -> None:
+    """Wait until the claim was refreshed so often."""
+    give_up_s = time.monotonic() + 30
+    while ledger.refreshed < count:
+        assert time.monotonic() < give_up_s
+        time.sleep(0.01)
+
+
+def test_claim_outlives_its_term() -> None:
+    """While the heart beats, a claim lives on; when it stops, the claim lapses."""
+    ledger = ShortLedger()
+    ledger.claim(JOB_ID, "a:1", ttl_s=60.0)
+    with HeldClaim(ledger, JOB_ID, "a:1", every_s=0.01):
+        wait_for_beats(ledger, 30)
+        assert JOB_ID in ledger.claims()
+    beats = ledger.refreshed
+    time.sleep(0.3)
+    assert ledger.refreshed == beats
+    assert JOB_ID not in ledger.claims()
+
+
+def test_beats_on_without_redis(caplog: pytest.LogCaptureFixture) -> None:
+    """A Redis that is away for a while does not end the job."""
+    ledger = ShortLedger()
+    calls = []
+
+    def away(*_: object) -> bool:
+        calls.append(1)
+        raise BrokerError("gone")
+
+    with patch.object(ledger, "refresh", side_effect=away), HeldClaim(ledger, JOB_ID, "a:1", every_s=0.01) as claim:
+        give_up_s = time.monotonic() + 30
+        while len(calls) < 3:
+            assert time.monotonic() < give_up_s
+            time.sleep(0.01)
+        claim.check()
+    assert "not refreshed: gone" in caplog.text
+
+
+def test_lost_claim_is_found_out_by_the_thread() -> None:
+    """A claim that another has by now is known to be lost at the next beat."""
+    ledger = MemoryLedger()
+    ledger.claim(JOB_ID, "b:1")
+    with HeldClaim(ledger, JOB_ID, "a:1", every_s=0.01) as claim:
+        claim._thread.join(30)  # it ends when it has found out
+        with pytest.raises(ClaimLostError):
+            claim.check()
+    assert ledger.claims() == {JOB_ID: "b:1"}
+
+
+def test_lease_is_shorter_than_the_claim(claim: HeldClaim, ledger: MemoryLedger, clock: Clock) -> None:
+    """The holder trusts its claim for nine tenths of its term: then the ledger still has it, and nobody writes."""
+    clock.now_s += 53.9
+    claim.check()
+    clock.now_s += 0.2
+    with pytest.raises(ClaimLostError, match="lapsed"):
+        claim.check()
+    assert ledger.claims() == {JOB_ID: "a:1"}
+
+
+def test_renewed_lease(claim: HeldClaim, clock: Clock) -> None:
+    """A renewed claim is trusted for another term."""
+    clock.now_s += 50.0
+    claim.renew()
+    clock.now_s += 50.0
+    claim.check()
+
+
+def test_lapsed_claim_that_nobody_took(claim: HeldClaim, clock: Clock) -> None:
+    """Who comes back after the term must ask, and goes on if nobody was faster."""
+    clock.now_s += 61.0
+    with pytest.raises(ClaimLostError):
+        claim.check()
+    claim.renew()
+    claim.check()
+
+
+def test_claim_of_another_is_not_taken_back(claim: HeldClaim, ledger: MemoryLedger, clock: Clock) -> None:
+    """Who finds its job claimed by another leaves it there, for good."""
+    clock.now_s += 61.0
+    ledger.claim(JOB_ID, "b:1", ttl_s=60.0)
+    with pytest.raises(ClaimLostError):
+        claim.renew()
+    ledger.release(JOB_ID, "b:1")
+    with pytest.raises(ClaimLostError):
+        claim.check()
+
+
+def test_late_answer_is_counted_from_the_question(ledger: MemoryLedger, clock: Clock) -> None:
+    """A process that was stopped while it waited for the ledger counts from when it had asked."""
+
+    class Slow(MemoryLedger):
+        def refresh(self, job_id: str, owner: str, ttl_s: float = 60.0) -> bool:
+            found = ledger.refresh(job_id, owner, ttl_s)
+            clock.now_s += 55.0
+            return found
+
+    claim = HeldClaim(Slow(), JOB_ID, "a:1", ttl_s=60.0, clock=clock)
+    claim.renew()
+    with pytest.raises(ClaimLostError):
+        claim.check()

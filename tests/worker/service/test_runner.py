@@ -1,0 +1,521 @@
+"""One job from its message to its manifest, with queue and ledger in memory."""
+
+import hashlib
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from unittest.mock import Mock
+
+import pytest
+from celery.exceptions import SoftTimeLimitExceeded
+
+from farm.completion import is_done
+from farm.dataset import Dataset
+from farm.errors import (
+    AssetError,
+    DestinationError,
+    EnvironmentMissingError,
+    FarmError,
+    MessageError,
+    PermanentError,
+    RenderError,
+    SceneError,
+    TemplateError,
+    UnfitWorkerError,
+)
+from farm.header import DatasetHeader
+from farm.job import Job
+from farm.layout import FileRole, file_path, manifest_path, quarantine_path
+from farm.ledger.memory import MemoryLedger
+from farm.ledger.owner import this_process
+from farm.ledger.port import MAX_ABSENCES, RETRY_OWNER
+from farm.manifest import Manifest
+from farm.quarantine import Quarantine, QuarantineRecord, put_in_quarantine
+from tests.stand_in import StandInMaker
+from worker.service.picture import ImageMaker, MadeImage
+from worker.service.runner import BACKOFF_S, FAILED_IN_A_ROW, MAX_STARTS, MAX_TRIES, JobRunner, TryLaterError
+
+JOB = Job.from_id("far-000001")
+
+
+@pytest.fixture
+def ledger() -> MemoryLedger:
+    """An empty ledger."""
+    return MemoryLedger()
+
+
+@pytest.fixture
+def runner(tmp_path: Path, ledger: MemoryLedger) -> JobRunner:
+    """Works on the store of the `dataset` fixture."""
+    return JobRunner(str(tmp_path / "store"), lambda _: StandInMaker(), lambda *_: ledger)
+
+
+def given_up(dataset: Dataset) -> Mapping[str, str]:
+    """The jobs in quarantine, with their reasons."""
+    return Quarantine(dataset).look()
+
+
+def test_makes_the_job(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """The job's files and manifest are there, it counts as done, and nothing holds it."""
+    runner.run(dataset.message(JOB).encode())
+    assert is_done(dataset, JOB)
+    assert ledger.claims() == {}
+    assert ledger.activity().last_picture == file_path(JOB, FileRole.IMAGE)
+
+
+def test_manifest_vouches_for_the_files(dataset: Dataset, runner: JobRunner) -> None:
+    """The manifest's sizes and checksums are those of the files, and its job that of the message."""
+    runner.run(dataset.message(JOB).encode())
+    manifest = Manifest.model_validate_json(dataset.storage.read(manifest_path(JOB)))
+    assert manifest.job_id == JOB.id
+    assert manifest.timings_s.keys() == {"render", "write"}
+    for role in FileRole:
+        content = dataset.storage.read(file_path(JOB, role))
+        assert manifest.files[role].bytes == len(content)
+        assert manifest.files[role].sha256 == hashlib.sha256(content).hexdigest()
+
+
+def test_second_time_does_nothing(dataset: Dataset, runner: JobRunner) -> None:
+    """A message that comes twice makes one picture."""
+    runner.run(dataset.message(JOB).encode())
+    before = dataset.storage.files()
+    assert "already" in runner.run(dataset.message(JOB).encode()).said
+    assert dataset.storage.files() == before
+
+
+def test_same_job_same_bytes(dataset: Dataset, runner: JobRunner) -> None:
+    """A picture that is made again is the same."""
+    runner.run(dataset.message(JOB).encode())
+    first = dataset.storage.read(file_path(JOB, FileRole.IMAGE))
+    dataset.storage.remove(manifest_path(JOB))
+    runner.run(dataset.message(JOB).encode())
+    assert dataset.storage.read(file_path(JOB, FileRole.IMAGE)) == first
+
+
+def test_claimed_elsewhere(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """A job that another process works on is put off without a try being spent."""
+    ledger.claim(JOB.id, "elsewhere:1")
+    with pytest.raises(TryLaterError, match="claimed"):
+        runner.run(dataset.message(JOB).encode())
+    assert ledger.claims() == {JOB.id: "elsewhere:1"}
+    assert not is_done(dataset, JOB)
+
+
+def test_claim_of_a_dead_process_is_taken_over(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """A redelivered job does not wait for the claim of the process that died with it."""
+    ledger.claim(JOB.id, f"{this_process().partition(':')[0]}:{2**22 + 1}")
+    runner.run(dataset.message(JOB).encode())
+    assert is_done(dataset, JOB)
+
+
+def test_permanent_failure(
+    dataset: Dataset, runner: JobRunner, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What can't succeed is given up with its reason at the first try."""
+    monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=permanent")
+    with pytest.raises(SceneError):
+        runner.run(dataset.message(JOB).encode())
+    assert given_up(dataset) == {JOB.id: "no scene passed the checks"}
+    assert ledger.claims() == {}
+    assert not is_done(dataset, JOB)
+
+
+@pytest.mark.parametrize(("kind", "reason"), [("passing", "lost the device"), ("defect", "unexpected ZeroDivision")])
+def test_passing_failure(
+    dataset: Dataset,
+    runner: JobRunner,
+    ledger: MemoryLedger,
+    monkeypatch: pytest.MonkeyPatch,
+    kind: str,
+    reason: str,
+) -> None:
+    """What may pass is put off, held meanwhile, and given up after the last try."""
+    monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}={kind}")
+    for _ in range(MAX_TRIES - 1):
+        with pytest.raises(TryLaterError, match=reason):
+            runner.run(dataset.message(JOB).encode())
+        assert ledger.claims() == {JOB.id: RETRY_OWNER}
+    with pytest.raises(PermanentError, match=reason):
+        runner.run(dataset.message(JOB).encode())
+    assert reason in given_up(dataset)[JOB.id]
+    assert ledger.figures() == {"retries": MAX_TRIES, "quarantined": 1}
+    assert ledger.claims() == {}
+
+
+def test_failure_that_passed(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A second try that succeeds leaves no trace of the first."""
+    monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=passing")
+    with pytest.raises(TryLaterError):
+        runner.run(dataset.message(JOB).encode())
+    monkeypatch.delenv("STAND_IN_FAILS")
+    runner.run(dataset.message(JOB).encode())
+    assert is_done(dataset, JOB)
+    assert given_up(dataset) == {}
+
+
+def test_job_that_kills_its_process(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """A job whose attempts all ended without a word is not begun for ever."""
+    for number in range(MAX_STARTS):
+        ledger.claim(JOB.id, f"elsewhere:{number}", ttl_s=0.0)
+    with pytest.raises(PermanentError, match="died"):
+        runner.run(dataset.message(JOB).encode())
+    assert f"in each of {MAX_STARTS} attempts" in given_up(dataset)[JOB.id]
+
+
+def test_lost_processes_are_no_failed_tries(
+    dataset: Dataset, runner: JobRunner, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Starts that ended with their process do not shorten the tries of a failure that may pass."""
+    monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=passing")
+    for number in range(2):
+        ledger.claim(JOB.id, f"elsewhere:{number}", ttl_s=0.0)
+    for _ in range(MAX_TRIES - 1):
+        with pytest.raises(TryLaterError):
+            runner.run(dataset.message(JOB).encode())
+    with pytest.raises(PermanentError, match=f"tried {MAX_TRIES} times"):
+        runner.run(dataset.message(JOB).encode())
+
+
+@pytest.mark.parametrize(
+    "fault", [AssetError("torn"), EnvironmentMissingError("no GPU"), TemplateError("bent"), RenderError("dark")]
+)
+def test_maker_that_cannot_be_opened(
+    dataset: Dataset, tmp_path: Path, ledger: MemoryLedger, runner: JobRunner, fault: FarmError
+) -> None:
+    """A fault of the machine is not the job's: nothing is recorded or spent, and another worker makes it."""
+
+    def open_maker(_header: object) -> ImageMaker:
+        raise fault
+
+    unfit = JobRunner(str(tmp_path / "store"), open_maker, lambda *_: ledger)
+    for _ in range(MAX_STARTS + 1):
+        with pytest.raises(UnfitWorkerError, match=str(fault)) as refused:
+            unfit.run(dataset.message(JOB).encode())
+        assert type(refused.value.as_fault()) is type(fault)
+    assert given_up(dataset) == ledger.claims() == {}
+    runner.run(dataset.message(JOB).encode())
+    assert is_done(dataset, JOB)
+
+
+def test_blender_that_does_not_load(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
+    """A library that is missing when the maker is opened is a fault of the machine, too."""
+
+    def open_maker(_header: object) -> ImageMaker:
+        raise ImportError("libXi.so.6")
+
+    with pytest.raises(UnfitWorkerError, match=r"libXi\.so\.6") as refused:
+        JobRunner(str(tmp_path / "store"), open_maker, lambda *_: ledger).run(dataset.message(JOB).encode())
+    assert isinstance(refused.value.as_fault(), EnvironmentMissingError)
+
+
+def test_asset_that_this_machine_lacks(
+    dataset: Dataset, runner: JobRunner, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A texture that is found missing as late as in a picture is no failure of its job."""
+    monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=asset")
+    with pytest.raises(UnfitWorkerError, match="not baked"):
+        runner.run(dataset.message(JOB).encode())
+    assert given_up(dataset) == ledger.claims() == {}
+
+
+def test_dataset_that_is_not_here(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
+    """A store that lacks the dataset is the worker's fault; that all stores lack it is found out in the end."""
+    runner = JobRunner(str(tmp_path / "elsewhere"), lambda _: StandInMaker(), lambda *_: ledger)
+    for _ in range(MAX_ABSENCES):
+        with pytest.raises(UnfitWorkerError, match=r"no dataset here.*--store"):
+            runner.run(dataset.message(JOB).encode())
+    assert given_up(dataset) == {}
+    assert "other workers lacked it" in runner.run(dataset.message(JOB).encode()).said
+    assert ledger.absences() == MAX_ABSENCES + 1
+    assert not (tmp_path / "elsewhere").exists()
+
+
+def test_restarted_worker_with_a_wrong_store(
+    dataset: Dataset, tmp_path: Path, runner: JobRunner, ledger: MemoryLedger
+) -> None:
+    """While another worker makes pictures, one that is started over and over fails none."""
+    wrong = JobRunner(str(tmp_path / "elsewhere"), lambda _: StandInMaker(), lambda *_: ledger)
+    jobs = list(dataset.header.spec.jobs())
+    for number in range(2 * MAX_ABSENCES):
+        with pytest.raises(UnfitWorkerError):
+            wrong.run(dataset.message(jobs[-1]).encode())
+        if number % 4 == 0:
+            runner.run(dataset.message(jobs[number // 4]).encode())
+    assert given_up(dataset) == {}
+
+
+def test_message_for_another_description(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """What is left of a dataset that was replaced is dropped: nothing is written or recorded."""
+    before = dataset.storage.files()
+    assert runner.run(dataset.message(JOB).encode() | {"spec_sha256": "f" * 64}).said.startswith("dropped")
+    assert dataset.storage.files() == before
+    assert given_up(dataset) == ledger.claims() == {}
+
+
+@pytest.mark.parametrize(
+    "payload",
+    [
+        None,
+        "far-000001",
+        [],
+        {},
+        {"version": 1},
+        {"version": 2, "dataset": "cables", "spec_sha256": "0" * 64, "job_id": "far-000001"},
+        {"version": 1, "dataset": "../cables", "spec_sha256": "0" * 64, "job_id": "far-000001"},
+        {"version": 1, "dataset": "cables", "spec_sha256": "0" * 64, "job_id": "../../far-000001"},
+        {"version": 1, "dataset": "cables", "spec_sha256": "0" * 64, "job_id": "far-000001", "path": "/etc"},
+        {"version": 1, "dataset": "cables", "spec_sha256": "0" * 64, "job_id": 7},
+        {"version": True, "dataset": "cables", "spec_sha256": "0" * 64, "job_id": "far-000001"},
+    ],
+)
+def test_bad_message(dataset: Dataset, runner: JobRunner, payload: object) -> None:
+    """A malformed message is refused in one line before anything is touched."""
+    before = dataset.storage.files()
+    with pytest.raises(MessageError) as refused:
+        runner.run(payload)
+    assert "\n" not in str(refused.value)
+    assert dataset.storage.files() == before
+
+
+def test_maker_is_kept(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
+    """One maker serves all jobs of a dataset."""
+    opened: list[ImageMaker] = []
+
+    def open_maker(_header: object) -> ImageMaker:
+        opened.append(StandInMaker())
+        return opened[-1]
+
+    runner = JobRunner(str(tmp_path / "store"), open_maker, lambda *_: ledger)
+    for job in dataset.header.spec.jobs():
+        runner.run(dataset.message(job).encode())
+    assert len(opened) == 1
+
+
+def test_given_up_job_is_dropped(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """A message of a job that is in quarantine is taken and nothing else."""
+    put_in_quarantine(dataset, JOB, "died", attempts=3, worker="host:1", log="")
+    before = dataset.storage.files()
+    assert "in quarantine" in runner.run(dataset.message(JOB).encode()).said
+    assert dataset.storage.files() == before
+    assert ledger.claims() == {}
+
+
+class PrintingMaker(StandInMaker):
+    """Writes as C code does, before it fails or not."""
+
+    def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+        """See `ImageMaker.make`."""
+        os.write(2, f"GPU fell off the bus in {job.id}".encode())
+        return super().make(job, header)
+
+
+def test_record_has_the_log_and_how_to_replay(
+    dataset: Dataset, tmp_path: Path, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A record tells what was printed in the last attempt, who made it, and the command that makes it again."""
+    monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=permanent")
+    logs = tmp_path / "logs"
+    runner = JobRunner(str(tmp_path / "store"), lambda _: PrintingMaker(), lambda *_: ledger, logs)
+    with pytest.raises(SceneError):
+        runner.run(dataset.message(JOB).encode())
+    record = QuarantineRecord.model_validate_json(dataset.storage.read(quarantine_path(JOB)))
+    assert record.log == f"GPU fell off the bus in {JOB.id}"
+    assert record.worker == this_process()
+    assert record.replay == f"farm replay {dataset.storage.location} {JOB.id}"
+
+
+def test_record_has_the_log_of_a_process_that_died(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """What the main process kept of a child that died goes into the record."""
+    for number in range(MAX_STARTS):
+        ledger.claim(JOB.id, f"elsewhere:{number}", ttl_s=0.0)
+    ledger.keep_log(JOB.id, "Segmentation fault")
+    with pytest.raises(PermanentError):
+        runner.run(dataset.message(JOB).encode())
+    record = QuarantineRecord.model_validate_json(dataset.storage.read(quarantine_path(JOB)))
+    assert record.log == "Segmentation fault"
+
+
+@pytest.mark.parametrize("kind", ["permanent", "passing", "defect"])
+def test_different_jobs_that_fail_in_a_row(
+    dataset: Dataset, runner: JobRunner, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch, kind: str
+) -> None:
+    """When one job after the other fails, the worker is what is wrong: the last goes back as if it had not begun."""
+    jobs = list(dataset.header.spec.jobs())[:FAILED_IN_A_ROW]
+    monkeypatch.setenv("STAND_IN_FAILS", " ".join(f"{job.id}={kind}" for job in jobs))
+    for job in jobs[:-1]:
+        with pytest.raises((PermanentError, TryLaterError)):
+            runner.run(dataset.message(job).encode())
+    with pytest.raises(UnfitWorkerError, match="3 jobs failed here in a row") as unfit:
+        runner.run(dataset.message(jobs[-1]).encode())
+    assert all(f"{job.id}: " in str(unfit.value) for job in jobs)
+    assert jobs[-1].id not in given_up(dataset)
+    assert jobs[-1].id not in ledger.claims()
+    assert ledger.claim(jobs[-1].id, "elsewhere:1") == ledger.count_trouble(jobs[-1].id) == 1
+
+
+def test_success_in_between(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A job that succeeds shows that the worker is fit, however many fail around it."""
+    jobs = list(dataset.header.spec.jobs())
+    monkeypatch.setenv("STAND_IN_FAILS", " ".join(f"{job.id}=permanent" for job in (jobs[0], jobs[1], jobs[3])))
+    for job in jobs:
+        if job == jobs[2]:
+            runner.run(dataset.message(job).encode())
+        else:
+            with pytest.raises(SceneError):
+                runner.run(dataset.message(job).encode())
+    assert len(given_up(dataset)) == 3
+
+
+class CountingMaker(StandInMaker):
+    """Counts what it is asked for."""
+
+    asked = 0
+
+    def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+        """See `ImageMaker.make`."""
+        self.asked += 1
+        return super().make(job, header)
+
+
+def test_store_that_cannot_be_written(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
+    """A job whose files can't be written goes back uncounted; the next ones are not rendered until a write succeeds."""
+    maker = CountingMaker()
+    runner = JobRunner(str(tmp_path / "store"), lambda _: maker, lambda *_: ledger)
+    images = tmp_path / "store/cables/far/images"
+    images.parent.mkdir()
+    images.write_text("in the way")
+    for _ in range(2 * MAX_STARTS):
+        with pytest.raises(DestinationError, match="images"):
+            runner.run(dataset.message(JOB).encode())
+    assert maker.asked == 1
+    assert given_up(dataset) == ledger.claims() == {}
+    assert ledger.figures() == {}
+    images.unlink()
+    runner.run(dataset.message(JOB).encode())
+    assert maker.asked == 2
+    assert is_done(dataset, JOB)
+    assert not [path for path in dataset.storage.files() if "probe" in path]
+    assert ledger.claim(JOB.id, "elsewhere:1") == 1
+
+
+def test_claim_that_was_lost_meanwhile(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
+    """A worker that finds its job claimed by another, once it has rendered, writes nothing and looks again later."""
+
+    class SlowMaker(StandInMaker):
+        def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+            ledger.release(job.id, this_process())
+            ledger.claim(job.id, "elsewhere:1")
+            return super().make(job, header)
+
+    before = dataset.storage.files()
+    runner = JobRunner(str(tmp_path / "store"), lambda _: SlowMaker(), lambda *_: ledger)
+    with pytest.raises(TryLaterError, match=r"another's|lost its claim"):
+        runner.run(dataset.message(JOB).encode())
+    assert dataset.storage.files() == before
+    assert ledger.claims() == {JOB.id: "elsewhere:1"}
+
+
+def pause(dataset: Dataset, store: Path, job: Job) -> float:
+    """How long a job is put off at its first failure, by a worker and Redis that know nothing of it."""
+    ledger = MemoryLedger()
+    runner = JobRunner(str(store), lambda _: StandInMaker(), lambda *_: ledger)
+    with pytest.raises(TryLaterError) as later:
+        runner.run(dataset.message(job).encode())
+    return later.value.delay_s
+
+
+def test_pauses_differ_and_repeat(dataset: Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Jobs that failed together come back apart, each after the same pause whenever it is made."""
+    jobs = list(dataset.header.spec.jobs())
+    monkeypatch.setenv("STAND_IN_FAILS", " ".join(f"{job.id}=passing" for job in jobs))
+    pauses = [pause(dataset, tmp_path / "store", job) for job in jobs]
+    assert len(set(pauses)) == len(jobs)
+    assert all(BACKOFF_S[0] <= each <= 1.5 * BACKOFF_S[0] for each in pauses)
+    assert [pause(dataset, tmp_path / "store", job) for job in jobs] == pauses
+
+
+def test_pauses_grow(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The second pause of a job is longer than any first one."""
+    monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=passing")
+    pauses = []
+    for _ in range(MAX_TRIES - 1):
+        with pytest.raises(TryLaterError) as later:
+            runner.run(dataset.message(JOB).encode())
+        pauses.append(later.value.delay_s)
+    assert pauses[0] <= 1.5 * BACKOFF_S[0] < BACKOFF_S[1] <= pauses[1]
+
+
+def test_job_that_was_put_back_begins_anew(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """A given-up job whose record is removed is made, however often it was begun before."""
+    for number in range(MAX_STARTS):
+        ledger.claim(JOB.id, f"elsewhere:{number}", ttl_s=0.0)
+    with pytest.raises(PermanentError):
+        runner.run(dataset.message(JOB).encode())
+    Quarantine(dataset).release([JOB.id])
+    runner.run(dataset.message(JOB).encode())
+    assert is_done(dataset, JOB)
+
+
+def test_figures(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
+    """A finished job adds its image, its redrawn scenes and the seconds of its stages."""
+    runner.run(dataset.message(JOB).encode())
+    figures = ledger.figures()
+    assert figures["images:far"] == figures["redrawn"] == 1
+    assert figures["seconds:render"] == pytest.approx(0.01)
+    assert figures["seconds:write"] > 0
+
+
+def test_duplicates_are_no_starts(dataset: Dataset, runner: JobRunner) -> None:
+    """However often a finished job is delivered again, it may be made again when its picture is damaged."""
+    for _ in range(MAX_STARTS + 2):
+        runner.run(dataset.message(JOB).encode())
+    dataset.storage.write(file_path(JOB, FileRole.MASK), b"damaged")
+    assert runner.run(dataset.message(JOB).encode()).made
+    assert given_up(dataset) == {}
+
+
+@pytest.mark.parametrize("content", [b"{}", b"no json"])
+def test_header_that_this_worker_cannot_read(dataset: Dataset, runner: JobRunner, content: bytes) -> None:
+    """A worker of another version takes itself out and spends none of the job's starts."""
+    good = dataset.storage.read("dataset.json")
+    dataset.storage.write("dataset.json", content)
+    for _ in range(MAX_STARTS + 1):
+        with pytest.raises(UnfitWorkerError, match="not readable by this version"):
+            runner.run(dataset.message(JOB).encode())
+    dataset.storage.write("dataset.json", good)
+    assert runner.run(dataset.message(JOB).encode()).made
+
+
+def test_dataset_that_was_here_before(dataset: Dataset, runner: JobRunner, tmp_path: Path) -> None:
+    """A store that vanishes amid the work is waited for: the worker is not unfit."""
+    runner.run(dataset.message(JOB).encode())
+    (tmp_path / "store/cables").rename(tmp_path / "gone")
+    with pytest.raises(DestinationError, match="no dataset here"):
+        runner.run(dataset.message(JOB).encode())
+
+
+def test_late_failure_is_not_counted(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
+    """Who fails at a job that is another's by now neither counts that nor gives the job up."""
+
+    class LateMaker(StandInMaker):
+        def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+            del header
+            ledger.release(job.id, this_process())
+            ledger.claim(job.id, "elsewhere:1")
+            raise SceneError("too late")
+
+    runner = JobRunner(str(tmp_path / "store"), lambda _: LateMaker(), lambda *_: ledger)
+    with pytest.raises(TryLaterError, match="another worker's"):
+        runner.run(dataset.message(JOB).encode())
+    assert given_up(dataset) == {}
+    assert ledger.claims() == {JOB.id: "elsewhere:1"}
+
+
+def test_slow_store_fails_no_job(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A time limit that is met while files are written is the store's doing."""
+    monkeypatch.setattr("worker.service.runner.upload", Mock(side_effect=SoftTimeLimitExceeded()))
+    for _ in range(MAX_STARTS + 1):
+        with pytest.raises(DestinationError, match="SoftTimeLimitExceeded"):
+            runner.run(dataset.message(JOB).encode())
+    monkeypatch.undo()
+    assert runner.run(dataset.message(JOB).encode()).made

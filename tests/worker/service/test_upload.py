@@ -1,0 +1,229 @@
+"""Writing a made picture."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+
+from farm.completion import is_done
+from farm.dataset import Dataset
+from farm.errors import BrokerError, DestinationError, RenderError
+from farm.job import Job
+from farm.layout import FileRole, file_path, manifest_path
+from farm.ledger.memory import MemoryLedger
+from farm.storage import LocalStorage
+from tests.stand_in import StandInMaker, stand_in_header
+from worker.service.lease import ClaimLostError, HeldClaim
+from worker.service.picture import MadeImage
+from worker.service.upload import encode_png, upload
+
+JOB = Job.from_id("far-000000")
+
+
+@pytest.fixture
+def made(dataset: Dataset) -> MadeImage:
+    """A picture with its labels."""
+    return StandInMaker().make(JOB, dataset.header)
+
+
+@pytest.mark.parametrize("shape_and_type", [((5, 7, 3), np.uint8), ((5, 7), np.uint8), ((5, 7), np.uint16)])
+def test_png_keeps_every_value(shape_and_type: tuple[tuple[int, ...], Any]) -> None:
+    """A PNG gives back the pixels, red first, in 8 and in 16 bits."""
+    shape, kind = shape_and_type
+    pixels = np.random.Generator(np.random.PCG64(1)).integers(0, np.iinfo(kind).max, shape, dtype=kind, endpoint=True)
+    decoded = cv2.imdecode(np.frombuffer(encode_png(pixels), np.uint8), cv2.IMREAD_UNCHANGED)
+    assert decoded is not None
+    assert np.array_equal(decoded[:, :, ::-1] if decoded.ndim == 3 else decoded, pixels)
+
+
+def test_writes_the_layout(dataset: Dataset, made: MadeImage) -> None:
+    """Three pictures and a manifest, where the layout says."""
+    upload(made, JOB, dataset)
+    expected = {file_path(JOB, role) for role in FileRole} | {manifest_path(JOB), "dataset.json"}
+    assert set(dataset.storage.files()) == expected
+    assert is_done(dataset, JOB)
+
+
+def test_manifest_is_last(dataset: Dataset, made: MadeImage, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is written after the manifest, so that it never vouches for a file still to come."""
+    written: list[str] = []
+    write = type(dataset.storage).write
+
+    def recording(storage: object, path: str, content: bytes) -> None:
+        written.append(path)
+        write(storage, path, content)  # type: ignore[arg-type]  # the class's own method
+
+    monkeypatch.setattr(type(dataset.storage), "write", recording)
+    upload(made, JOB, dataset)
+    assert written[-1] == manifest_path(JOB)
+
+
+def test_interrupted_upload_is_not_done(dataset: Dataset, made: MadeImage, monkeypatch: pytest.MonkeyPatch) -> None:
+    """When a write fails, the job is not done, whatever was written before."""
+    write = type(dataset.storage).write
+
+    def failing(storage: object, path: str, content: bytes) -> None:
+        if "instances" in path:
+            raise DestinationError("disk full")
+        write(storage, path, content)  # type: ignore[arg-type]  # the class's own method
+
+    monkeypatch.setattr(type(dataset.storage), "write", failing)
+    with pytest.raises(DestinationError):
+        upload(made, JOB, dataset)
+    assert not is_done(dataset, JOB)
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        {"mask": np.zeros((32, 32), np.uint8)},
+        {"mask": np.zeros((16, 16), np.uint8)},
+        {"image": np.zeros((32, 32), np.uint8)},
+        {"instances": np.zeros((32, 32), np.uint8)},
+        {"image": np.zeros((32, 32, 3), np.float32)},
+    ],
+)
+def test_labels_that_do_not_fit(dataset: Dataset, made: MadeImage, damage: dict[str, Any]) -> None:
+    """A picture and labels that contradict each other are not written."""
+    before = dataset.storage.files()
+    with pytest.raises(RenderError):
+        upload(replace(made, **damage), JOB, dataset)
+    assert dataset.storage.files() == before
+
+
+class Clock:
+    """Goes on when told to."""
+
+    now_s = 1000.0
+
+    def __call__(self) -> float:
+        """The time, in seconds."""
+        return self.now_s
+
+
+class Elsewhere:
+    """Another machine, which takes a job over whose worker is silent for a minute, and makes it.
+
+    Args:
+        dataset: where it writes.
+        seed: of its pixels; another than the dataset's stands for another machine's rounding.
+    """
+
+    def __init__(self, dataset: Dataset, seed: int) -> None:
+        self.clock = Clock()
+        self.ledger = MemoryLedger(self.clock)
+        self.ledger.claim(JOB.id, "here:1", 60.0)
+        self.claim = HeldClaim(self.ledger, JOB.id, "here:1", ttl_s=60.0, clock=self.clock)
+        self._dataset = dataset
+        self._seed = seed
+
+    def take_over(self) -> None:
+        """Let a minute pass, in which the worker here was stopped, and make the job."""
+        self.clock.now_s += 61.0
+        assert self.ledger.claim(JOB.id, "elsewhere:1", 60.0)
+        upload(StandInMaker().make(JOB, stand_in_header(seed=self._seed)), JOB, self._dataset)
+        self.ledger.finish(JOB.id, "elsewhere:1", "picture")
+
+
+class StoppedStorage(LocalStorage):
+    """The process is stopped after it has decided to write one file, and before it does."""
+
+    def __init__(self, root: Path, watched: str, meanwhile: Callable[[], None]) -> None:
+        super().__init__(root)
+        self._watched = watched
+        self._meanwhile = meanwhile
+
+    def write(self, path: str, content: bytes) -> None:
+        """See `Storage.write`."""
+        if path == self._watched:
+            self._meanwhile()
+        super().write(path, content)
+
+
+ALL_PATHS = [*(file_path(JOB, role) for role in FileRole), manifest_path(JOB)]
+
+
+def test_worker_that_was_stopped_writes_nothing(dataset: Dataset, made: MadeImage) -> None:
+    """A worker that was stopped past its lease leaves what another has made to the last bit."""
+    other = Elsewhere(dataset, seed=5)
+    other.take_over()
+    before = {path: dataset.storage.read(path) for path in dataset.storage.files()}
+    with pytest.raises(ClaimLostError):
+        upload(made, JOB, dataset, other.claim)
+    assert {path: dataset.storage.read(path) for path in dataset.storage.files()} == before
+
+
+def test_worker_that_was_stopped_and_not_missed(dataset: Dataset, made: MadeImage) -> None:
+    """Past its lease a worker asks, and writes what it made if nobody has taken the job yet."""
+    other = Elsewhere(dataset, seed=5)
+    other.clock.now_s += 61.0
+    upload(made, JOB, dataset, other.claim)
+    assert is_done(dataset, JOB)
+
+
+@pytest.mark.parametrize("path", ALL_PATHS)
+def test_stop_between_check_and_write(dataset: Dataset, made: MadeImage, path: str) -> None:
+    """A late write among another machine's files, whose bytes differ, leaves no job that seems done and is mixed."""
+    other = Elsewhere(dataset, seed=5)
+    theirs: dict[str, bytes] = {}
+
+    def take_over() -> None:
+        other.take_over()
+        theirs.update({each: dataset.storage.read(each) for each in ALL_PATHS})
+
+    storage = StoppedStorage(Path(dataset.storage.location), path, take_over)
+    with pytest.raises(ClaimLostError):
+        upload(made, JOB, replace(dataset, storage=storage), other.claim)
+    assert manifest_path(JOB) not in dataset.storage.files()
+    for each in set(ALL_PATHS) - {path, manifest_path(JOB)}:
+        assert dataset.storage.read(each) == theirs[each]
+    upload(made, JOB, dataset)
+    assert is_done(dataset, JOB)
+
+
+@pytest.mark.parametrize("path", ALL_PATHS)
+def test_stop_between_check_and_write_of_the_same(dataset: Dataset, made: MadeImage, path: str) -> None:
+    """A late write of the very bytes that another has written does no harm, and what is done stays so."""
+    other = Elsewhere(dataset, seed=0)
+    storage = StoppedStorage(Path(dataset.storage.location), path, other.take_over)
+    with pytest.raises(ClaimLostError):
+        upload(made, JOB, replace(dataset, storage=storage), other.claim)
+    assert is_done(dataset, JOB)
+
+
+def test_stop_before_a_redis_that_is_away(dataset: Dataset, made: MadeImage, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whoever can't ask after a late write leaves no mixed job either."""
+    other = Elsewhere(dataset, seed=5)
+
+    def take_over_and_go_away() -> None:
+        other.take_over()
+        monkeypatch.setattr(other.ledger, "refresh", away)
+
+    def away(*_: object) -> bool:
+        raise BrokerError("gone")
+
+    storage = StoppedStorage(Path(dataset.storage.location), file_path(JOB, FileRole.INSTANCES), take_over_and_go_away)
+    with pytest.raises(BrokerError):
+        upload(made, JOB, replace(dataset, storage=storage), other.claim)
+    assert manifest_path(JOB) not in dataset.storage.files()
+
+
+def test_claim_that_another_got_early(dataset: Dataset, made: MadeImage) -> None:
+    """A claim that is another's though its time is not over, as after the loss of Redis, is noticed before a write."""
+    other = Elsewhere(dataset, seed=5)
+    other.ledger.release(JOB.id, "here:1")
+    other.ledger.claim(JOB.id, "elsewhere:1", 60.0)
+    before = dataset.storage.files()
+    with pytest.raises(ClaimLostError):
+        upload(made, JOB, dataset, other.claim)
+    assert dataset.storage.files() == before
+
+
+def test_claim_that_is_held_writes(dataset: Dataset, made: MadeImage) -> None:
+    """A worker that holds its claim writes as one that has the dataset to itself."""
+    upload(made, JOB, dataset, Elsewhere(dataset, seed=5).claim)
+    assert is_done(dataset, JOB)

@@ -1,0 +1,39 @@
+"""Where compiled code is kept."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+PROGRAM = "from worker.simulate.rod.compiled import kept_in; print(kept_in())"
+
+# Root may write everywhere, whatever a folder's rights.
+READ_ONLY = "import os; os.access = lambda *_: False; "
+
+
+def kept_in(before: str = "", **variables: Path) -> Path:
+    """The folder that a fresh process uses with these variables."""
+    environment = {"PATH": "/usr/bin:/bin"} | {name: str(value) for name, value in variables.items()}
+    result = subprocess.run(
+        [sys.executable, "-c", before + PROGRAM], capture_output=True, text=True, check=True, env=environment
+    )
+    return Path(result.stdout.strip())
+
+
+def test_compiled_code_lies_in_the_users_cache_folder(tmp_path: Path) -> None:
+    """Below `cable-farm/compiled`, in a folder of the sources' own."""
+    assert kept_in(XDG_CACHE_HOME=tmp_path).parent == tmp_path / "cable-farm" / "compiled"
+
+
+def test_a_folder_named_by_the_environment_is_used(tmp_path: Path) -> None:
+    """FARM_COMPILED, as the worker's image sets it."""
+    assert kept_in(XDG_CACHE_HOME=tmp_path / "cache", FARM_COMPILED=tmp_path).parent == tmp_path
+
+
+def test_a_folder_that_cannot_be_written_is_copied(tmp_path: Path) -> None:
+    """A read-only image: what is compiled there is taken over to the user's own folder."""
+    kept = kept_in(XDG_CACHE_HOME=tmp_path / "cache", FARM_COMPILED=tmp_path)
+    kept.mkdir()
+    (kept / "some.nbi").write_text("compiled")
+    copy = kept_in(READ_ONLY, XDG_CACHE_HOME=tmp_path / "cache", FARM_COMPILED=tmp_path)
+    assert copy.parent == tmp_path / "cache" / "cable-farm" / "compiled"
+    assert (copy / "some.nbi").read_text() == "compiled"

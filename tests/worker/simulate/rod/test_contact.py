@@ -1,0 +1,67 @@
+"""The contacts of a step: the way out of rods that start within each other."""
+
+import numpy as np
+import pytest
+
+from tests.worker.simulate.physics.rods import RADIUS_M, line, rod
+from worker.simulate.rod.arrays import flatten
+from worker.simulate.rod.bending import operator_for
+from worker.simulate.rod.broad_phase import find_candidates, no_candidates
+from worker.simulate.rod.contact import gather_contacts, room_for_contacts
+from worker.simulate.rod.model import Array, Rod
+from worker.simulate.rod.narrow_phase import find_bulge, find_reach
+
+STEP_S = 1e-3
+MARGIN_M = 0.1 * RADIUS_M
+
+
+def normals_and_approaches(rods: list[Rod], known: Array | None = None) -> tuple[Array, Array]:
+    """(n, 3) and (n,) of all contacts at rest; `known` is the way to the first rod when last seen, if ever."""
+    bodies, motion = flatten(rods)
+    bulge, reach = np.empty(len(bodies.owner)), np.empty(len(bodies.owner))
+    find_bulge(bodies, motion.x, bulge)
+    find_reach(bodies, motion.v, np.zeros(3), STEP_S, MARGIN_M, bulge, reach)
+    candidates = find_candidates(bodies, motion, np.zeros(3), STEP_S, reach, no_candidates(len(bodies.owner)))
+    if known is not None:
+        candidates.normal[:] = known
+    operator = operator_for(bodies, STEP_S, 0.0)
+    contacts = room_for_contacts(len(candidates.one), operator)
+    count = gather_contacts(bodies, operator, motion, candidates, bulge, reach, MARGIN_M, contacts)
+    return contacts.normal[:count], contacts.approach[:count]
+
+
+def crossed(height_m: float) -> list[Rod]:
+    """Two rods at right angles, the second one's axis so much higher."""
+    return [rod(line((-0.05, 0, 0), (0.05, 0, 0), 25)), rod(line((0, -0.05, height_m), (0, 0.05, height_m), 25))]
+
+
+@pytest.mark.parametrize(("height_radii", "up"), [(0.0, -1.0), (1.0, -1.0), (-1.0, 1.0)])
+def test_rods_that_start_within_each_other_are_parted_upright(height_radii: float, up: float) -> None:
+    """The higher one goes up; of two at one height, the first goes down, as if it had always been below."""
+    normals, approaches = normals_and_approaches(crossed(height_radii * RADIUS_M))
+    parted = normals[approaches > 0]
+    assert len(parted) > 0
+    assert parted == pytest.approx(np.tile([0.0, 0.0, up], (len(parted), 1)))
+
+
+def test_the_same_rod_twice_is_parted_one_way_all_along() -> None:
+    """No place has a side of its own: the first goes down everywhere."""
+    one = rod(line((-0.05, 0, 0), (0.05, 0, 0), 25))
+    normals, approaches = normals_and_approaches([one, one])
+    assert len(normals) >= 25
+    assert normals == pytest.approx(np.tile([0.0, 0.0, -1.0], (len(normals), 1)))
+    assert (approaches > 0).all()
+
+
+def test_rods_that_have_cut_into_each_other_go_back_to_their_sides() -> None:
+    """The first was seen above: it is pushed up, though its axis is now a radius below that of the other."""
+    normals, approaches = normals_and_approaches(crossed(RADIUS_M), np.array([0.0, 0.0, 1.0]))
+    assert normals == pytest.approx(np.tile([0.0, 0.0, 1.0], (len(normals), 1)))
+    assert (approaches > 0).all()
+
+
+def test_rods_that_touch_are_pushed_along_the_way_between_their_axes() -> None:
+    """Upright for two that cross, and none needs to part."""
+    normals, approaches = normals_and_approaches(crossed(2 * RADIUS_M))
+    assert normals == pytest.approx(np.tile([0.0, 0.0, -1.0], (len(normals), 1)))
+    assert (approaches <= 0).all()

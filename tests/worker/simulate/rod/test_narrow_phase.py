@@ -1,0 +1,114 @@
+"""Which listed pairs are near in a step, and what the others remember."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.worker.simulate.physics.rods import RADIUS_M, curve_m, line, rod
+from worker.simulate.rod.arrays import Bodies, Integers, Motion, flatten
+from worker.simulate.rod.broad_phase import Candidates, find_candidates, no_candidates
+from worker.simulate.rod.model import Array
+from worker.simulate.rod.narrow_phase import find_bulge, find_near, find_reach
+
+STEP_S = 1e-3
+
+
+def crossed(height_m: float, speed_m_s: float = 0.0) -> tuple[Bodies, Motion]:
+    """Two rods that cross at right angles, one over the other; the upper one comes down."""
+    bodies, motion = flatten(
+        [
+            rod(line((-0.05, 0.0, 0.0), (0.05, 0.0, 0.0), 25)),
+            rod(line((0.0, -0.05, height_m), (0.0, 0.05, height_m), 25)),
+        ]
+    )
+    motion.v[2, 26:] = -speed_m_s
+    return bodies, motion
+
+
+def bulge_m(bodies: Bodies, motion: Motion) -> Array:
+    """Of each node."""
+    bulge = np.empty(len(bodies.owner))
+    find_bulge(bodies, motion.x, bulge)
+    return bulge
+
+
+def looked_at(bodies: Bodies, motion: Motion) -> tuple[Candidates, Integers, Array]:
+    """The list, the numbers of those near, and where these are closest."""
+    margin = 2 * STEP_S * float(np.abs(motion.v).max()) + 0.1 * RADIUS_M
+    bulge, reach = bulge_m(bodies, motion), np.empty(len(bodies.owner))
+    find_reach(bodies, motion.v, np.zeros(3), STEP_S, margin, bulge, reach)
+    before = no_candidates(len(bodies.owner))
+    candidates = find_candidates(bodies, motion, np.zeros(3), STEP_S, reach, before)
+    candidates.impulse[:] = 1.0
+    near, at = np.empty(len(candidates.one), np.int64), np.empty((2, len(candidates.one)))
+    count = find_near(bodies, motion, candidates, bulge, reach, STEP_S, margin, near, at)
+    return candidates, near[:count], at[:, :count]
+
+
+@pytest.mark.parametrize(
+    ("height_radii", "speed_m_s", "number"),
+    [(2.05, 0.0, 1), (2.4, 0.0, 0), (2.4, 0.5, 1), (4.0, 0.5, 0), (4.0, 1.5, 1)],
+)
+def test_a_pair_is_near_if_it_may_touch_in_the_step(height_radii: float, speed_m_s: float, number: int) -> None:
+    """The middles of two crossed rods: by their distance, and by the speed at which they meet."""
+    candidates, near, at = looked_at(*crossed(height_radii * RADIUS_M, speed_m_s))
+    middle = [k for k in near if (candidates.one[k], candidates.other[k]) == (12, 38)]
+    assert len(middle) == number
+    if number:
+        assert at[:, near.tolist().index(middle[0])] == pytest.approx(0.5)
+
+
+def test_the_others_forget_their_impulses_and_remember_their_sides() -> None:
+    """Each normal points from the lower rod's segment up to the upper one's, by what side they are on."""
+    bodies, motion = crossed(2.4 * RADIUS_M)
+    candidates, near, _ = looked_at(bodies, motion)
+    assert len(candidates.one) > 0
+    assert len(near) == 0
+    assert (candidates.impulse == 0.0).all()
+    assert (candidates.normal[:, 2] < 0).all()
+
+
+def test_those_near_keep_what_they_remember() -> None:
+    """An impulse of the step before is where this step starts from."""
+    candidates, near, _ = looked_at(*crossed(2.05 * RADIUS_M))
+    assert len(near) > 0
+    assert (candidates.impulse[near] == 1.0).all()
+    assert (candidates.normal[near] == 0.0).all()
+
+
+@settings(max_examples=50, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), bend=st.floats(0, 5))
+def test_the_curve_leaves_its_chord_by_no_more_than_the_bulges_of_its_ends(seed: int, bend: float) -> None:
+    """|C(t) - chord(t)| <= max(bulge[i], bulge[i + 1]) at every t, however the rod turns, to rounding."""
+    draw = np.random.default_rng(seed)
+    edges = np.cumsum(draw.normal(0, bend, (12, 3)), axis=0) + np.array([1, 0, 0])
+    edges *= 0.004 / np.linalg.norm(edges, axis=1, keepdims=True)
+    nodes = np.concatenate([np.zeros((1, 3)), np.cumsum(edges, axis=0)])
+    bulge = bulge_m(*flatten([rod(nodes)]))
+    parts = 16
+    t = np.arange(parts)[:, None] / parts
+    off = curve_m(nodes, parts)[:-1].reshape(12, parts, 3) - (nodes[:-1, None] + t * edges[:, None])
+    assert (np.linalg.norm(off, axis=2).max(axis=1) <= np.maximum(bulge[:-1], bulge[1:]) + 1e-15).all()
+
+
+def arch_over_line(height_m: float) -> tuple[Bodies, Motion]:
+    """A rod bent downwards by 0.4 rad a node, the chord of its lowest segment so high over a straight one across."""
+    slope = 0.4 * np.arange(-4, 5)
+    edges = 0.004 * np.stack([np.cos(slope), np.zeros(9), np.sin(slope)], axis=1)
+    nodes = np.concatenate([np.zeros((1, 3)), np.cumsum(edges, axis=0)])
+    nodes += [0, 0, height_m] - nodes[4:6].mean(axis=0)
+    return flatten([rod(nodes), rod(line((0, -0.05, 0), (0, 0.05, 0), 25))])
+
+
+def test_a_pair_whose_curves_touch_is_near_though_its_chords_are_apart() -> None:
+    """Chords at 2.19 radii are not near at rest; at 0.4 rad a node the curve hangs l sin(0.2) / 4 = 0.2 radii lower."""
+    height = 2.19 * RADIUS_M
+    bodies, motion = arch_over_line(height)
+    assert curve_m(motion.x[:, :10].T, 8)[:, 2].min() < 2 * RADIUS_M
+    candidates, near, at = looked_at(bodies, motion)
+    pairs = [(int(candidates.one[k]), int(candidates.other[k])) for k in near]
+    assert (4, 22) in pairs
+    assert at[:, pairs.index((4, 22))] == pytest.approx(0.5)
+    # Straight rods at this distance are not.
+    assert len(looked_at(*crossed(height))[1]) == 0

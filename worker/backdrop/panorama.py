@@ -1,0 +1,138 @@
+"""HDRIs as arrays: light from above, turned as a scene wants it, and the view behind the cables. Numpy and OpenCV.
+
+A panorama is (H, 2H, 3) of linear light, equirectangular, the zenith's row first, in float32.
+"""
+
+import math
+from functools import lru_cache
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from farm.lens import SENSOR_MM
+from farm.photograph import Camera
+from worker.camera.view import View
+
+UPPER_WIDTH_PX = 512
+"""Texels around the horizon of light from above: 0.7 degrees each, sharper than any reflection on floors and cables."""
+
+_SUBTEXELS = 3
+"""Samples along an edge of a texel when a panorama is turned, so that a sun a few texels wide keeps its light."""
+
+BELOW = math.sin(math.radians(2.0))
+"""How far below the horizon is left in: what is seen past the edge of the floor from a pile's height."""
+
+Panorama = NDArray[np.float32]
+
+
+def upper_world(panorama: Panorama, turn: NDArray[np.float64]) -> Panorama:
+    """What lights a floor from above, in the world's own frame.
+
+    Cycles finds the world's bright parts by a map in the world's frame. Of a panorama that has been turned already, and
+    is as fine as the map, the map is exact: a sun of a few texels is then never missed, which made white specks. And
+    half of what it would find lights nothing under a floor, so that is black.
+
+    Args:
+        panorama: the HDRI.
+        turn: (3, 3), takes a direction in the world to one in the panorama.
+
+    Returns:
+        (W/2, W, 3) with W = `UPPER_WIDTH_PX`.
+    """
+    rows, columns = UPPER_WIDTH_PX // 2, UPPER_WIDTH_PX
+    directions = _directions(rows, columns)
+    seen = rows // 2 + math.ceil(rows * math.asin(BELOW) / math.pi)
+    upper = _directions(rows * _SUBTEXELS, columns * _SUBTEXELS)[: seen * _SUBTEXELS]
+    turned = _look_up(panorama, upper @ turn.T.astype(np.float32))
+    lit = np.zeros((rows, columns, 3), np.float32)
+    lit[:seen] = cv2.resize(turned, (columns, seen), interpolation=cv2.INTER_AREA)
+    lit[directions[..., 2] < -BELOW] = 0.0
+    return lit
+
+
+def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, resolution: int) -> Panorama:
+    """What a camera sees of a panorama, out of focus as it is, before its lens distorts it.
+
+    The world is infinitely far. A ray through the lens at l goes through the point in focus at distance D, so it points
+    where one through the lens's middle would, less l / D: blur is a convolution with the lens's disc, exactly.
+
+    Args:
+        panorama: the HDRI.
+        turn: (3, 3), takes a direction in the world to one in the panorama.
+        camera: it gives the direction, the angle of view and the distance in focus.
+        resolution: pixels along an edge.
+
+    Returns:
+        (resolution, resolution, 3), the top row first.
+    """
+    view = View.of(camera, resolution)
+    pixel = SENSOR_MM / camera.focal_length_mm / resolution
+    lens_disc = disc(lens_radius_m(camera) / view.focus_m / pixel)
+    margin = lens_disc.shape[0] // 2
+    fine = _samples_per_pixel(pixel, panorama.shape[1])
+    edge = resolution + 2 * margin
+    offset = ((np.arange(edge * fine) + 0.5) / fine - edge / 2) * pixel
+    towards = np.empty((edge * fine, edge * fine, 3), np.float32)
+    towards[..., 0], towards[..., 1], towards[..., 2] = offset[None, :], -offset[:, None], -1.0
+    sharp = _look_up(panorama, towards @ (turn @ view.rotation).T.astype(np.float32))
+    if fine > 1:
+        sharp = cv2.resize(sharp, (edge, edge), interpolation=cv2.INTER_AREA).astype(np.float32, copy=False)
+    blurred = cv2.filter2D(sharp, -1, lens_disc)
+    seen: Panorama = blurred[margin : edge - margin, margin : edge - margin].astype(np.float32, copy=False)
+    return seen
+
+
+def lens_radius_m(camera: Camera) -> float:
+    """Of the lens's aperture."""
+    return 0.5e-3 * camera.focal_length_mm / camera.f_number
+
+
+def _samples_per_pixel(pixel: float, columns: int) -> int:
+    """How many along an edge, so that no texel is stepped over; 8 at most."""
+    return min(8, max(1, math.ceil(pixel / (2 * math.pi / columns))))
+
+
+def disc(radius_px: float) -> NDArray[np.float32]:
+    """A disc of unit sum, (N, N) with N odd; the share of each pixel that it covers counts."""
+    reach, fine = math.ceil(radius_px), 8
+    place = (np.arange((2 * reach + 1) * fine) + 0.5) / fine - (reach + 0.5)
+    inside = (place[:, None] ** 2 + place[None, :] ** 2 <= max(radius_px, 0.5) ** 2).astype(np.float32)
+    share = cv2.resize(inside, (2 * reach + 1, 2 * reach + 1), interpolation=cv2.INTER_AREA)
+    weights: NDArray[np.float32] = (share / share.sum()).astype(np.float32)
+    return weights
+
+
+@lru_cache(maxsize=4)
+def _directions(rows: int, columns: int) -> NDArray[np.float32]:
+    """Unit vectors (rows, columns, 3) of the middles of a panorama's texels, as Cycles maps them.
+
+    The middle column looks along x, those right of it towards -y.
+    """
+    azimuth = np.pi - 2 * np.pi * (np.arange(columns) + 0.5) / columns
+    elevation = 0.5 * np.pi - np.pi * (np.arange(rows) + 0.5) / rows
+    across = np.cos(elevation)[:, None]
+    vectors = np.stack(
+        np.broadcast_arrays(across * np.cos(azimuth), across * np.sin(azimuth), np.sin(elevation)[:, None]), axis=-1
+    ).astype(np.float32)
+    vectors.setflags(write=False)  # they are shared
+    unit: NDArray[np.float32] = vectors
+    return unit
+
+
+def _look_up(panorama: Panorama, towards: NDArray[np.float32]) -> Panorama:
+    """Light (rows, columns, 3) from directions of any length, linear between texels."""
+    rows, columns = panorama.shape[:2]
+    x, y, z = towards[..., 0], towards[..., 1], towards[..., 2]
+    azimuth, elevation = cv2.phase(x, y), np.arctan2(z, np.hypot(x, y))
+    # cv2.phase counts from 0 to 2 pi, Cycles' columns from pi down to -pi.
+    column = np.mod(0.5 - azimuth / np.float32(2 * np.pi), 1.0) * columns - 0.5
+    row = (0.5 - elevation / np.float32(np.pi)) * rows - 0.5
+    light: Panorama = cv2.remap(
+        panorama,
+        column.astype(np.float32, copy=False),
+        row.astype(np.float32, copy=False),
+        cv2.INTER_LINEAR,
+        borderMode=cv2.BORDER_WRAP,
+    ).astype(np.float32, copy=False)
+    return light

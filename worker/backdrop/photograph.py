@@ -1,0 +1,86 @@
+"""A photograph as the view behind the cables. Numpy and OpenCV."""
+
+from functools import cache
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from assets.hdris import LUMINANCE
+from farm.scene import Plate
+from worker.backdrop.panorama import disc
+
+DARKEST = 1e-3
+"""Mean luminance, of white's 1, that a crop is taken to have at least: brightening less would show its 256 levels."""
+
+_STRIP_ROWS = 512
+
+
+def plate_backdrop(
+    pixels: NDArray[np.uint8], plate: Plate, resolution: int, blur_px: float, luminance: float
+) -> NDArray[np.float32]:
+    """A square of a photograph, out of focus and as bright as is wanted.
+
+    All is reckoned in linear light. At the edges the blur sees the picture mirrored.
+
+    Args:
+        pixels: (H, W, 3) of sRGB, the top row first.
+        plate: which square of it.
+        resolution: pixels along an edge of the picture.
+        blur_px: radius of the lens's disc, in pixels of the picture.
+        luminance: mean to scale to, in scene-linear units; a crop darker than `DARKEST` stays darker than that.
+
+    Returns:
+        (resolution, resolution, 3) of linear light, the top row first.
+    """
+    light = _resample(_crop(pixels, plate), resolution)
+    if plate.mirror:
+        light = light[:, ::-1]
+    blurred = cv2.filter2D(light, -1, disc(blur_px), borderType=cv2.BORDER_REFLECT_101)
+    mean = max(float((blurred @ LUMINANCE).mean()), DARKEST)
+    scaled: NDArray[np.float32] = (blurred * (luminance / mean)).astype(np.float32)
+    return scaled
+
+
+def _crop(pixels: NDArray[np.uint8], plate: Plate) -> NDArray[np.uint8]:
+    height, width = pixels.shape[:2]
+    edge = max(1, round(plate.zoom * min(height, width)))
+    top, left = round(plate.y * (height - edge)), round(plate.x * (width - edge))
+    return pixels[top : top + edge, left : left + edge]
+
+
+def _resample(square: NDArray[np.uint8], resolution: int) -> NDArray[np.float32]:
+    """To (resolution, resolution, 3) of linear light: means of areas, or cubic between pixels."""
+    light = _shrunk(square, max(1, len(square) // (2 * resolution)))
+    edge = len(light)
+    if edge == resolution:
+        return light
+    method = cv2.INTER_AREA if edge > resolution else cv2.INTER_CUBIC
+    resized = cv2.resize(light, (resolution, resolution), interpolation=method)
+    # Beside a bright line the cubic falls below nothing.
+    return np.maximum(resized, 0.0).astype(np.float32, copy=False)
+
+
+def _shrunk(square: NDArray[np.uint8], factor: int) -> NDArray[np.float32]:
+    """Means of factor x factor pixels, a strip at a time, as a large photograph of floats would take a gigabyte.
+
+    The last rows and columns that fill no such block are left out.
+    """
+    edge = len(square) // factor
+    shrunk = np.empty((edge, edge, 3), np.float32)
+    rows = max(1, _STRIP_ROWS // factor)
+    for first in range(0, edge, rows):
+        last = min(edge, first + rows)
+        strip = _linear()[square[first * factor : last * factor, : edge * factor]]
+        shrunk[first:last] = cv2.resize(strip, (edge, last - first), interpolation=cv2.INTER_AREA)
+    return shrunk
+
+
+@cache
+def _linear() -> NDArray[np.float32]:
+    """Linear light of the 256 levels of sRGB (IEC 61966-2-1)."""
+    level = np.arange(256) / 255.0
+    light = np.where(level <= 0.04045, level / 12.92, ((level + 0.055) / 1.055) ** 2.4)
+    levels: NDArray[np.float32] = light.astype(np.float32)
+    levels.setflags(write=False)  # they are shared
+    return levels

@@ -1,0 +1,1 @@
+"""The Blender side of a picture: every module here may import bpy."""

@@ -1,0 +1,97 @@
+"""A scene made real in the open template: cables, floor, light, world and camera. Sets everything, every time."""
+
+from assets.hdris import LUMINANCE
+from farm.category import Background, CategoryTraits
+from farm.lights import HdriWorld
+from farm.rendering import CableDetail, Economy
+from farm.scene import Scene
+from worker.backdrop.matte import Backdrop, covered_by
+from worker.backdrop.panorama import Panorama, lens_radius_m
+from worker.backdrop.photograph import plate_backdrop
+from worker.blender.asset_files import AssetLibrary
+from worker.blender.cables import add_cables, remove_cables, shadow_slope
+from worker.blender.camera import has_round_aperture, set_camera
+from worker.blender.clutter import add_clutter
+from worker.blender.floor import set_floor, set_unseen_floor
+from worker.blender.image_cache import ImageShelf
+from worker.blender.world import backdrop_of, set_grey_world, set_hdri_world, set_lamps
+from worker.cable.pieces import pieces_of
+from worker.camera.view import View
+from worker.curves import smooth
+from worker.simulate.shapes import CableShapes
+
+PLATE_LUMINANCE = 0.3
+"""Mean luminance of a photograph behind the cables, where the surroundings that light them tell none."""
+
+
+def realize(
+    scene: Scene,
+    shapes: CableShapes,
+    library: AssetLibrary,
+    shelf: ImageShelf,
+    *,
+    traits: CategoryTraits,
+    resolution: int,
+    detail: CableDetail,
+    economy: Economy,
+) -> Backdrop | None:
+    """Set the picture's scene to `scene`, with settled cables and clutter.
+
+    Args:
+        scene: what was drawn.
+        shapes: its cables and sticks, settled.
+        library: where the textures and HDRIs are.
+        shelf: the images that this process holds.
+        traits: of the scene's category.
+        resolution: pixels along an edge of the picture.
+        detail: how finely cables are modelled.
+        economy: what is left out.
+
+    Returns:
+        What is behind the cables, if the renderer is to leave it out.
+
+    Raises:
+        AssetError: if a texture or HDRI can't be had.
+    """
+    shelf.begin_picture()
+    if not economy.keep_loaded:
+        shelf.forget()
+    remove_cables()
+    view = View.of(scene.camera, resolution).undistorted()
+    curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
+    pieces = pieces_of(scene, curves, shapes.sticks_m)
+    slope = shadow_slope(scene.lamps)
+    add_cables(pieces, detail.sides, view, shelf, slope=slope, whole=not economy.cables_in_view)
+    if scene.floor is None:
+        set_unseen_floor(shelf)
+    else:
+        # Wear is drawn on what is seen, so it needs a view whatever is left out.
+        seen = view if economy.texture_window or scene.floor.wear is not None else None
+        set_floor(scene.floor, library.surface(scene.floor.texture), shelf, seen)
+    add_clutter(scene, shapes.sticks_m, curves, shelf)
+    set_lamps(scene.lamps)
+    set_camera(scene.camera)
+    if scene.hdri_world is None:
+        set_grey_world(scene.grey_world)
+        return None
+    light = _behind(scene, scene.hdri_world, library, shelf, resolution, economy)
+    is_seen = traits.background is Background.HDRI and light is None
+    set_hdri_world(scene.hdri_world, library, shelf, only_lights=economy.upper_world and not is_seen)
+    if light is None:
+        return None
+    return Backdrop(light, covered_by(pieces, view, lens_radius_m(scene.camera), detail.sides))
+
+
+def _behind(
+    scene: Scene, world: HdriWorld, library: AssetLibrary, shelf: ImageShelf, resolution: int, economy: Economy
+) -> Panorama | None:
+    """The view behind cables without a floor, where it is looked up: a photograph always is."""
+    if scene.floor is not None or (scene.plate is None and not (economy.backdrop and has_round_aperture())):
+        return None
+    seen = backdrop_of(world, scene.camera, resolution, library, shelf)
+    if scene.plate is None:
+        return seen
+    # As bright as what would be seen of the surroundings that light the cables.
+    luminance = PLATE_LUMINANCE if seen is None else float((seen @ LUMINANCE).mean())
+    photograph = shelf.photograph(library.plate(scene.plate.name))
+    return plate_backdrop(photograph, scene.plate, resolution, scene.plate.blur_px, luminance)

@@ -1,0 +1,163 @@
+"""Cables in the open picture: a mesh for each piece, a material for each surface."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import bpy
+import numpy as np
+
+from blend import names
+from farm.lights import Lamp, StudioLamp
+from farm.looks import CableMaterial, Rgb
+from worker.blender.image_cache import ImageShelf
+from worker.cable.piece import Convex, Piece, Plain, Tubular
+from worker.cable.plain import draw_plain
+from worker.cable.skin import SkinImages, draw_skin
+from worker.cable.tube import Tube, loft, sweep
+from worker.camera.view import View
+from worker.curves import parts_near
+
+DIRT_EDGE = 0.05
+"""Distance of the two stops of the dirt ramp: how soft the edge of a spot is."""
+
+SHADOW_SLOPE = 3.0
+"""How far a shadow reaches, in the height of what throws it: that of the lowest published lamp, 15 m away at 5 m."""
+
+
+def remove_cables() -> None:
+    """Remove the cables of the picture before."""
+    prefix = f"{names.CABLE}."
+    for collection in (bpy.data.objects, bpy.data.meshes, bpy.data.materials):
+        for block in [block for block in collection if block.name.startswith(prefix)]:
+            collection.remove(block)
+
+
+def shadow_slope(lamps: Sequence[Lamp]) -> float:
+    """How far the longest shadow reaches, in the height of what throws it; a lamp at the horizon's is cut short."""
+    elevations_deg = [max(lamp.elevation_deg, 1.0) for lamp in lamps if isinstance(lamp, StudioLamp)]
+    return max([SHADOW_SLOPE, *(1.0 / math.tan(math.radians(elevation)) for elevation in elevations_deg)])
+
+
+def add_cables(
+    pieces: Sequence[Piece], sides: int, view: View, shelf: ImageShelf, *, slope: float, whole: bool
+) -> None:
+    """Add a settled scene's cables; of those that leave the view, what is seen or may throw a shadow into it.
+
+    Args:
+        pieces: of the cables.
+        sides: corners of a tube's cross-section.
+        view: the camera.
+        shelf: takes the images of skins.
+        slope: how far shadows reach, in the height of what throws them.
+        whole: whether to add them wholly, wherever they go.
+    """
+    materials: dict[object, Any] = {}
+    for number, piece in enumerate(pieces):
+        name = f"{names.CABLE}.{piece.instance}.{number}"
+        made = list(_meshes(piece, sides, None if whole else view, slope))
+        if not made:
+            continue
+        key = _identity(piece)
+        if key not in materials:
+            materials[key] = _material(name, piece, view, shelf)
+        for place, tube in made:
+            _add_mesh(f"{name}.{place}", tube, materials[key], smooth=isinstance(piece, Tubular))
+
+
+def _identity(piece: Piece) -> object:
+    """What pieces of one material have in common: a sheath has one of its own, so as to be drawn in its own length."""
+    if isinstance(piece.surface, Plain):
+        return piece.surface
+    return piece.instance
+
+
+def _meshes(piece: Piece, sides: int, view: View | None, slope: float) -> list[tuple[int, Tube]]:
+    """The meshes of a piece, each with where in the piece it starts."""
+    if isinstance(piece, Convex):
+        return [(0, loft(piece.rings))]
+    curve, points = piece.curve, len(piece.curve)
+    if view is None:
+        parts = [slice(0, points)]
+    else:
+        half_m = float(np.abs(view.floor_corners_m()[:, :2]).max())
+        widest_m = 2 * float(np.max(piece.radius_m))
+        parts = parts_near(curve, half_m + slope * float(curve[:, 2].max()) + widest_m)
+    return [(part.start, _tube(piece, part, sides)) for part in parts]
+
+
+def _tube(piece: Tubular, part: slice, sides: int) -> Tube:
+    start_m = piece.start_m + (piece.end_m - piece.start_m) * part.start / (len(piece.curve) - 1)
+    radius_m = piece.radius_m if isinstance(piece.radius_m, float) else piece.radius_m[part]
+    tube = sweep(piece.curve[part], radius_m, sides, start_m=start_m)
+    if not isinstance(piece.surface, CableMaterial):
+        tube.uvs[:] /= (piece.whole_m, 2 * np.pi * float(np.mean(piece.radius_m)))
+    return tube
+
+
+def _add_mesh(name: str, tube: Tube, material: Any, *, smooth: bool) -> None:
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(len(tube.vertices_m))
+    mesh.vertices.foreach_set("co", tube.vertices_m.ravel())
+    mesh.loops.add(len(tube.corners))
+    mesh.loops.foreach_set("vertex_index", tube.corners)
+    mesh.polygons.add(len(tube.face_starts))
+    mesh.polygons.foreach_set("loop_start", tube.face_starts)
+    mesh.uv_layers.new(name="along").uv.foreach_set("vector", tube.uvs.ravel())
+    if not smooth:
+        mesh.shade_flat()
+    mesh.update(calc_edges=True)
+    mesh.materials.append(material)
+    bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
+
+
+def _material(name: str, piece: Piece, view: View, shelf: ImageShelf) -> Any:
+    if isinstance(piece, Convex):
+        return _drawn(name, draw_plain(piece.surface), shelf)
+    if isinstance(piece.surface, Plain):
+        return _drawn(name, draw_plain(piece.surface), shelf)
+    if isinstance(piece.surface, CableMaterial):
+        return _published(name, piece.surface)
+    diameter_m = 2 * float(np.max(piece.radius_m))
+    return _drawn(name, draw_skin(piece.surface, piece.whole_m, diameter_m, 1.0 / view.pixels_per_m), shelf)
+
+
+def _published(name: str, wanted: CableMaterial) -> Any:
+    material = bpy.data.materials[names.CABLE].copy()
+    material.name = name
+    nodes = material.node_tree.nodes
+    nodes[names.CABLE_MAPPING].inputs["Location"].default_value = wanted.dirt_mapping
+    nodes[names.CABLE_NOISE].inputs["W"].default_value = wanted.dirt_offset
+    clean, dirty = nodes[names.CABLE_COLOUR_RAMP].color_ramp.elements
+    clean.position = wanted.dirt_position
+    clean.color = _linear(wanted.colour)
+    dirty.position = min(1.0, wanted.dirt_position + DIRT_EDGE)
+    dirty.color = _linear(wanted.dirt_colour)
+    nodes[names.CABLE_REFLECTION_RAMP].color_ramp.elements[1].position = wanted.reflection_position
+    return material
+
+
+def _drawn(name: str, images: SkinImages, shelf: ImageShelf) -> Any:
+    material = bpy.data.materials[names.SKIN].copy()
+    material.name = name
+    tree = material.node_tree
+    tree.nodes[names.SKIN_COLOUR].image = shelf.made(f"{name} colour", images.colour, colour=True)
+    tree.nodes[names.SKIN_ROUGHNESS].image = shelf.made(f"{name} roughness", images.roughness, colour=False)
+    surface = tree.nodes[names.SKIN_SURFACE]
+    if images.normal is None:
+        # Tangents are worked out for every mesh whose material asks for them.
+        for way in list(surface.inputs["Normal"].links):
+            tree.links.remove(way)
+    else:
+        tree.nodes[names.SKIN_NORMAL].image = shelf.made(f"{name} normal", images.normal, colour=False)
+    surface.inputs["Metallic"].default_value = images.metallic
+    surface.inputs["Coat Weight"].default_value = images.coat
+    surface.inputs["Coat Roughness"].default_value = images.coat_roughness
+    surface.inputs["Sheen Weight"].default_value = images.haze
+    return material
+
+
+def _linear(colour: Rgb) -> tuple[float, float, float, float]:
+    """Levels as shares of linear light, which is how the published set-up reads them: the colours come out pastel."""
+    red, green, blue = (level / 255.0 for level in colour)
+    return (red, green, blue, 1.0)

@@ -1,0 +1,31 @@
+"""Blender's camera, set to be the one that the masks are drawn for."""
+
+import bpy
+from mathutils import Matrix
+
+from blend import names
+from farm.lens import SENSOR_MM
+from farm.photograph import Camera
+from worker.camera.view import View
+
+
+def set_camera(camera: Camera) -> None:
+    """Stand and look as drawn, whatever the template's does; distortion is left to the development."""
+    view = View.of(camera, 1)
+    camera_object = bpy.data.objects[names.CAMERA]
+    camera_object.location = view.position_m
+    camera_object.rotation_mode = "XYZ"
+    camera_object.rotation_euler = Matrix(view.rotation.tolist()).to_euler("XYZ")
+    camera_object.scale = (1.0, 1.0, 1.0)
+    data = camera_object.data
+    data.type = "PERSP"
+    data.lens, data.sensor_width, data.sensor_fit = camera.focal_length_mm, SENSOR_MM, "HORIZONTAL"
+    data.shift_x = data.shift_y = 0.0
+    data.dof.focus_distance = view.focus_m
+    data.dof.aperture_fstop = camera.f_number
+
+
+def has_round_aperture() -> bool:
+    """Whether the template's lens blurs with a disc, as the farm's own does."""
+    dof = bpy.data.objects[names.CAMERA].data.dof
+    return bool(dof.use_dof and dof.focus_object is None and dof.aperture_blades < 3 and dof.aperture_ratio == 1.0)

@@ -1,0 +1,177 @@
+"""Clutter put into the open template's picture: sheets, sticks and parts, all of them gone before the next picture."""
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from blend import names
+from blend.nodes import add_node, link
+from farm.clutter import Part, Sheet, Stick
+from farm.looks import Rgb
+from farm.scene import Scene
+from worker.blender.image_cache import ImageShelf
+from worker.camera.view import View
+from worker.clutter.fit import parts_that_fit
+from worker.clutter.parts import part_solid
+from worker.clutter.print import Print
+from worker.clutter.sheet import print_sheet, sheet_corners
+from worker.clutter.solid import Finish, Solid
+from worker.clutter.sticks import placed_on, stick_solid
+from worker.colour import light_of
+from worker.curves import Points
+
+PREFIX = "clutter"
+
+LOWEST_SHEET_M = 20e-6
+SHEET_STEP_M = 10e-6
+"""Sheets lie so high, each above those before: far less than a pixel, yet enough for rays to tell them apart."""
+
+
+def add_clutter(scene: Scene, sticks_m: tuple[Points, ...], curves: list[Points], shelf: ImageShelf) -> None:
+    """Add what lies about on the floor.
+
+    A scene without a visible floor gets none.
+
+    Args:
+        scene: what was drawn.
+        sticks_m: nodes (N, 3) of the settled sticks' axes; none where the simulator has none.
+        curves: the cables' settled centrelines (N, 3), which parts must not touch.
+        shelf: keeps the sheets' images until the next picture.
+    """
+    remove_clutter()
+    if scene.floor is None:
+        return
+    for number, sheet in enumerate(scene.sheets):
+        _add_sheet(f"{PREFIX}.sheet.{number}", sheet, LOWEST_SHEET_M + number * SHEET_STEP_M, shelf)
+    sticks = scene.sticks[: len(sticks_m)]
+    for number, (stick, nodes) in enumerate(zip(sticks, sticks_m, strict=True)):
+        _add_stick(f"{PREFIX}.stick.{number}", stick, nodes)
+    diameters = [*(cable.diameter_m for cable in scene.cables), *(stick.diameter_m for stick in sticks)]
+    slope = View.of(scene.camera, 1).steepest_slope
+    kept = parts_that_fit(scene.parts, [*curves, *sticks_m], np.array(diameters) / 2, slope)
+    for number, part in enumerate(kept):
+        _add_part(f"{PREFIX}.part.{number}", part)
+
+
+def remove_clutter() -> None:
+    """Remove that of the picture before."""
+    for collection in (bpy.data.objects, bpy.data.meshes, bpy.data.materials):
+        for block in [block for block in collection if block.name.startswith(f"{PREFIX}.")]:
+            collection.remove(block)
+
+
+def _add_stick(name: str, stick: Stick, nodes: Points) -> None:
+    solid, finishes = stick_solid(stick)
+    axes, origin = placed_on(nodes)
+    placed = solid.turned(axes).moved(origin)
+    # Grain is to run along the stick, so it is looked up where the stick was turned.
+    _add_solid(name, placed, solid, finishes, stick.pattern_seed)
+
+
+def _add_part(name: str, part: Part) -> None:
+    solid, finishes = part_solid(part)
+    turn = np.radians(part.rotation_deg)
+    cosine, sine = np.cos(turn), np.sin(turn)
+    rotation = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    _add_solid(name, solid.turned(rotation).moved((part.x_m, part.y_m, 0.0)), solid, finishes, part.pattern_seed)
+
+
+def _add_solid(name: str, placed: Solid, local: Solid, finishes: tuple[Finish, ...], seed: int) -> None:
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(len(placed.vertices_m))
+    mesh.vertices.foreach_set("co", placed.vertices_m.astype(np.float32).ravel())
+    mesh.loops.add(len(placed.corners))
+    mesh.loops.foreach_set("vertex_index", placed.corners.astype(np.int32))
+    mesh.polygons.add(len(placed.sizes))
+    mesh.polygons.foreach_set("loop_start", (np.cumsum(placed.sizes) - placed.sizes).astype(np.int32))
+    mesh.polygons.foreach_set("material_index", placed.finishes.astype(np.int32))
+    mesh.attributes.new("sharp_face", "BOOLEAN", "FACE").data.foreach_set("value", ~placed.smooth)
+    grain = mesh.attributes.new("grain", "FLOAT_VECTOR", "POINT")
+    grain.data.foreach_set("vector", local.vertices_m.astype(np.float32).ravel())
+    mesh.update(calc_edges=True)
+    for number, finish in enumerate(finishes):
+        mesh.materials.append(_solid_material(f"{name}.{number}", finish, seed))
+    bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
+
+
+def _solid_material(name: str, finish: Finish, seed: int) -> Any:
+    """Principled, its colour and roughness varied by noise: nothing that was ever touched is the same all over."""
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    place = add_node(tree, "ShaderNodeAttribute", "grain", (-900, 0), attribute_name="grain")
+    mapping = add_node(tree, "ShaderNodeMapping", "stretch", (-700, 0))
+    per_m = 1 / finish.grain_m
+    mapping.inputs["Scale"].default_value = (per_m / finish.streaks, per_m, per_m)
+    mapping.inputs["Location"].default_value = (seed % 97, seed % 89, seed % 83)
+    noise = add_node(tree, "ShaderNodeTexNoise", "mottle", (-500, 0))
+    noise.inputs["Scale"].default_value = 1.0
+    noise.inputs["Detail"].default_value = 4.0
+    surface = add_node(tree, "ShaderNodeBsdfPrincipled", "surface", (0, 0))
+    output = add_node(tree, "ShaderNodeOutputMaterial", "output", (300, 0))
+    colour = add_node(tree, "ShaderNodeMix", "colour", (-200, 150), data_type="RGBA")
+    base = np.array(_linear(finish.colour)[:3])
+    for slot, factor in (("A", 1 - finish.mottle), ("B", 1 + 0.5 * finish.mottle)):
+        tint = (*np.minimum(base * factor, 1.0).tolist(), 1.0)
+        next(i for i in colour.inputs if i.name == slot and i.type == "RGBA").default_value = tint
+    gloss = add_node(tree, "ShaderNodeMapRange", "gloss", (-200, -150))
+    gloss.inputs["From Min"].default_value, gloss.inputs["From Max"].default_value = 0.3, 0.7
+    gloss.inputs["To Min"].default_value = 0.8 * finish.roughness
+    gloss.inputs["To Max"].default_value = min(1.3 * finish.roughness, 1.0)
+    link(tree, place, "Vector", mapping, "Vector")
+    link(tree, mapping, "Vector", noise, "Vector")
+    link(tree, noise, "Fac", colour, 0)
+    link(tree, noise, "Fac", gloss, "Value")
+    tree.links.new(next(o for o in colour.outputs if o.type == "RGBA"), surface.inputs["Base Color"])
+    link(tree, gloss, "Result", surface, "Roughness")
+    surface.inputs["Metallic"].default_value = finish.metallic
+    surface.inputs["Coat Weight"].default_value = finish.coat
+    surface.inputs["Coat Roughness"].default_value = 0.12
+    link(tree, surface, "BSDF", output, "Surface")
+    return material
+
+
+def _add_sheet(name: str, sheet: Sheet, height_m: float, shelf: ImageShelf) -> None:
+    drawn = print_sheet(sheet)
+    mesh = bpy.data.meshes.new(name)
+    corners = sheet_corners(sheet, drawn.margin_m)
+    mesh.from_pydata([(float(x), float(y), height_m) for x, y in corners], [], [(0, 1, 2, 3)])
+    mesh.uv_layers.new(name="print").uv.foreach_set("vector", np.array([0, 0, 1, 0, 1, 1, 0, 1], np.float32))
+    mesh.materials.append(_sheet_material(name, drawn, shelf))
+    bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
+
+
+def _sheet_material(name: str, drawn: Print, shelf: ImageShelf) -> Any:
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    surface = add_node(tree, "ShaderNodeBsdfPrincipled", "surface", (0, 0))
+    output = add_node(tree, "ShaderNodeOutputMaterial", "output", (300, 0))
+    surface.inputs["Metallic"].default_value = drawn.metallic
+    surface.inputs["Specular IOR Level"].default_value = drawn.specular
+    colour = add_node(tree, "ShaderNodeTexImage", "colour", (-600, 300), extension="EXTEND")
+    colour.image = shelf.drawn(f"{name}.colour", drawn.colour, colour=True)
+    link(tree, colour, "Color", surface, "Base Color")
+    roughness = add_node(tree, "ShaderNodeTexImage", "roughness", (-600, 0), extension="EXTEND")
+    roughness.image = shelf.drawn(f"{name}.roughness", drawn.roughness, colour=False)
+    link(tree, roughness, "Color", surface, "Roughness")
+    if drawn.normal is not None:
+        relief = add_node(tree, "ShaderNodeTexImage", "relief", (-600, -300), extension="EXTEND")
+        relief.image = shelf.drawn(f"{name}.normal", drawn.normal, colour=False)
+        bump = add_node(tree, "ShaderNodeNormalMap", "normal map", (-300, -300))
+        link(tree, relief, "Color", bump, "Color")
+        link(tree, bump, "Normal", surface, "Normal")
+    if drawn.alpha is not None:
+        alpha = add_node(tree, "ShaderNodeTexImage", "alpha", (-600, -600), extension="EXTEND")
+        alpha.image = shelf.drawn(f"{name}.alpha", drawn.alpha, colour=False)
+        link(tree, alpha, "Color", surface, "Alpha")
+    link(tree, surface, "BSDF", output, "Surface")
+    return material
+
+
+def _linear(colour: Rgb) -> tuple[float, float, float, float]:
+    red, green, blue = (float(light) for light in light_of(np.array(colour, np.uint8)))
+    return red, green, blue, 1.0

@@ -1,0 +1,253 @@
+"""The images that a process holds: each file read once, the least used let go when there are too many."""
+
+from collections import OrderedDict
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from assets.files import read_bounded
+from assets.plates import decode_plate
+from farm.errors import AssetError
+from worker.colour import Texels
+from worker.floor.window import TextureWindow
+
+Pixels = NDArray[np.uint8] | NDArray[np.float32]
+
+_FLOAT_SUFFIXES = frozenset({".exr", ".hdr"})
+
+_IN_USE = 6
+"""A picture needs six images of files at most; those stay, however large."""
+
+
+@dataclass(frozen=True, slots=True)
+class TextureFile:
+    """A floor's map in a file, and how to read it.
+
+    Attributes:
+        colour: sRGB, as against plain numbers.
+        invert: turn glossiness into roughness.
+        flip_green: turn a normal map from DirectX to OpenGL convention.
+    """
+
+    path: Path
+    colour: bool = False
+    invert: bool = False
+    flip_green: bool = False
+
+
+class ImageShelf:
+    """Images by file, up to a number of bytes in all.
+
+    Args:
+        capacity_bytes: of what is kept for later pictures.
+    """
+
+    def __init__(self, capacity_bytes: int = 2**30) -> None:
+        self._capacity_bytes = capacity_bytes
+        self._held: OrderedDict[tuple[object, ...], tuple[Any, int]] = OrderedDict()
+        self._constants: dict[str, Any] = {}
+        self._of_picture: list[Any] = []
+        self._scratch = np.empty(0, np.float32)
+
+    def begin_picture(self) -> None:
+        """Let go what was made for the picture before alone."""
+        for image in self._of_picture:
+            bpy.data.images.remove(image)
+        self._of_picture.clear()
+
+    def forget(self) -> None:
+        """Let go all that is kept for later pictures."""
+        while self._held:
+            _release(self._held.popitem()[1][0])
+
+    def panorama(self, path: Path) -> Any:
+        """An HDRI as a Blender image.
+
+        Raises:
+            AssetError: if Blender can't read it.
+        """
+        return self._hold((str(path), "panorama"), lambda: _sized(_load(path)))
+
+    def radiance(self, path: Path) -> NDArray[np.float32]:
+        """An HDRI as (H, W, 3) linear light, the top row first; don't write to it.
+
+        Raises:
+            AssetError: if Blender can't read it.
+        """
+
+        def read() -> tuple[NDArray[np.float32], int]:
+            image = _load(path)
+            pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
+            image.pixels.foreach_get(pixels)
+            rgb = np.ascontiguousarray(pixels.reshape(image.size[1], image.size[0], 4)[::-1, :, :3])
+            bpy.data.images.remove(image)
+            return rgb, rgb.nbytes
+
+        light: NDArray[np.float32] = self._hold((str(path), "radiance"), read)
+        return light
+
+    def photograph(self, path: Path) -> NDArray[np.uint8]:
+        """A photograph as (H, W, 3) sRGB, the top row first; don't write to it.
+
+        Raises:
+            AssetError: if it can't be decoded.
+        """
+
+        def read() -> tuple[NDArray[np.uint8], int]:
+            pixels = decode_plate(path, read_bounded(path))
+            return pixels, pixels.nbytes
+
+        pixels: NDArray[np.uint8] = self._hold((str(path), "photograph"), read)
+        return pixels
+
+    def texels(self, file: TextureFile, *, reduced: bool = False) -> Texels | None:
+        """A map's texels, (H, W) or (H, W, 3) with red first, the top row first; don't write to them.
+
+        Args:
+            file: of the map.
+            reduced: take what has 16 bits, or alpha, without them.
+
+        Returns:
+            None if the file is none of grey or RGB with 8 bits a channel.
+
+        Raises:
+            AssetError: if it can't be read.
+        """
+        if file.path.suffix.lower() in _FLOAT_SUFFIXES:
+            return None
+        texels: Texels | None = self._hold((str(file.path), file, reduced), lambda: _decode(file, reduced=reduced))
+        return texels
+
+    def whole(self, file: TextureFile) -> Any:
+        """A map as a Blender image, read by Blender.
+
+        Raises:
+            AssetError: if Blender can't read it.
+        """
+
+        def read() -> tuple[Any, int]:
+            image = _load(file.path)
+            if file.path.suffix.lower() not in _FLOAT_SUFFIXES:
+                image.colorspace_settings.name = "sRGB" if file.colour else "Non-Color"
+            if file.invert or file.flip_green:
+                pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
+                image.pixels.foreach_get(pixels)
+                _alter(pixels.reshape(1, -1, 4), 1.0, invert=file.invert, flip_green=file.flip_green)
+                image.pixels.foreach_set(pixels)
+                image.update()
+            return _sized(image)
+
+        return self._hold((str(file.path), ("whole", file)), read)
+
+    def window(self, file: TextureFile, texels: Texels, window: TextureWindow) -> Any:
+        """A part of a map as a Blender image, for this picture alone."""
+        part = window.cut(texels, colour=file.colour)
+        return self._new(file.path.name, part, colour=file.colour)
+
+    def drawn(self, name: str, texels: Texels, *, colour: bool) -> Any:
+        """Texels (H, W) or (H, W, 3) as a Blender image, for this picture alone."""
+        return self._new(name, texels, colour=colour)
+
+    def light(self, name: str, radiance: NDArray[np.float32]) -> Any:
+        """A panorama (H, W, 3) of linear light, the top row first, as a Blender image for this picture alone."""
+        return self._new(name, radiance, colour=True)
+
+    def made(self, name: str, pixels: NDArray[np.uint8], *, colour: bool) -> Any:
+        """Pixels (H, W) or (H, W, 3), the top row first, as a Blender image for this picture alone."""
+        return self._new(name, pixels, colour=colour)
+
+    def constant(self, value: float, *, colour: bool = False) -> Any:
+        """An image of one grey value, linear."""
+        return self._constant(f"constant {value:.4f}", (value, value, value), colour=colour)
+
+    def flat_normal(self) -> Any:
+        """A normal map without relief."""
+        return self._constant("flat normal", (0.5, 0.5, 1.0), colour=False)
+
+    def _new(self, name: str, pixels: Pixels, *, colour: bool) -> Any:
+        rows, columns = pixels.shape[:2]
+        is_float = pixels.dtype == np.float32
+        image = bpy.data.images.new(name, columns, rows, float_buffer=is_float, is_data=not colour)
+        # Blender counts rows from below, and takes four channels in single precision whatever it keeps.
+        channels = cv2.cvtColor(pixels[::-1], cv2.COLOR_RGB2RGBA if pixels.ndim == 3 else cv2.COLOR_GRAY2RGBA)
+        if not is_float:
+            channels = np.multiply(channels, np.float32(1 / 255), out=self._scratch_like(channels))
+        image.pixels.foreach_set(channels.ravel())
+        image.update()
+        self._of_picture.append(image)
+        return image
+
+    def _scratch_like(self, array: NDArray[Any]) -> NDArray[np.float32]:
+        """Room in single precision for as many numbers, until the next call: fresh memory costs more than the sums."""
+        if self._scratch.size < array.size:
+            self._scratch = np.empty(array.size, np.float32)
+        room: NDArray[np.float32] = self._scratch[: array.size].reshape(array.shape)
+        return room
+
+    def _constant(self, name: str, value: tuple[float, float, float], *, colour: bool) -> Any:
+        if name not in self._constants:
+            image = bpy.data.images.new(name, 1, 1, float_buffer=True, is_data=not colour)
+            image.pixels[:] = (*value, 1.0)
+            image.use_fake_user = True
+            self._constants[name] = image
+        return self._constants[name]
+
+    def _hold(self, key: tuple[object, ...], read: Any) -> Any:
+        if key in self._held:
+            self._held.move_to_end(key)
+            return self._held[key][0]
+        self._held[key] = read()
+        while len(self._held) > _IN_USE and sum(size for _, size in self._held.values()) > self._capacity_bytes:
+            _release(self._held.popitem(last=False)[1][0])
+        return self._held[key][0]
+
+
+def _release(held: Any) -> None:
+    if isinstance(held, bpy.types.Image):
+        bpy.data.images.remove(held)
+
+
+def _sized(image: Any) -> tuple[Any, int]:
+    """With its bytes: four channels of a byte or a float. Asked once, since asking later decodes the file again."""
+    width, height = image.size
+    return image, int(width * height * 4 * (4 if image.is_float else 1))
+
+
+def _load(path: Path) -> Any:
+    try:
+        image = bpy.data.images.load(str(path), check_existing=False)
+    except RuntimeError as error:
+        raise AssetError(f"{path}: Blender can't read this image") from error
+    if not image.size[0]:
+        bpy.data.images.remove(image)
+        raise AssetError(f"{path}: Blender can't decode this image; replace the file")
+    return image
+
+
+def _decode(file: TextureFile, *, reduced: bool) -> tuple[Texels | None, int]:
+    pixels = cv2.imread(str(file.path), cv2.IMREAD_UNCHANGED)
+    if pixels is None:
+        raise AssetError(f"{file.path}: can't decode this image; replace the file")
+    if reduced and pixels.dtype == np.uint16:
+        pixels = (pixels // 256).astype(np.uint8)
+    if reduced and pixels.ndim == 3 and pixels.shape[2] == 4:
+        pixels = pixels[:, :, :3]
+    if pixels.dtype != np.uint8 or (pixels.ndim == 3 and pixels.shape[2] != 3):
+        return None, 0
+    texels = (cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB) if pixels.ndim == 3 else pixels).astype(np.uint8, copy=False)
+    _alter(texels, 255, invert=file.invert, flip_green=file.flip_green)
+    return texels, texels.nbytes
+
+
+def _alter(pixels: NDArray[Any], most: float, *, invert: bool, flip_green: bool) -> None:
+    """Change pixels (H, W), or (H, W, channels) of which three are colours, from 0 to `most`, in place."""
+    colours = pixels if pixels.ndim == 2 else pixels[..., :3]
+    if invert:
+        colours[...] = most - colours
+    if flip_green and colours.ndim == 3:
+        colours[..., 1] = most - colours[..., 1]

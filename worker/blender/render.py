@@ -1,0 +1,218 @@
+"""Rendering the picture's scene into an array."""
+
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import bpy
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from blend import names
+from farm.errors import RenderError
+from farm.photograph import Development
+from farm.rendering import CyclesSettings, Denoiser, Pattern, PictureSettings
+from farm.scene import Scene
+from worker.backdrop.matte import Backdrop, lay_over
+from worker.backdrop.panorama import Panorama
+from worker.blender.eevee import light_with_a_spot
+from worker.camera.develop import develop
+from worker.camera.distortion import Distortion
+from worker.camera.illuminant import NEUTRAL, illuminant
+
+ADAPTIVE_LEAST_SAMPLES = 4
+"""Taken of every pixel before noise is looked at."""
+
+_NOTHING_WRITTEN = "Blender ended a render without writing a picture; see the worker's log"
+
+
+def configure_picture(resolution: int, threads: int) -> Any:
+    """Set what does not depend on the engine; returns the picture's scene.
+
+    Args:
+        resolution: pixels along an edge.
+        threads: CPU threads; 0 takes all.
+    """
+    scene = bpy.data.scenes[names.PICTURE_SCENE]
+    render = scene.render
+    render.resolution_x = render.resolution_y = resolution
+    render.resolution_percentage = 100
+    render.pixel_aspect_x = render.pixel_aspect_y = 1.0
+    render.use_border = False
+    render.film_transparent = False
+    render.use_compositing = render.use_sequencer = False
+    render.threads_mode = "FIXED" if threads else "AUTO"
+    if threads:
+        render.threads = threads
+    render.dither_intensity = 0.0
+    image = render.image_settings
+    image.file_format, image.color_mode, image.color_depth, image.compression = "PNG", "RGB", "8", 0
+    return scene
+
+
+def configure_eevee(scene: Any, samples: int) -> None:
+    """Render the configured scene with Eevee."""
+    scene.render.engine = "BLENDER_EEVEE_NEXT"
+    scene.eevee.taa_render_samples = samples
+    # Ambient occlusion and bounced light, without which cables under an HDRI seem to float.
+    scene.eevee.use_raytracing = True
+    light_with_a_spot(scene)
+
+
+def configure_cycles(scene: Any, settings: PictureSettings, device: str, seed: int) -> None:
+    """Render the configured scene with Cycles.
+
+    Args:
+        scene: the picture's.
+        settings: are all set, every time.
+        device: as chosen by `worker.devices.choose_device`.
+        seed: of the sampling pattern.
+    """
+    scene.render.engine = "CYCLES"
+    scene.render.use_persistent_data = settings.economy.persistent_data
+    cycles, wanted = scene.cycles, settings.cycles
+    cycles.device = "CPU" if device == "cpu" else "GPU"
+    cycles.seed = seed
+    cycles.sampling_pattern = "TABULATED_SOBOL" if wanted.pattern is Pattern.SOBOL else "BLUE_NOISE"
+    cycles.samples = wanted.samples
+    cycles.time_limit = 0.0
+    cycles.use_adaptive_sampling = wanted.adaptive_threshold > 0
+    cycles.adaptive_threshold = wanted.adaptive_threshold
+    cycles.adaptive_min_samples = ADAPTIVE_LEAST_SAMPLES
+    _limit_paths(cycles, wanted)
+    cycles.use_light_tree = wanted.light_tree
+    _find_bright_parts(scene.world, wanted.world_map_px)
+    cycles.use_denoising = wanted.denoiser is not Denoiser.NONE
+    cycles.denoiser = "OPENIMAGEDENOISE"
+    cycles.denoising_use_gpu = False
+    cycles.denoising_input_passes = {"none": "RGB", "albedo": "RGB_ALBEDO", "albedo_normal": "RGB_ALBEDO_NORMAL"}[
+        wanted.guides
+    ]
+    cycles.denoising_prefilter = wanted.prefilter.upper()
+    if cycles.use_denoising:
+        cycles.denoising_quality = wanted.denoiser.upper()
+
+
+def _limit_paths(cycles: Any, wanted: CyclesSettings) -> None:
+    cycles.max_bounces = wanted.bounces
+    cycles.diffuse_bounces, cycles.glossy_bounces = wanted.diffuse_bounces, wanted.glossy_bounces
+    cycles.transmission_bounces = cycles.transparent_max_bounces = wanted.bounces
+    cycles.volume_bounces = 0
+    cycles.caustics_reflective = cycles.caustics_refractive = wanted.caustics
+    cycles.sample_clamp_direct, cycles.sample_clamp_indirect = 0.0, wanted.clamp_indirect
+
+
+def _find_bright_parts(world: Any, map_px: int) -> None:
+    """Set the map that Cycles makes of the world at each render; its own choice takes 0.8 s for an HDRI of 1,024."""
+    world.cycles.sampling_method = "MANUAL" if map_px else "AUTOMATIC"
+    if map_px:
+        world.cycles.sample_map_resolution = map_px
+
+
+def render_picture(
+    behind: Backdrop | None = None,
+    *,
+    distortion: float = 0.0,
+    development: Development | None = None,
+    lit_by: NDArray[np.float64] = NEUTRAL,
+) -> NDArray[np.uint8]:
+    """Render the picture's scene as configured.
+
+    Args:
+        behind: what is behind all that is rendered; None if the scene has it all.
+        distortion: of the lens, which Blender's has none of; see `farm.photograph.Camera`.
+        development: what the camera makes of the light; None for the scene's view transform.
+        lit_by: colour of the scene's light, (3,), for the development.
+
+    Returns:
+        (H, W, 3) uint8 sRGB.
+
+    Raises:
+        RenderError: if Blender gives no picture.
+    """
+    scene = bpy.data.scenes[names.PICTURE_SCENE]
+    with tempfile.TemporaryDirectory(prefix="cable-farm-") as folder:
+        if behind is None and distortion == 0.0 and development is None:
+            target = Path(folder) / "picture.png"
+            _render_into(scene, target)
+            return _read(target)
+        light = _render_light(scene, behind, Path(folder))
+        if development is not None:
+            return develop(light, development, distortion=distortion, lit_by=lit_by)
+        return _view(scene, Distortion(distortion).distort(light), Path(folder))
+
+
+def render_scene(drawn: Scene, behind: Backdrop | None) -> NDArray[np.uint8]:
+    """Render a realized scene as its own camera takes it; see `render_picture`."""
+    return render_picture(
+        behind,
+        distortion=drawn.camera.distortion,
+        development=drawn.development,
+        lit_by=illuminant(drawn.lamps, drawn.grey_world),
+    )
+
+
+def _render_into(scene: Any, target: Path) -> None:
+    scene.render.filepath = str(target)
+    try:
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+    except RuntimeError as error:
+        raise RenderError(f"Blender failed to render: {' '.join(str(error).split())}") from error
+
+
+def _render_light(scene: Any, behind: Backdrop | None, folder: Path) -> Panorama:
+    """Render linear light (H, W, 3), with what is behind laid behind; the world is left out then."""
+    target = folder / "light.exr"
+    settings = scene.render.image_settings
+    scene.render.film_transparent = behind is not None
+    settings.file_format, settings.color_mode, settings.color_depth, settings.exr_codec = (
+        "OPEN_EXR",
+        "RGBA",
+        "32",
+        "NONE",
+    )
+    try:
+        _render_into(scene, target)
+    finally:
+        scene.render.film_transparent = False
+        settings.file_format, settings.color_mode, settings.color_depth, settings.compression = "PNG", "RGB", "8", 0
+    light = _pixels(target)
+    if behind is None:
+        return light
+    if light.shape[:2] != behind.covered.shape:
+        raise RenderError(_NOTHING_WRITTEN)
+    return lay_over(light, behind)
+
+
+def _pixels(path: Path) -> Panorama:
+    image = bpy.data.images.load(str(path))
+    try:
+        columns, rows = image.size
+        if not columns:
+            raise RenderError(_NOTHING_WRITTEN)
+        pixels = np.empty(rows * columns * 4, np.float32)
+        image.pixels.foreach_get(pixels)
+    finally:
+        bpy.data.images.remove(image)
+    return np.ascontiguousarray(pixels.reshape(rows, columns, 4)[::-1, :, :3])  # Blender's rows go up
+
+
+def _view(scene: Any, light: Panorama, folder: Path) -> NDArray[np.uint8]:
+    """Light through the scene's view transform."""
+    target = folder / "picture.png"
+    rows, columns = light.shape[:2]
+    image = bpy.data.images.new("light", columns, rows, float_buffer=True)
+    try:
+        image.pixels.foreach_set(cv2.cvtColor(np.ascontiguousarray(light[::-1]), cv2.COLOR_RGB2RGBA).ravel())
+        image.save_render(str(target), scene=scene)
+    finally:
+        bpy.data.images.remove(image)
+    return _read(target)
+
+
+def _read(path: Path) -> NDArray[np.uint8]:
+    pixels = cv2.imread(str(path), cv2.IMREAD_COLOR)
+    if pixels is None:
+        raise RenderError(_NOTHING_WRITTEN)
+    return cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB).astype(np.uint8, copy=False)

@@ -1,0 +1,1 @@
+"""What is seen of a cable: pieces of geometry, and the images that lie on them."""

@@ -1,0 +1,195 @@
+"""A settled scene's cables in pieces: what is rendered, labelled and counted as covering. Pure numpy.
+
+A cable is a sheath and what comes out of it at its ends; a bundle is its strands, each as a cable, and the ties around
+them. The same pieces make the picture and its masks.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from farm.looks import Bundle, CableEnd, EndKind, Skin
+from farm.scene import Cable, Scene
+from worker.cable.piece import Piece, Plain, Substance, Surface, Tubular
+from worker.cable.strands import places, strand_radius, turning
+from worker.cable.tie import is_clear, solids_of
+from worker.curves import Points
+
+_CONDUCTOR = 0.55
+"""Radius of a conductor over that of its sheath: 1.0 of 1.8 mm, say."""
+
+_COLLAR_M = 0.006
+_COLLAR_SHARE = 0.6
+"""A ferrule's collar is as long as this, or as this share of the whole ferrule."""
+
+_TUBE = 0.6
+"""Radius of a ferrule's metal tube over that of the sheath."""
+
+_MOST_BARE = 0.4
+"""Share of a cable's length that an end may bare."""
+
+_FINE_LAY = 14.0
+"""Length of a turn of a conductor's fine strands over its diameter: 10 to 16 in flexible wires."""
+
+_SHIFTS_M = tuple(sign * step / 1000 for step in range(0, 61, 4) for sign in (1, -1))
+"""By which a tie is moved along its bundle, tried one after the other, to keep clear of other cables and of sticks."""
+
+_COPPER = (184, 115, 81)
+_TIN = (190, 190, 186)
+
+_GOLDEN = 0.618034
+
+
+@dataclass(frozen=True, slots=True)
+class _Strand:
+    """A cable, or one of a bundle's.
+
+    Attributes:
+        curve: (N, 3) all along the cable.
+        cut_m: by how much it is shorter than the cable at either end.
+    """
+
+    instance: int
+    curve: Points
+    radius_m: float
+    surface: Surface
+    cut_m: tuple[float, float]
+
+
+def instance_count(scene: Scene) -> int:
+    """How many instances a scene has: its cables, and of bundles every strand."""
+    return sum(len(cable.material.strands) if isinstance(cable.material, Bundle) else 1 for cable in scene.cables)
+
+
+def pieces_of(scene: Scene, curves: Sequence[Points], sticks_m: Sequence[Points]) -> list[Piece]:
+    """Take a settled scene's cables to pieces.
+
+    Args:
+        scene: what was drawn.
+        curves: the settled centrelines, finely sampled (N, 3), metres, one for each cable.
+        sticks_m: nodes (N, 3) of the settled sticks' axes; none where the simulator has none.
+
+    Returns:
+        The pieces. Instances count from 1, cable by cable and strand by strand; ties are occluders. The fall knows
+        nothing of ties: one that would cut another cable or a stick is moved along its bundle, or left out if there
+        is no room.
+    """
+    sticks = [
+        (_dense(axis), stick.diameter_m / 2)
+        for stick, axis in zip(scene.sticks[: len(sticks_m)], sticks_m, strict=True)
+    ]
+    pieces: list[Piece] = []
+    instance = 1
+    for number, (cable, curve) in enumerate(zip(scene.cables, curves, strict=True)):
+        if isinstance(cable.material, Bundle):
+            others = [(curves[k], scene.cables[k].diameter_m / 2) for k in range(len(curves)) if k != number]
+            pieces += _bundle(cable, cable.material, curve, [*others, *sticks], instance)
+            instance += len(cable.material.strands)
+        else:
+            strand = _Strand(instance, curve, cable.diameter_m / 2, cable.material, (0.0, 0.0))
+            pieces += _with_ends(strand, cable)
+            instance += 1
+    return pieces
+
+
+def _dense(axis: Points) -> Points:
+    """A stick's axis (N, 3) at a millimetre's spacing or less."""
+    points = round(float(np.linalg.norm(axis[-1] - axis[0])) / 0.001) + 2
+    share: NDArray[np.float64] = np.linspace(0.0, 1.0, points)[:, None]
+    dense: Points = axis[0] + share * (axis[-1] - axis[0])
+    return dense
+
+
+def _bundle(
+    cable: Cable, bundle: Bundle, curve: Points, others: Sequence[tuple[Points, float]], instance: int
+) -> list[Piece]:
+    count = len(bundle.strands)
+    wanted_m, envelope_m = bundle.strand_diameter_m / 2, cable.diameter_m / 2
+    radius_m = strand_radius(count, wanted_m, envelope_m, bundle.lay_m)
+    offsets_m = places(count) * strand_radius(count, wanted_m, envelope_m, 0.0)
+    arc = np.linspace(0.0, cable.length_m, len(curve))
+    lines = turning(curve, offsets_m, arc, bundle.lay_m, bundle.phase_deg)
+    pieces: list[Piece] = []
+    for number, (line, skin) in enumerate(zip(lines, bundle.strands, strict=True)):
+        cut_m = (_uneven(skin, number, 0) * 3 * radius_m, _uneven(skin, number, 1) * 3 * radius_m)
+        pieces += _with_ends(_Strand(instance + number, line, radius_m, skin, cut_m), cable)
+    taken = list(others)
+    for tie in bundle.ties:
+        for shift_m in _SHIFTS_M:
+            moved = tie.model_copy(update={"along": tie.along + shift_m / cable.length_m})
+            solids = solids_of(
+                moved, curve, cable.length_m, offsets_m, radius_m, lay_m=bundle.lay_m, phase_deg=bundle.phase_deg
+            )
+            if all(is_clear(solids, other, thick_m) for other, thick_m in taken):
+                pieces += solids
+                taken.append((solids[0].rings.mean(axis=(0, 1))[None], tie.width_m))
+                break
+    return pieces
+
+
+def _uneven(skin: Skin, number: int, end: int) -> float:
+    """A share from 0 to 1 that differs from strand to strand."""
+    return (_GOLDEN * (skin.pattern_seed % 9973 + 3 * number + 11 * end)) % 1.0
+
+
+def _with_ends(strand: _Strand, cable: Cable) -> list[Piece]:
+    length_m = cable.length_m
+    bare_m = [
+        0.0 if end.kind is EndKind.CUT else min(end.bare_m, _MOST_BARE * length_m - cut)
+        for end, cut in zip(cable.ends, strand.cut_m, strict=True)
+    ]
+    first_m, last_m = strand.cut_m[0], length_m - strand.cut_m[1]
+    pieces: list[Piece] = [_stretch(strand, length_m, first_m + bare_m[0], last_m - bare_m[1])]
+    if bare_m[0] > 0:
+        pieces += _end(strand, length_m, cable.ends[0], first_m + bare_m[0], first_m)
+    if bare_m[1] > 0:
+        pieces += _end(strand, length_m, cable.ends[1], last_m - bare_m[1], last_m)
+    return pieces
+
+
+def _stretch(strand: _Strand, length_m: float, start_m: float, end_m: float) -> Tubular:
+    """The sheath between two places along the cable."""
+    whole = start_m == 0.0 and end_m == length_m
+    curve = strand.curve if whole else _between(strand.curve, length_m, start_m, end_m)
+    return Tubular(strand.instance, curve, strand.radius_m, start_m, end_m, length_m, strand.surface)
+
+
+def _end(strand: _Strand, length_m: float, end: CableEnd, from_m: float, to_m: float) -> list[Piece]:
+    """What comes out of the sheath at `from_m` and ends at `to_m`."""
+    if end.kind is EndKind.FERRULE:
+        return _ferrule(strand, length_m, end, from_m, to_m)
+    curve = _between(strand.curve, length_m, from_m, to_m)
+    fine_m = _CONDUCTOR * strand.radius_m / 3
+    reach = np.linspace(0.0, 1.0, len(curve))
+    # Cut strands spring apart, more towards the tip and each by its own, within the sheath's width.
+    spread = np.array([0.75 * ((_GOLDEN * (strand.instance + 3 * k)) % 1.0) for k in range(7)])
+    widths = 1.0 + spread[:, None] * reach**1.5
+    offsets_m = fine_m * places(7)[:, None] * widths[..., None]
+    arc = np.linspace(0.0, abs(to_m - from_m), len(curve))
+    lines = turning(curve, offsets_m, arc, 6 * _FINE_LAY * fine_m, 40.0 * strand.instance)
+    copper = Plain(Substance.COPPER, _COPPER)
+    return [Tubular(strand.instance, line, fine_m, from_m, to_m, length_m, copper) for line in lines]
+
+
+def _ferrule(strand: _Strand, length_m: float, end: CableEnd, from_m: float, to_m: float) -> list[Piece]:
+    """A collar that narrows towards the metal tube."""
+    bare_m = abs(to_m - from_m)
+    waist_m = from_m + min(_COLLAR_M, _COLLAR_SHARE * bare_m) * np.sign(to_m - from_m)
+    collar = _between(strand.curve, length_m, from_m, waist_m)
+    tube = _between(strand.curve, length_m, waist_m, to_m)
+    narrowing = np.interp(np.linspace(0, 1, len(collar)), [0.0, 0.1, 0.55, 0.9, 1.0], [0.94, 1.0, 0.97, 0.8, 0.72])
+    plastic, tin = Plain(Substance.PLASTIC, end.collar), Plain(Substance.TIN, _TIN)
+    return [
+        Tubular(strand.instance, collar, strand.radius_m * narrowing, from_m, waist_m, length_m, plastic),
+        Tubular(strand.instance, tube, _TUBE * strand.radius_m, waist_m, to_m, length_m, tin),
+    ]
+
+
+def _between(curve: Points, length_m: float, start_m: float, end_m: float) -> Points:
+    """The curve between two places along it, in that order, at about its own spacing but at no fewer than 9 points."""
+    points = max(9, round(abs(end_m - start_m) / length_m * (len(curve) - 1)) + 1)
+    knots = np.linspace(0.0, length_m, len(curve))
+    wanted: NDArray[np.float64] = np.linspace(start_m, end_m, points)
+    return np.stack([np.interp(wanted, knots, curve[:, axis]) for axis in range(3)], axis=1)

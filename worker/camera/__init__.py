@@ -1,0 +1,1 @@
+"""The camera: its view, its distortion, and the development from linear light to levels."""

@@ -1,0 +1,86 @@
+"""What a floor has been through, laid over the texels that the camera sees. Numpy and OpenCV."""
+
+import cv2
+import numpy as np
+
+from farm.scene import Wear
+from worker.colour import Texels, levels_of, light_of
+from worker.floor.marks import Marks
+from worker.noise import Field
+
+STAIN_LEAVES = (0.58, 0.50, 0.40)
+"""Of red, green and blue light, where a puddle's rim was thickest."""
+
+DUST_COLOUR = (0.44, 0.40, 0.34)
+"""Of house dust, linear."""
+
+DUST_COVERS = 0.42
+DUST_ROUGHNESS = 0.85
+
+FILL_ROUGHNESS = 0.9
+"""Of grout, sand and dirt."""
+
+LUMA = np.array([0.2126, 0.7152, 0.0722], np.float32)
+
+
+def worn_colour(texels: Texels, wear: Wear, marks: Marks) -> Texels:
+    """A window's colour after all that.
+
+    Args:
+        texels: (H, W, 3) sRGB levels, or (H, W) where they are grey.
+        wear: brightness, tint, saturation, and contrast about the window's mean.
+        marks: on the window.
+
+    Returns:
+        (H, W, 3) sRGB levels.
+    """
+    coloured = texels if texels.ndim == 3 else np.repeat(texels[:, :, None], 3, axis=2)
+    mean = light_of(coloured[::4, ::4]).mean(axis=(0, 1), dtype=np.float64)
+    grey = LUMA[None, :] * np.ones((3, 1))
+    mix = wear.saturation * np.eye(3) + (1 - wear.saturation) * grey
+    gain = wear.brightness * np.array(wear.tint)[:, None]
+    # colour = gain * (mean + contrast * (mix light - mix mean)), one matrix with an offset.
+    matrix = np.hstack([gain * wear.contrast * mix, gain * ((1 - wear.contrast) * mix @ mean)[:, None]])
+    light: Field = cv2.transform(light_of(coloured), matrix.astype(np.float32)).astype(np.float32, copy=False)
+    if marks.joint is not None and wear.joints is not None:
+        for channel, albedo in enumerate(wear.joints.albedo):
+            light[:, :, channel] += marks.joint * (np.float32(albedo) - light[:, :, channel])
+    if marks.stain is not None:
+        for channel, left in enumerate(STAIN_LEAVES):
+            light[:, :, channel] *= 1 - np.float32(1 - left) * marks.stain
+    if marks.scratch is not None:
+        light *= (1 + 0.9 * marks.scratch)[:, :, None]
+        light += (0.1 * np.maximum(marks.scratch, 0))[:, :, None]
+    if marks.dust is not None:
+        cover = np.float32(DUST_COVERS) * marks.dust
+        for channel, dust in enumerate(DUST_COLOUR):
+            light[:, :, channel] += cover * (np.float32(dust) - light[:, :, channel])
+    return levels_of(light)
+
+
+def worn_roughness(texels: Texels, marks: Marks) -> Texels:
+    """A window's roughness (H, W): puddles dry smoother at times; scratches, dust and filled joints are rough."""
+    rough = (texels if texels.ndim == 2 else texels[:, :, 0]).astype(np.float32)
+    if marks.joint is not None:
+        rough += marks.joint * (255 * np.float32(FILL_ROUGHNESS) - rough)
+    if marks.stain is not None:
+        rough *= 1 - 0.15 * marks.stain
+    if marks.scratch is not None:
+        rough += 60 * np.abs(marks.scratch)
+    if marks.dust is not None:
+        rough += marks.dust * (255 * np.float32(DUST_ROUGHNESS) - rough)
+    return _rounded(rough)
+
+
+def turned_over(texels: Texels, *, normal: bool) -> Texels:
+    """A tile's texels with left and right swapped; a normal map's slopes swap theirs too."""
+    turned = texels[:, ::-1]
+    if normal and turned.ndim == 3:
+        turned = turned.copy()
+        turned[:, :, 0] = 255 - turned[:, :, 0]
+    return turned
+
+
+def _rounded(values: Field) -> Texels:
+    texels: Texels = np.clip(values + np.float32(0.5), 0, 255).astype(np.uint8)
+    return texels

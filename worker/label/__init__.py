@@ -1,0 +1,1 @@
+"""Labels from the geometry itself: silhouettes, and the share of each pixel that they cover."""

@@ -1,0 +1,69 @@
+"""Masks from the geometry itself: the silhouettes of the rendered tubes, drawn from far to near. Pure numpy.
+
+The camera is taken as a pinhole in the middle of the lens. Opposite points of the lens see an edge moved to opposite
+sides by the same, so that depth of field leaves its half-way line, and with it the mask, where the pinhole sees it.
+What is left out: blur fills narrow gaps, of a pixel or so, between cables well above the floor, where the focus is.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from farm.rendering import CableDetail
+from farm.scene import Scene
+from worker.cable.piece import Piece
+from worker.cable.pieces import pieces_of
+from worker.camera.view import View
+from worker.curves import smooth
+from worker.label.coverage import cover
+from worker.label.occluders import hiding_pieces
+from worker.label.silhouette import silhouettes
+from worker.simulate.shapes import CableShapes
+
+
+@dataclass(frozen=True, slots=True)
+class Labels:
+    """Labels of one picture.
+
+    Attributes:
+        mask: (H, W) uint8: 255 where what is seen of cables covers at least half of the pixel, else 0.
+        instances: (H, W) uint16: in the mask, the instance that covers most of it; else 0.
+    """
+
+    mask: NDArray[np.uint8]
+    instances: NDArray[np.uint16]
+
+
+def label_scene(scene: Scene, shapes: CableShapes, detail: CableDetail, resolution: int) -> Labels:
+    """Label a settled scene's cables as they are rendered.
+
+    Args:
+        scene: what was drawn.
+        shapes: it settled.
+        detail: how finely cables are modelled.
+        resolution: pixels along an edge of the picture.
+    """
+    curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
+    pieces = [*pieces_of(scene, curves, shapes.sticks_m), *hiding_pieces(scene, shapes)]
+    return label_cables(pieces, View.of(scene.camera, resolution), detail.sides)
+
+
+def label_cables(pieces: Sequence[Piece], view: View, sides: int) -> Labels:
+    """Label a picture.
+
+    Args:
+        pieces: of the cables, and what hides them.
+        view: the camera.
+        sides: corners of the rendered tubes' cross-section, an even number; 20 are up to 0.6 % wider or narrower than
+            a circle.
+
+    Returns:
+        The binary mask and the instances.
+    """
+    seen = silhouettes(pieces, view, sides)
+    labels = np.zeros((view.resolution, view.resolution), np.uint16)
+    for rows, quads, instances in seen.bands(view):
+        labels[rows] = cover(quads, instances, rows.stop - rows.start, view.resolution)
+    return Labels(mask=(labels > 0) * np.uint8(255), instances=labels)

@@ -1,1 +1,0 @@
-"""Physics that no simulator takes part in: reference solutions, and the geometry of cables that touch."""

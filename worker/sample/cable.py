@@ -1,0 +1,157 @@
+"""Drawing the cables: how many, how thick and stiff, where they start, and what is seen of them."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from farm.category import Disposition
+from farm.looks import CableMaterial
+from farm.photograph import Camera
+from farm.ranges import BEND_KNOTS, SPACING_DIAMETERS, CableRanges, PlacementRanges, Ranges
+from farm.scene import Cable
+from worker.sample.cable_curve import Course, draw_course
+from worker.sample.cable_kind import CableKind, draw_ends, draw_kinds
+from worker.sample.seeds import Stage, Streams
+from worker.sample.values import rgb, uniform
+
+
+@dataclass(frozen=True, slots=True)
+class Substance:
+    """What one cable is made of, if it were full and round."""
+
+    youngs_modulus_pa: float
+    density_kg_m3: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Placement:
+    """Where one cable starts, in the horizontal plane."""
+
+    x_m: float
+    y_m: float
+    rotation_deg: float
+    bends_per_m: tuple[float, ...]
+
+
+def draw_substances(ranges: CableRanges, count: int, rng: np.random.Generator) -> list[Substance]:
+    """Draw what cables are made of; Young's modulus evenly in its logarithm."""
+    low, high = ranges.youngs_modulus_pa
+    return [
+        Substance(
+            youngs_modulus_pa=float(np.clip(np.exp(rng.uniform(np.log(low), np.log(high))), low, high)),
+            density_kg_m3=uniform(rng, ranges.density_kg_m3),
+        )
+        for _ in range(count)
+    ]
+
+
+def draw_cables(
+    ranges: Ranges,
+    disposition: Disposition,
+    substances: list[Substance],
+    camera: Camera,
+    streams: Streams,
+    *,
+    length_m: tuple[float, float],
+    lowest_m: float,
+) -> tuple[Cable, ...]:
+    """Draw cables that start above each other.
+
+    Args:
+        ranges: of the style.
+        disposition: of the category.
+        substances: of each cable.
+        camera: sets how thick a cable may be.
+        streams: of the job.
+        length_m: range of their lengths.
+        lowest_m: height at which the first starts.
+    """
+    placements = _PLACERS[disposition](ranges.placement, len(substances), streams(Stage.PLACEMENT))
+    material_rng, look_rng = streams(Stage.CABLE_MATERIAL), streams(Stage.LOOK)
+    kinds = draw_kinds(ranges.cable, len(substances), camera, look_rng)
+    cables: list[Cable] = []
+    start = lowest_m
+    for placement, substance, kind in zip(placements, substances, kinds, strict=True):
+        published = _draw_material(ranges.cable, material_rng)
+        length = uniform(look_rng, length_m)
+        course = draw_course(ranges.placement, placement.bends_per_m, length, kind.diameter_m, look_rng)
+        cables.append(_cable(placement, substance, kind, published, course, length, start))
+        cables[-1] = cables[-1].model_copy(
+            update={"ends": draw_ends(ranges.cable.ends, cables[-1].material, kind.diameter_m, look_rng)}
+        )
+        start += max(ranges.placement.spacing_m, course.rise_m + SPACING_DIAMETERS * kind.diameter_m)
+    return tuple(cables)
+
+
+def _cable(
+    placement: _Placement,
+    substance: Substance,
+    kind: CableKind,
+    published: CableMaterial,
+    course: Course,
+    length_m: float,
+    start_m: float,
+) -> Cable:
+    return Cable(
+        diameter_m=kind.diameter_m,
+        length_m=length_m,
+        x_m=placement.x_m,
+        y_m=placement.y_m,
+        start_height_m=start_m,
+        rotation_deg=placement.rotation_deg,
+        bends_per_m=course.bends_per_m,
+        rise_m=course.rise_m,
+        youngs_modulus_pa=substance.youngs_modulus_pa * kind.stiffness_ratio,
+        density_kg_m3=substance.density_kg_m3 * kind.density_ratio,
+        material=kind.look or published,
+    )
+
+
+def _place_free(ranges: PlacementRanges, count: int, rng: np.random.Generator) -> list[_Placement]:
+    return [
+        _Placement(
+            x_m=uniform(rng, ranges.free_x_m),
+            y_m=uniform(rng, ranges.free_y_m),
+            rotation_deg=uniform(rng, ranges.free_rotation_deg),
+            bends_per_m=_bends(ranges, rng),
+        )
+        for _ in range(count)
+    ]
+
+
+def _place_aligned(ranges: PlacementRanges, count: int, rng: np.random.Generator) -> list[_Placement]:
+    """One bearing and one natural bend for the whole bundle; each cable deviates from both a little."""
+    bearing = uniform(rng, ranges.aligned_bearing_deg)
+    common = np.array(_bends(ranges, rng))
+    return [
+        _Placement(
+            x_m=uniform(rng, ranges.aligned_x_m),
+            y_m=uniform(rng, ranges.aligned_y_m),
+            rotation_deg=bearing + uniform(rng, ranges.aligned_deviation_deg),
+            bends_per_m=tuple((0.7 * common + 0.3 * np.array(_bends(ranges, rng))).tolist()),
+        )
+        for _ in range(count)
+    ]
+
+
+_PLACERS: Mapping[Disposition, Callable[[PlacementRanges, int, np.random.Generator], list[_Placement]]] = {
+    Disposition.FREE: _place_free,
+    Disposition.ALIGNED: _place_aligned,
+}
+
+
+def _bends(ranges: PlacementRanges, rng: np.random.Generator) -> tuple[float, ...]:
+    return tuple(rng.uniform(*ranges.bend_per_m, size=BEND_KNOTS).tolist())
+
+
+def _draw_material(ranges: CableRanges, rng: np.random.Generator) -> CableMaterial:
+    offset = ranges.dirt_offset
+    return CableMaterial(
+        colour=rgb(rng, ranges.colour),
+        dirt_colour=rgb(rng, ranges.dirt_colour),
+        dirt_position=uniform(rng, ranges.dirt_position),
+        dirt_mapping=(uniform(rng, offset), uniform(rng, offset), uniform(rng, offset)),
+        dirt_offset=uniform(rng, offset),
+        reflection_position=uniform(rng, ranges.reflection_position),
+    )

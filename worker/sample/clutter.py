@@ -1,0 +1,122 @@
+"""Drawing what lies about that is not cable."""
+
+import numpy as np
+
+from farm.clutter import Part, PartKind, Sheet, SheetKind, Stick, StickKind
+from farm.look_ranges import ClutterRanges
+from farm.looks import Rgb
+from farm.ranges import SPACING_DIAMETERS
+from worker.sample.values import chance, level, log_uniform, pattern_seed, rgb, uniform
+
+_REACH = 0.45
+"""How far from the middle things lie, as a share of the picture's width."""
+
+_SHEET_SIZES_M: dict[SheetKind, tuple[tuple[float, float], tuple[float, float]]] = {
+    SheetKind.TAPE: ((0.05, 0.5), (0.010, 0.050)),
+    SheetKind.HAZARD_TAPE: ((0.15, 0.6), (0.025, 0.050)),
+    SheetKind.PAPER: ((0.10, 0.21), (0.07, 0.15)),
+    SheetKind.LABEL: ((0.02, 0.07), (0.012, 0.035)),
+    SheetKind.RULER: ((0.15, 0.31), (0.013, 0.030)),
+    SheetKind.PAINTED_LINE: ((0.3, 0.8), (0.003, 0.030)),
+    SheetKind.SLOT: ((0.2, 0.8), (0.002, 0.008)),
+    SheetKind.SEAM: ((0.6, 0.8), (0.0006, 0.002)),
+}
+"""Range of lengths and of widths."""
+
+_PART_SIZES_M: dict[PartKind, tuple[float, float]] = {
+    PartKind.WASHER: (0.007, 0.016),
+    PartKind.NUT: (0.006, 0.015),
+    PartKind.SCREW: (0.010, 0.025),
+    PartKind.CONNECTOR: (0.008, 0.025),
+    PartKind.CABLE_TIE: (0.020, 0.060),
+}
+
+_SLENDER = 9.0
+"""A stick is at least so many times longer than thick."""
+
+
+def draw_sticks(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Stick, ...]:
+    """Draw sticks that start above each other, from the floor up.
+
+    Args:
+        ranges: of the style.
+        seen_m: width of the picture on the floor.
+        rng: of the clutter.
+    """
+    sticks: list[Stick] = []
+    start = 0.0005
+    for _ in range(level(rng, ranges.sticks)):
+        kind = list(StickKind)[int(rng.integers(len(StickKind)))]
+        # Thicker than a tenth of the picture it would be a wall.
+        diameter = min(log_uniform(rng, ranges.stick_diameter_m), 0.1 * seen_m)
+        sticks.append(
+            Stick(
+                kind=kind,
+                diameter_m=diameter,
+                length_m=max(uniform(rng, ranges.stick_length_m), _SLENDER * diameter),
+                x_m=_place(seen_m, rng),
+                y_m=_place(seen_m, rng),
+                start_height_m=start,
+                rotation_deg=float(rng.uniform(0.0, 360.0)),
+                colour=rgb(rng, (0, 255)),
+                pattern_seed=pattern_seed(rng),
+            )
+        )
+        start += SPACING_DIAMETERS * diameter
+    return tuple(sticks)
+
+
+def draw_sheets(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Sheet, ...]:
+    """Draw flat things, the lowest first."""
+    sheets: list[Sheet] = []
+    for _ in range(level(rng, ranges.sheets)):
+        kind = list(SheetKind)[int(rng.integers(len(SheetKind)))]
+        lengths, widths = _SHEET_SIZES_M[kind]
+        sheets.append(
+            Sheet(
+                kind=kind,
+                x_m=_place(seen_m, rng),
+                y_m=_place(seen_m, rng),
+                rotation_deg=float(rng.uniform(0.0, 360.0)),
+                length_m=uniform(rng, lengths),
+                width_m=log_uniform(rng, widths),
+                colour=_sheet_colour(kind, rng),
+                pattern_seed=pattern_seed(rng),
+            )
+        )
+    return tuple(sheets)
+
+
+def draw_parts(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Part, ...]:
+    """Draw small things."""
+    parts: list[Part] = []
+    for _ in range(level(rng, ranges.parts)):
+        kind = list(PartKind)[int(rng.integers(len(PartKind)))]
+        parts.append(
+            Part(
+                kind=kind,
+                x_m=_place(seen_m, rng),
+                y_m=_place(seen_m, rng),
+                rotation_deg=float(rng.uniform(0.0, 360.0)),
+                size_m=log_uniform(rng, _PART_SIZES_M[kind]),
+                colour=rgb(rng, (0, 255)),
+                pattern_seed=pattern_seed(rng),
+            )
+        )
+    return tuple(parts)
+
+
+def _place(seen_m: float, rng: np.random.Generator) -> float:
+    return float(rng.uniform(-_REACH, _REACH)) * seen_m
+
+
+def _sheet_colour(kind: SheetKind, rng: np.random.Generator) -> Rgb:
+    """Paper is pale, most slots and seams are dark, steel is grey; tape and paint have any colour."""
+    colour = rgb(rng, (0, 255))
+    grey = int(rng.integers(150, 215)) if kind is SheetKind.RULER else int(rng.integers(10, 60))
+    if kind in {SheetKind.SLOT, SheetKind.SEAM} or (kind is SheetKind.RULER and chance(rng, 0.6)):
+        return (grey, grey, grey)
+    if kind in {SheetKind.PAPER, SheetKind.LABEL}:
+        pale = 255 - np.array(colour) // 12
+        return (int(pale[0]), int(pale[1]), int(pale[2]))
+    return colour

@@ -1,0 +1,62 @@
+"""Draws of the floor: its texture, how it lies, and its wear."""
+
+import numpy as np
+
+from farm.header import DatasetHeader
+from farm.ranges import FloorRanges, WearRanges
+from farm.scene import Floor, JointFill, Wear
+from worker.sample.values import chance, log_uniform, pattern_seed, uniform
+
+
+def draw_floor(
+    ranges: FloorRanges, header: DatasetHeader, rng: np.random.Generator, wear_rng: np.random.Generator
+) -> Floor:
+    """Draw a surface, how it lies, and what it has been through."""
+    drawn = header.surfaces[int(rng.integers(len(header.surfaces)))]
+    light = [surface for surface in header.surfaces if surface.light] or list(header.surfaces)
+    lighter = light[int(wear_rng.integers(len(light)))]
+    return Floor(
+        texture=(lighter if chance(wear_rng, ranges.light_share) else drawn).name,
+        offset_x=uniform(rng, ranges.offset_x),
+        offset_y=uniform(rng, ranges.offset_y),
+        rotation_deg=uniform(rng, ranges.rotation_deg),
+        scale=uniform(rng, ranges.scale),
+        wear=_draw_wear(ranges.wear, wear_rng),
+    )
+
+
+def _draw_wear(ranges: WearRanges, rng: np.random.Generator) -> Wear | None:
+    if not chance(rng, ranges.share):
+        return None
+    stained, scratched, dusty = (
+        chance(rng, share) for share in (ranges.stained_share, ranges.scratched_share, ranges.dusty_share)
+    )
+    stains, scratches, dust = (
+        uniform(rng, ranges.stains),
+        uniform(rng, ranges.scratches),
+        uniform(rng, ranges.dust),
+    )
+    red, green, blue = (2.0 ** uniform(rng, ranges.tint_ev) for _ in range(3))
+    worn = Wear(
+        brightness=2.0 ** uniform(rng, ranges.brightness_ev),
+        tint=(red, green, blue),
+        saturation=uniform(rng, ranges.saturation),
+        contrast=uniform(rng, ranges.contrast),
+        stains=stains if stained else 0.0,
+        scratches=scratches if scratched else 0.0,
+        dust=dust if dusty else 0.0,
+        mirrored=chance(rng, 0.5),
+        pattern_seed=pattern_seed(rng),
+    )
+    # Drawn last, and always, so that joints move no other draw.
+    joints = _draw_joint_fill(ranges, rng)
+    return worn.model_copy(update={"joints": joints}) if chance(rng, ranges.refilled_share) else worn
+
+
+def _draw_joint_fill(ranges: WearRanges, rng: np.random.Generator) -> JointFill:
+    level, warmth = log_uniform(rng, ranges.joint_albedo), uniform(rng, ranges.joint_warmth_ev)
+    return JointFill(
+        albedo=(min(1.0, level * 2.0**warmth), level, min(1.0, level / 2.0**warmth)),
+        cover=uniform(rng, ranges.joint_cover),
+        spread_m=uniform(rng, ranges.joint_spread_m),
+    )

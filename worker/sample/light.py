@@ -1,0 +1,55 @@
+"""Draws of the lamps and of the grey world about them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from farm.light_ranges import LampRanges, StudioRanges
+from farm.lights import AreaLamp, GreyWorld, Lamp, PointLamp, StudioLamp
+from worker.sample.values import chance, level, log_uniform, uniform
+
+
+@dataclass(frozen=True, slots=True)
+class Lighting:
+    """Lamps and what is about them; None is the template's own grey."""
+
+    lamps: tuple[Lamp, ...]
+    grey_world: GreyWorld | None
+
+
+NO_LAMPS = Lighting((), None)
+
+
+def draw_lamps(lamp: LampRanges, studio: StudioRanges, rng: np.random.Generator) -> Lighting:
+    """Draw the lamps of a concentrated light and the grey world about them."""
+    published = _draw_published(lamp, rng)
+    if not chance(rng, studio.share):
+        return Lighting((published,), None)
+    lamps = tuple(_draw_studio_lamp(studio, rng) for _ in range(level(rng, studio.count)))
+    grey = GreyWorld(radiance=log_uniform(rng, studio.grey), temperature_k=uniform(rng, studio.grey_temperature_k))
+    return Lighting(lamps, grey)
+
+
+def _draw_studio_lamp(ranges: StudioRanges, rng: np.random.Generator) -> StudioLamp:
+    distance = log_uniform(rng, ranges.distance_m)
+    return StudioLamp(
+        bearing_deg=float(rng.uniform(0.0, 360.0)),
+        elevation_deg=uniform(rng, ranges.elevation_deg),
+        distance_m=distance,
+        irradiance_w_m2=uniform(rng, ranges.irradiance_w_m2),
+        size_m=log_uniform(rng, ranges.size_share) * distance,
+        temperature_k=uniform(rng, ranges.temperature_k),
+    )
+
+
+def _draw_published(ranges: LampRanges, rng: np.random.Generator) -> PointLamp | AreaLamp:
+    if rng.random() < ranges.area_share:
+        side = -1.0 if rng.random() < 0.5 else 1.0
+        return AreaLamp(x_m=side * uniform(rng, ranges.area_distance_m), power_w=uniform(rng, ranges.area_power_w))
+    return PointLamp(
+        bearing_deg=uniform(rng, ranges.point_bearing_deg),
+        radius_m=uniform(rng, ranges.point_radius_m),
+        height_m=uniform(rng, ranges.point_height_m),
+        power_w=uniform(rng, ranges.point_power_w),
+        size_m=uniform(rng, ranges.point_size_m),
+    )

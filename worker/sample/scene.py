@@ -1,0 +1,82 @@
+"""Drawing a scene: every random value of a picture, from the job's own streams, one stream per stage."""
+
+import numpy as np
+
+from farm.category import Background, Light
+from farm.header import DatasetHeader
+from farm.job import Job
+from farm.ranges import CableRanges
+from farm.scene import Floor, Friction, Scene
+from worker.sample.backdrop import draw_plate, draw_world
+from worker.sample.cable import draw_cables, draw_substances
+from worker.sample.camera import draw_camera, draw_development
+from worker.sample.clutter import draw_parts, draw_sheets, draw_sticks
+from worker.sample.floor import draw_floor
+from worker.sample.light import NO_LAMPS, draw_lamps
+from worker.sample.seeds import Stage, generator
+from worker.sample.values import chance, level, uniform
+from worker.sample.wind import draw_wind
+
+
+def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
+    """Draw the scene of one attempt at a job.
+
+    The same header, job and attempt give the same scene on every machine.
+    """
+
+    def streams(stage: Stage) -> np.random.Generator:
+        return generator(header.spec.seed, job.category, job.index, attempt, stage)
+
+    ranges, traits = header.spec.ranges, job.category.traits
+    counts = streams(Stage.CABLES)
+    count = _draw_count(ranges.cable, counts)
+    vertex_mass = uniform(counts, ranges.cable.vertex_mass)
+    friction = Friction(
+        floor=uniform(counts, ranges.cable.friction_floor), cable=uniform(counts, ranges.cable.friction_cable)
+    )
+    substances = draw_substances(ranges.cable, count, counts)
+    camera = draw_camera(ranges.camera, streams(Stage.CAMERA))
+    is_floor = traits.background is Background.FLOOR
+    clutter_rng = streams(Stage.CLUTTER)
+    cluttered = chance(clutter_rng, ranges.clutter.share) and is_floor
+    sticks = draw_sticks(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else ()
+    is_lamp = traits.light is Light.CONCENTRATED
+    lighting = draw_lamps(ranges.lamp, ranges.studio, streams(Stage.LIGHT)) if is_lamp else NO_LAMPS
+    floor = draw_floor(ranges.floor, header, streams(Stage.FLOOR), streams(Stage.WEAR)) if is_floor else None
+    above = max((stick.start_height_m + 1.5 * stick.diameter_m for stick in sticks), default=0.0)
+    return Scene(
+        attempt=attempt,
+        cables=draw_cables(
+            ranges,
+            traits.disposition,
+            substances,
+            camera,
+            streams,
+            length_m=ranges.cable.length_m if is_floor else ranges.cable.far_length_m or ranges.cable.length_m,
+            lowest_m=max(ranges.placement.drop_height_m, above),
+        ),
+        vertex_mass=vertex_mass,
+        friction=friction,
+        wind=draw_wind(ranges.wind, streams(Stage.WIND)),
+        floor=floor,
+        lamps=lighting.lamps,
+        grey_world=lighting.grey_world,
+        hdri_world=None if lighting.lamps else draw_world(header, traits.background, streams(Stage.WORLD)),
+        plate=None if is_floor else draw_plate(header, streams(Stage.PLATE)),
+        sticks=sticks,
+        sheets=draw_sheets(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else (),
+        parts=draw_parts(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else (),
+        camera=camera,
+        development=draw_development(
+            ranges.development, streams(Stage.DEVELOPMENT), over_light_floor=_is_light(header, floor)
+        ),
+        render_seed=int(streams(Stage.RENDER).integers(2**31)),
+    )
+
+
+def _is_light(header: DatasetHeader, floor: Floor | None) -> bool:
+    return floor is not None and any(surface.light for surface in header.surfaces if surface.name == floor.texture)
+
+
+def _draw_count(ranges: CableRanges, rng: np.random.Generator) -> int:
+    return max(level(rng, ranges.count) for _ in range(ranges.count_draws))

@@ -1,0 +1,1 @@
+"""One worker process: Celery's main process, the child that runs jobs, and what keeps both honest."""

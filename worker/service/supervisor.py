@@ -1,0 +1,207 @@
+"""What a worker's main process does beside Celery's own work: choosing queues, holding back, reporting, keeping limits.
+
+It runs once a second in Celery's event loop, as a step of its consumer, so it may change what is consumed.
+"""
+
+import logging
+import os
+import signal
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from celery import bootsteps
+from celery.worker import state
+from kombu.entity import Queue
+
+from farm.board.port import Board, RunState, WorkerReport, WorkerState
+from farm.errors import BrokerError, DestinationError, MessageError, RenderError, UnfitWorkerError
+from farm.job import JobMessage
+from farm.ledger.port import LedgerFactory
+from farm.queue.settings import QUEUE, queue_name
+from worker.service.backoff import Hold
+from worker.service.job_log import JobLogs
+from worker.service.runner import FAILED_IN_A_ROW
+
+log = logging.getLogger(__name__)
+
+TICK_S = 1.0
+
+_HARD_LIMIT = 2
+"""A renderer is killed in the midst of its job at so many times the memory above which it is replaced after it."""
+
+
+class Foreman:
+    """Sees to one worker.
+
+    Args:
+        name: `NAME@HOST`.
+        open_board: opens the board; called in the main process, when it is first needed.
+        open_ledger: opens a dataset's ledger; likewise.
+        hold: why no jobs may be taken.
+        logs: of the jobs that run here.
+        memory_per_child_kib: see `worker.service.process.WorkerSettings`.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        open_board: Callable[[], Board],
+        open_ledger: LedgerFactory,
+        hold: Hold,
+        logs: JobLogs,
+        memory_per_child_kib: int,
+    ) -> None:
+        self._name = name
+        self._open_board = open_board
+        self._open_ledger = open_ledger
+        self._hold = hold
+        self._logs = logs
+        self._most_bytes = _HARD_LIMIT * memory_per_child_kib * 1024
+        self._consumer: Any = None
+        self._joined: set[str] = set()
+        self._crashed: list[str] = []
+        self._done = 0
+        self._held_reason = ""
+        self.ticked_s = time.monotonic()
+        self.fault: UnfitWorkerError | None = None
+
+    def step(self) -> type[Any]:
+        """The step for Celery's consumer; it starts anew with each connection."""
+        foreman = self
+
+        class ForemanStep(bootsteps.StartStopStep):  # type: ignore[misc]  # celery is untyped
+            """Calls the foreman while the consumer is connected."""
+
+            requires = ("celery.worker.consumer.tasks:Tasks",)
+
+            def start(self, consumer: Any) -> None:
+                """Begin."""
+                foreman.attach(consumer)
+
+        return ForemanStep
+
+    def attach(self, consumer: Any) -> None:
+        """Work for a consumer that has just connected; Celery ends its timers with the connection."""
+        self._consumer = consumer
+        # What Celery consumed before the connection was lost it consumes again.
+        self._joined = set(consumer.app.amqp.queues.consume_from) - {QUEUE}
+        self.tick()
+        consumer.timer.call_repeatedly(TICK_S, self.tick)
+
+    def tick(self) -> None:
+        """Look at the board and the store, and act."""
+        self.ticked_s = time.monotonic()
+        self._held_reason = self._hold.reason()
+        try:
+            runs = {} if self._held_reason or self.fault else self._open_board().runs()
+            self._join({queue_name(key) for key, run in runs.items() if run.state is RunState.ACTIVE})
+            self._open_board().report(self.report())
+        except BrokerError as error:
+            # Celery finds out, too, and connects again.
+            log.warning("%s", error)
+        self._keep_memory()
+        self._bound_logs()
+
+    def _join(self, wanted: set[str]) -> None:
+        for name in sorted(self._joined - wanted):
+            self._consumer.cancel_task_queue(name)
+        for name in sorted(wanted - self._joined):
+            # Known beforehand, so that Celery makes no exchange for it.
+            self._consumer.app.amqp.queues.add(Queue(name))  # type: ignore[no-untyped-call]  # kombu is typed in parts
+            self._consumer.add_task_queue(name)
+        self._joined = wanted
+
+    def report(self) -> WorkerReport:
+        """What this worker does."""
+        jobs = tuple(str(request.id).rpartition(":")[2] for request in list(state.active_requests))
+        unoccupied = WorkerState.HELD if self._held_reason else WorkerState.IDLE
+        doing = WorkerState.WORKING if jobs else unoccupied
+        memory = sum(_rss_bytes(pid) for pid in self._children())
+        return WorkerReport(
+            name=self._name,
+            state=WorkerState.DRAINING if is_stopping() else doing,
+            reason=self._held_reason,
+            jobs=jobs,
+            done=self._done,
+            rss_bytes=memory,
+        )
+
+    def _children(self) -> list[int]:
+        pool = getattr(getattr(self._consumer, "pool", None), "_pool", None)
+        return [process.pid for process in getattr(pool, "_pool", ()) if process.pid]
+
+    def _keep_memory(self) -> None:
+        for pid in self._children():
+            taken = _rss_bytes(pid)
+            if taken > self._most_bytes:
+                log.error("process %d takes %d MiB and is killed", pid, taken // 2**20)
+                with suppress(ProcessLookupError, PermissionError):
+                    kill_group(pid)
+
+    def _bound_logs(self) -> None:
+        for request in list(state.active_requests):
+            with suppress(MessageError):
+                self._logs.bound(JobMessage.decode((request.kwargs or {}).get("message")))
+
+    def note_done(self) -> None:
+        """A picture was made."""
+        self._done += 1
+        self._crashed.clear()
+        self._hold.succeed()
+
+    def note_unfit(self, fault: UnfitWorkerError) -> None:
+        """This worker can do no job: it takes none after the one that is about to be given back, and ends."""
+        self.fault = self.fault or fault
+        state.should_stop = fault.code
+
+    def note_full(self, error: DestinationError) -> None:
+        """The store could not be written: take nothing for a while. Called before the message goes back."""
+        self._hold.fail(str(error))
+        self._join(set())
+
+    def note_crash(self, request: Any) -> None:
+        """The process that ran a job has died, or was killed at the time limit."""
+        with suppress(ProcessLookupError, PermissionError, TypeError):
+            kill_group(request.worker_pid)
+        try:
+            message = JobMessage.decode((request.kwargs or {}).get("message"))
+            self._logs.bound(message)
+            printed = self._logs.tail(message)
+            ledger = self._open_ledger(message.dataset, message.spec_sha256)
+            ledger.add_figures({"crashes": 1})
+            if printed:
+                ledger.keep_log(message.job_id, printed)
+        except (MessageError, BrokerError) as error:
+            log.warning("its log is not kept: %s", error)
+            return
+        if message.job_id not in self._crashed:
+            self._crashed.append(message.job_id)
+        if len(self._crashed) >= FAILED_IN_A_ROW:
+            told = ", ".join(self._crashed)
+            reason = f"the renderer died in {len(self._crashed)} jobs in a row: {told}; see {self._logs.path(message)}"
+            self.note_unfit(UnfitWorkerError(reason, RenderError.exit_code))
+
+
+def is_stopping() -> bool:
+    """Whether this worker was told to end."""
+    # Celery says False, None or an exit code, which may be 0.
+    return any(code is not None and code is not False for code in (state.should_stop, state.should_terminate))
+
+
+def kill_group(pid: int) -> None:
+    """Kill a child of the pool, which leads a group, with all that it has started.
+
+    Raises:
+        ProcessLookupError: if it is gone.
+    """
+    os.killpg(pid, signal.SIGKILL)
+
+
+def _rss_bytes(pid: int) -> int:
+    try:
+        return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    except (OSError, IndexError, ValueError):
+        return 0

@@ -1,0 +1,88 @@
+"""The farm's one Celery task."""
+
+import logging
+import os
+import time
+from typing import Any
+
+from billiard.exceptions import WorkerLostError
+from celery.exceptions import Ignore, Reject
+from celery.worker.request import Request
+
+from farm.errors import BrokerError, DestinationError, FarmError, UnfitWorkerError
+from farm.queue.settings import TASK_NAME
+from worker.service.runner import JobRunner, TryLaterError
+from worker.service.supervisor import Foreman
+
+log = logging.getLogger(__name__)
+
+_BROKER_PAUSE_S = (0.5, 2.0)
+
+
+def _broker_pause_s(process: int) -> float:
+    """Another for each process of a machine, so that they don't all come back at once to a Redis that was away."""
+    least, most = _BROKER_PAUSE_S
+    return least + (most - least) * (process % 100) / 100
+
+
+def register_tasks(app: Any, runner: JobRunner, foreman: Foreman) -> Any:
+    """Give the application its task, which hands every message to the runner.
+
+    The runner opens its maker at the first job, so in the pool's child and never before the fork.
+
+    Args:
+        app: the Celery application.
+        runner: runs the jobs.
+        foreman: learns in the worker's main process how jobs ended.
+
+    Returns:
+        The task.
+    """
+
+    class WatchedRequest(Request):  # type: ignore[misc]  # celery is untyped
+        """What the main process knows of a message that a child works on."""
+
+        failed = False
+
+        def acknowledge(self) -> Any:
+            """Learn that a picture was made: Celery replaces `on_success`, but acknowledges there."""
+            if not self.failed:
+                foreman.note_done()
+            return super().acknowledge()
+
+        def on_failure(self, exc_info: Any, send_failed_event: bool = True, return_ok: bool = False) -> Any:
+            """Learn that this worker is unfit, its store full, or its child dead."""
+            self.failed = True
+            error = getattr(exc_info.exception, "exc", exc_info.exception)
+            if isinstance(error, Reject) and isinstance(error.reason, UnfitWorkerError):
+                foreman.note_unfit(error.reason)
+            elif isinstance(error, Reject) and isinstance(error.reason, DestinationError):
+                foreman.note_full(error.reason)
+            elif isinstance(error, WorkerLostError | SystemExit):
+                foreman.note_crash(self)
+            return super().on_failure(exc_info, send_failed_event, return_ok)
+
+        def on_timeout(self, soft: bool, timeout: float) -> Any:
+            """Learn that a child is about to be killed at the hard limit."""
+            if not soft:
+                self.failed = True
+                foreman.note_crash(self)
+            return super().on_timeout(soft, timeout)
+
+    def render_image(task: Any, message: object = None) -> None:
+        try:
+            outcome = runner.run(message)
+            log.info("%s", outcome.said)
+            if not outcome.made:
+                raise Ignore
+        except TryLaterError as error:
+            raise task.retry(exc=error, countdown=error.delay_s) from error
+        except (UnfitWorkerError, DestinationError) as error:
+            raise Reject(error, requeue=True) from error
+        except BrokerError as error:
+            time.sleep(_broker_pause_s(os.getpid()))
+            raise Reject(error, requeue=True) from error
+
+    # Failures that the farm foresees are logged in one line, without a traceback.
+    options = {"bind": True, "max_retries": None, "throws": (FarmError,), "ignore_result": True}
+    return app.task(name=TASK_NAME, Request=WatchedRequest, **options)(render_image)

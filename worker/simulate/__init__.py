@@ -1,0 +1,1 @@
+"""The fall: a drawn scene becomes settled cables."""

@@ -1,0 +1,41 @@
+"""Whether a settled scene may be shipped. Measuring is `worker.simulate.checks.measure`."""
+
+from farm.manifest import SettleFigures
+from worker.simulate.checks.measure import Gate, settled_figures
+
+MAX_PENETRATION_ANYWHERE = 0.20
+MAX_SUPPORT_GAP = 0.5
+MAX_SPEED_RMS_MM_S = Gate.SPEED_RMS.value.target
+MAX_SPEED_MM_S = Gate.SPEED_MAX.value.target
+
+
+def find_fault(figures: SettleFigures) -> str | None:
+    """Why a scene must be drawn again, or None if it may be shipped.
+
+    A scene that breaks one of gates 1 to 3 is never shipped. A picture asks for more than the gates do:
+
+    - Speed within gate 4's target, not its bound: labels are of the moment of capture and hold for a picture of cables
+      at rest, and a cable that still creeps shows a pose which it would leave.
+    - No single place deeper than a fifth of the radius: the 99.9th percentile passes over a short, deep cut, and one
+      is enough to be seen.
+    - Not more than half a radius of air below a cable at its lowest: its shadow would come away from it.
+
+    A cable that crosses itself in plan view is no fault: cables do. Where it cuts into itself, penetration tells. Nor
+    is one whose tip slipped round another's: real cables do that too.
+    """
+    if figures.pass_throughs:
+        return f"{figures.pass_throughs} crossing(s) of cables that passed through each other"
+    if figures.floor_pass_throughs:
+        return f"{figures.floor_pass_throughs} cable(s) passed through the floor"
+    limits = [
+        *((gate.value.name, figure, gate.value.never) for gate, figure in settled_figures(figures).items()),
+        ("deepest cable penetration over radius", figures.cable_penetration_max, MAX_PENETRATION_ANYWHERE),
+        ("deepest floor penetration over radius", figures.floor_penetration_max, MAX_PENETRATION_ANYWHERE),
+        ("root mean square speed in mm/s", figures.speed_rms_mm_s, MAX_SPEED_RMS_MM_S),
+        ("speed in mm/s", figures.speed_max_mm_s, MAX_SPEED_MM_S),
+        ("gap below a cable over radius", figures.support_gap, MAX_SUPPORT_GAP),
+    ]
+    for name, figure, limit in limits:
+        if not figure <= limit:
+            return f"{name} {figure:.4g} is above {limit:g}"
+    return None

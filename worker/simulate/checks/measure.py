@@ -1,0 +1,133 @@
+"""The ten gates that a simulator of cables must pass, as data, and how each is measured.
+
+Gates 1 to 4 hold for every settled scene, whichever simulator made it. Gates 5 to 10 hold for a simulator: they are
+measured on scenes laid out for the purpose, and compare with the reference solutions in `worker.simulate.checks`.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from farm.fall import Simulator
+from farm.manifest import SettleFigures
+from worker.simulate.checks.contact import find_contacts, search_reach_m
+from worker.simulate.checks.plan_view import find_crossings
+from worker.simulate.checks.spans import cut
+from worker.simulate.shapes import CableShapes
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What is asked of one figure.
+
+    Attributes:
+        number: of the gate, 1 to 10.
+        unit: empty for a plain ratio or count.
+        target: what the figure is to be at most.
+        never: above this the result is not used; inf where nothing is so bad.
+        cloth_target: instead of `target` for Blender's cloth, where it is granted more.
+        least: what the figure is to be at least.
+    """
+
+    number: int
+    name: str
+    unit: str
+    target: float
+    never: float = np.inf
+    cloth_target: float | None = None
+    least: float = -np.inf
+
+
+class Gate(Enum):
+    """Every figure of the ten gates."""
+
+    LENGTH = Limits(1, "length error", "", 0.001, never=0.01, cloth_target=0.005)
+    CABLE_PENETRATION = Limits(2, "cable penetration over radius", "", 0.02, never=0.10)
+    FLOOR_PENETRATION = Limits(2, "floor penetration over radius", "", 0.01, never=0.10)
+    CABLE_PASS_THROUGH = Limits(3, "crossings of cables that passed through each other", "", 0, never=0)
+    FLOOR_PASS_THROUGH = Limits(3, "cables that passed through the floor", "", 0, never=0)
+    SPEED_RMS = Limits(4, "root mean square speed", "mm/s", 1.0, never=50.0)
+    SPEED_MAX = Limits(4, "greatest speed", "mm/s", 5.0, never=50.0)
+    CANTILEVER = Limits(5, "error of the cantilever's H/W up to 100", "", 0.01, never=0.10, cloth_target=0.05)
+    SLENDER_CANTILEVER = Limits(5, "error of the cantilever's H/W above 100", "", 0.02, never=0.10)
+    LIFT_OFF = Limits(6, "error of the lift-off length", "", 0.03, never=0.15)
+    RIDGE_REACTION = Limits(6, "error of the ridge's reaction", "", 0.05, never=0.15)
+    ENERGY_RISE = Limits(7, "energy rise in a step over the start's energy", "", 1e-6, never=1e-3)
+    ORDER = Limits(8, "order in the time step", "", 1.1, least=0.9)
+    STEP_HALVING = Limits(8, "movement of a node when the step is halved over radius", "", 0.5)
+    REPEATS = Limits(9, "runs that differ from the first", "", 0, never=0)
+    STRESS = Limits(10, "failed runs of the stress grid", "", 0, never=0)
+
+    def on_target(self, figure: float, simulator: Simulator = Simulator.ROD) -> bool:
+        """Whether the figure is what is aimed for; NaN is not."""
+        limits = self.value
+        is_cloth = simulator is not Simulator.ROD
+        target = limits.cloth_target if is_cloth and limits.cloth_target is not None else limits.target
+        return bool(limits.least <= figure <= target)
+
+    def is_broken_by(self, figure: float) -> bool:
+        """Whether a result with this figure must not be used; NaN breaks every gate."""
+        return not figure <= self.value.never
+
+
+def settled_figures(figures: SettleFigures) -> Mapping[Gate, float]:
+    """The figure of each of gates 1 to 4."""
+    return {
+        Gate.LENGTH: figures.length_error,
+        Gate.CABLE_PENETRATION: figures.cable_penetration,
+        Gate.FLOOR_PENETRATION: figures.floor_penetration,
+        Gate.CABLE_PASS_THROUGH: figures.pass_throughs,
+        Gate.FLOOR_PASS_THROUGH: figures.floor_pass_throughs,
+        Gate.SPEED_RMS: figures.speed_rms_mm_s,
+        Gate.SPEED_MAX: figures.speed_max_mm_s,
+    }
+
+
+def measure(shapes: CableShapes) -> SettleFigures:
+    """Gates 1 to 4 of settled cables, and what else decides whether a picture is sound.
+
+    Penetration, air and crossings are those of the smooth centrelines that are rendered, with the true radii. Cables
+    start at stacked heights, so the order of a pair at every crossing is that of their start; another order means that
+    one went through the other or, close to an end, that it may have slipped round it. Whether a cable went through
+    itself can't be seen from where it rests: nothing says which strand was to be on top.
+
+    Sticks count as cables do where rods cut, carry or cross each other or the floor; lengths, speeds and air are the
+    cables' own.
+
+    Args:
+        shapes: finite; see `stress_fault` where they may not be.
+    """
+    spans = cut((*shapes.nodes_m, *shapes.sticks_m))
+    radii = np.concatenate([shapes.radii_m, shapes.stick_radii_m])
+    near = spans.near_in_plan(search_reach_m(radii))
+    contacts = find_contacts(spans, near, radii)
+    crossings = find_crossings(spans, near)
+    flipped = crossings.flipped(shapes.start_order)
+    # No cable slips round the end of a stick, which lies below it from the start.
+    near_end = crossings.near_end(radii) & (np.maximum(crossings.one, crossings.other) < len(shapes.radii_m))
+    floor_depth = np.maximum(1 - spans.samples_m[:, 2] / radii[spans.cable_of_sample], 0)
+    gaps = (np.minimum(spans.lowest_m - radii, contacts.clearance_m) / radii)[: len(shapes.radii_m)]
+    speeds = np.concatenate(shapes.speeds_m_s) * 1000
+    return SettleFigures(
+        fall_s=shapes.fall_s,
+        steps=shapes.steps,
+        length_error=_length_error(shapes),
+        cable_penetration=float(np.percentile(contacts.depth, 99.9)),
+        cable_penetration_max=float(contacts.depth.max()),
+        floor_penetration=float(np.percentile(floor_depth, 99.9)),
+        floor_penetration_max=float(floor_depth.max()),
+        pass_throughs=int(np.count_nonzero(flipped & ~near_end)),
+        end_slips=int(np.count_nonzero(flipped & near_end)),
+        floor_pass_throughs=int(np.count_nonzero(spans.lowest_m < 0)),
+        self_crossings=int(np.count_nonzero(crossings.own)),
+        speed_rms_mm_s=float(np.sqrt(np.mean(speeds**2))),
+        speed_max_mm_s=float(speeds.max()),
+        support_gap=float(gaps.max()),
+    )
+
+
+def _length_error(shapes: CableShapes) -> float:
+    lengths = [float(np.linalg.norm(np.diff(nodes, axis=0), axis=1).sum()) for nodes in shapes.nodes_m]
+    return float(np.max(np.abs(np.array(lengths) / shapes.lengths_m - 1)))

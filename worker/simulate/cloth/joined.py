@@ -1,0 +1,177 @@
+"""The fall: cables dropped as strips of cloth in one joined, self-colliding mesh, until they rest."""
+
+import itertools
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from blend import names
+from blend.fall import SELF_DISTANCE
+from farm.errors import SceneError
+from farm.fall import ClothFall
+from farm.scene import Cable, Friction, Scene, Wind
+from worker.curves import Points
+from worker.simulate.checks.accept import MAX_SPEED_MM_S, MAX_SPEED_RMS_MM_S
+from worker.simulate.cloth.material import SEGMENT_UNITS, STRIP_WIDTH, StripMaterial, strip_material
+from worker.simulate.cloth.scale import GRAVITY, RADIUS_UNITS, FallScale
+from worker.simulate.cloth.stage import modifier, read_vertices, set_frames
+from worker.simulate.cloth.strip import centreline, zigzag, zigzag_faces
+from worker.simulate.shapes import CableShapes, bent_rod
+
+FLOOR_SINK = 0.0115
+"""How far a loaded strip sinks into the floor's collision layer, in units, as measured at crossings of two cables: a
+cable alone rests so much above the floor, a loaded one on it."""
+
+WIND_GAIN = 2.0
+"""From the published strength to this scale's: the strongest wind shifts cables by millimetres, yet friction holds
+them once they lie (at twice the gain they slide along the floor for ever)."""
+
+REST_FRAMES = 3
+"""Cables rest when they are slower than `worker.simulate.checks.accept` asks for, over so many frames."""
+
+_MOST_FRICTION = 80.0
+_BENDING_GROUP = "bending"
+_STRETCHING_GROUP = "stretching"
+
+
+@dataclass(frozen=True, slots=True)
+class _Strips:
+    """The joined mesh, in the fall's units, and which vertices belong to which cable."""
+
+    vertices: Points
+    faces: list[tuple[int, int, int]]
+    slices: tuple[slice, ...]
+
+
+def drop_cables(scene: Scene, fall: ClothFall) -> CableShapes:
+    """Let the cables of `scene` fall in the open template's scene of the fall.
+
+    Raises:
+        SceneError: if the solver diverges.
+    """
+    radii = np.array([cable.diameter_m / 2 for cable in scene.cables])
+    scale = FallScale.for_radius(float(radii.max()))
+    strips = _join([zigzag(start_line(cable, scale, SEGMENT_UNITS), STRIP_WIDTH) for cable in scene.cables])
+    fall_scene = bpy.data.scenes[names.FALL_SCENE]
+    _prepare(fall_scene, strips, scene, fall)
+    set_material(bpy.data.objects[names.FALL_CABLES], strips.slices, strip_material(scene, scale, fall))
+    vertices, speeds, frames = _step_until_rest(fall_scene, strips, fall, scale)
+    return CableShapes(
+        nodes_m=tuple(centreline(vertices[part]) * scale.unit_m for part in strips.slices),
+        radii_m=radii,
+        lengths_m=np.array([_length(centreline(strips.vertices[part])) * scale.unit_m for part in strips.slices]),
+        speeds_m_s=tuple(speeds[part] for part in strips.slices),
+        start_order=tuple(int(k) for k in np.argsort([cable.start_height_m for cable in scene.cables])),
+        fall_s=frames * scale.frame_s,
+        steps=frames,
+    )
+
+
+def _length(path: Points) -> float:
+    return float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
+
+
+def start_line(cable: Cable, scale: FallScale, segment: float) -> Points:
+    """The line (N, 3) that a cable starts as, in the fall's units, in segments of about the length `segment`."""
+    segments = max(8, round(cable.length_m / (segment * scale.unit_m)))
+    level = bent_rod(cable.length_m, cable.bends_per_m, segments + 1)
+    turn = np.radians(cable.rotation_deg)
+    cosine, sine = np.cos(turn), np.sin(turn)
+    path = np.empty((len(level), 3))
+    path[:, 0] = cable.x_m + cosine * level[:, 0] - sine * level[:, 1]
+    path[:, 1] = cable.y_m + sine * level[:, 0] + cosine * level[:, 1]
+    path[:, 2] = cable.diameter_m / 2 + cable.start_height_m + np.linspace(0.0, cable.rise_m, len(level))
+    return path / scale.unit_m
+
+
+def _join(strips: list[Points]) -> _Strips:
+    starts = np.concatenate([[0], np.cumsum([len(strip) for strip in strips])])
+    return _Strips(
+        vertices=np.concatenate(strips),
+        faces=[
+            face
+            for strip, start in zip(strips, starts[:-1], strict=True)
+            for face in zigzag_faces(len(strip), int(start))
+        ],
+        slices=tuple(slice(int(a), int(b)) for a, b in itertools.pairwise(starts)),
+    )
+
+
+def _prepare(fall_scene: Any, strips: _Strips, scene: Scene, fall: ClothFall) -> None:
+    cables = bpy.data.objects[names.FALL_CABLES]
+    cables.data.clear_geometry()
+    cables.data.from_pydata(strips.vertices.tolist(), [], strips.faces)
+    cloth = modifier(cables, "CLOTH")
+    cloth.settings.quality = fall.quality
+    cloth.settings.effector_weights.wind = 1.0 if scene.wind.strength > 0 else 0.0
+    fall_scene.use_gravity = True
+    fall_scene.gravity = (0.0, 0.0, -GRAVITY)
+    collision = cloth.collision_settings
+    collision.collision_quality = fall.collision_quality
+    collision.use_self_collision = len(strips.slices) > 1
+    collision.self_distance_min = SELF_DISTANCE
+    _set_friction(collision, bpy.data.objects[names.FALL_FLOOR], scene.friction)
+    floor = bpy.data.objects[names.FALL_FLOOR]
+    floor.collision.thickness_outer = RADIUS_UNITS - collision.distance_min + FLOOR_SINK
+    set_frames(fall_scene, cloth, fall.max_frames)
+    set_wind(bpy.data.objects[names.FALL_WIND], scene.wind, WIND_GAIN)
+
+
+def _set_friction(collision: Any, floor: Any, friction: Friction) -> None:
+    """Blender's settings are hundredths of Coulomb's coefficient, 80 at most."""
+    floor.collision.cloth_friction = collision.friction = min(100 * friction.floor, _MOST_FRICTION)
+    collision.self_friction = min(100 * friction.cable, _MOST_FRICTION)
+
+
+def set_material(cables: Any, slices: tuple[slice, ...], material: StripMaterial) -> None:
+    """Give each strip of the object `cables` its material: vertex groups carry its share of the largest setting."""
+    settings = modifier(cables, "CLOTH").settings
+    settings.mass = material.vertex_mass
+    settings.bending_model = "ANGULAR"
+    settings.bending_damping = material.bending_damping
+    settings.bending_stiffness = settings.tension_stiffness = settings.compression_stiffness = 0.0
+    settings.bending_stiffness_max = max(material.bending)
+    settings.tension_stiffness_max = settings.compression_stiffness_max = max(material.stretching)
+    settings.vertex_group_bending = _weigh(cables, _BENDING_GROUP, slices, material.bending)
+    settings.vertex_group_structural_stiffness = _weigh(cables, _STRETCHING_GROUP, slices, material.stretching)
+
+
+def _weigh(cables: Any, name: str, slices: tuple[slice, ...], values: tuple[float, ...]) -> str:
+    group = cables.vertex_groups.get(name) or cables.vertex_groups.new(name=name)
+    for part, value in zip(slices, values, strict=True):
+        group.add(range(part.start, part.stop), value / max(values), "REPLACE")
+    return str(group.name)
+
+
+def set_wind(wind_object: Any, wind: Wind, gain: float) -> None:
+    """Stand the field off to a side, blowing towards the cables; its axis is its local z. `gain` multiplies it."""
+    bearing = np.radians(wind.bearing_deg)
+    wind_object.location = (wind.distance * np.cos(bearing), wind.distance * np.sin(bearing), wind.height)
+    wind_object.rotation_euler = (0.0, -np.radians(wind.tilt_deg), bearing)
+    wind_object.field.strength = gain * wind.strength
+    wind_object.field.flow = gain * wind.flow
+
+
+def _step_until_rest(
+    fall_scene: Any, strips: _Strips, fall: ClothFall, scale: FallScale
+) -> tuple[Points, NDArray[np.float64], int]:
+    previous = strips.vertices
+    quiet = 0
+    speeds = np.zeros(len(previous))
+    cables = bpy.data.objects[names.FALL_CABLES]
+    # A skipped frame would multiply the time step, so every one is visited in turn.
+    for frame in range(1, fall.max_frames + 1):
+        fall_scene.frame_set(frame)
+        vertices = read_vertices(fall_scene, cables)
+        if not np.isfinite(vertices).all():
+            raise SceneError(f"the cloth diverged at frame {frame}")
+        speeds = np.linalg.norm(vertices - previous, axis=1) * scale.unit_m / scale.frame_s
+        previous = vertices
+        still = 1000 * np.sqrt(np.mean(speeds**2)) <= MAX_SPEED_RMS_MM_S and 1000 * speeds.max() <= MAX_SPEED_MM_S
+        quiet = quiet + 1 if still and frame > REST_FRAMES else 0
+        if quiet >= REST_FRAMES:
+            break
+    return previous, speeds, frame

@@ -1,0 +1,131 @@
+"""Forces that are known at the start of a step: gravity, bending, natural curvature, tension, wind."""
+
+import numpy as np
+
+from worker.simulate.rod.arrays import Bodies, Motion
+from worker.simulate.rod.compiled import compiled
+from worker.simulate.rod.model import Array
+from worker.simulate.rod.world import World, air_velocity
+
+AIR_DENSITY_KG_M3 = 1.2
+DRAG_COEFFICIENT = 1.1
+"""Of a long cylinder across the flow, Reynolds numbers from 1e2 to 1e5 (Hoerner 1965, "Fluid-Dynamic Drag", ch. 3)."""
+
+
+SKIN_COEFFICIENT = 0.02
+"""Of a long cylinder along the flow, on its diameter: pi 1.328 / sqrt(Re) for a laminar skin at Re = 4e4 (ch. 2)."""
+
+
+@compiled
+def _add_gravity(bodies: Bodies, gravity: Array, force: Array) -> None:
+    """Weight of each node, N, added to `force` (3, nodes)."""
+    for i in range(len(bodies.mass)):
+        for c in range(3):
+            force[c, i] += bodies.mass[i] * gravity[c]
+
+
+@compiled
+def _add_elastic(bodies: Bodies, motion: Motion, rod: int, force: Array) -> None:
+    """Bending about the natural shape."""
+    first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
+    x = motion.x
+    stiff = bodies.stiffness[rod] / length**3
+    for i in range(first + 1, end - 1):
+        for c in range(3):
+            bend = stiff * (x[c, i - 1] - 2 * x[c, i] + x[c, i + 1])
+            force[c, i - 1] -= bend
+            force[c, i] += 2 * bend
+            force[c, i + 1] -= bend
+        # The energy of natural curvature k about z is -EI k / l^2 (e1 x e2)_z with the two edges at the node.
+        turn = bodies.stiffness[rod] * bodies.curvature[i] / length**2
+        if turn != 0.0:
+            e1x, e1y = x[0, i] - x[0, i - 1], x[1, i] - x[1, i - 1]
+            e2x, e2y = x[0, i + 1] - x[0, i], x[1, i + 1] - x[1, i]
+            force[0, i - 1] -= turn * e2y
+            force[1, i - 1] += turn * e2x
+            force[0, i + 1] -= turn * e1y
+            force[1, i + 1] += turn * e1x
+            force[0, i] += turn * (e1y + e2y)
+            force[1, i] -= turn * (e1x + e2x)
+
+
+@compiled
+def add_tension(bodies: Bodies, motion: Motion, step: float, momentum: Array) -> None:
+    """Impulse of the last step's tension along the segments as they are, N s, added to `momentum` (3, nodes)."""
+    x = motion.x
+    for i in range(len(bodies.mass) - 1):
+        if motion.tension[i] != 0.0:
+            pull = step * motion.tension[i] / bodies.length[bodies.owner[i]]
+            for c in range(3):
+                edge = pull * (x[c, i + 1] - x[c, i])
+                momentum[c, i] += edge
+                momentum[c, i + 1] -= edge
+
+
+@compiled
+def _add_wind(bodies: Bodies, motion: Motion, air: Array, step: float, force: Array) -> None:
+    """Drag on each segment from the air's velocity across and along it: rho/2 C d l |u| u each, half to either node.
+
+    As it would be at the end of the step with |u| of its start, so that a light rod is not blown past the air's speed.
+    """
+    x, v = motion.x, motion.v
+    for i in range(len(bodies.mass) - 1):
+        rod = bodies.owner[i]
+        if bodies.owner[i + 1] != rod:
+            continue
+        length = bodies.length[rod]
+        tx = (x[0, i + 1] - x[0, i]) / length
+        ty = (x[1, i + 1] - x[1, i]) / length
+        tz = (x[2, i + 1] - x[2, i]) / length
+        ux = air[0] - 0.5 * (v[0, i] + v[0, i + 1])
+        uy = air[1] - 0.5 * (v[1, i] + v[1, i + 1])
+        uz = air[2] - 0.5 * (v[2, i] + v[2, i + 1])
+        along = ux * tx + uy * ty + uz * tz
+        ux, uy, uz = ux - along * tx, uy - along * ty, uz - along * tz
+        across = np.sqrt(ux * ux + uy * uy + uz * uz)
+        per_speed = 0.5 * AIR_DENSITY_KG_M3 * 2 * bodies.radius[rod] * length
+        mass = max(bodies.mass[i], bodies.mass[i + 1])
+        push = _damped(per_speed * DRAG_COEFFICIENT * across, step, mass)
+        rub = _damped(per_speed * SKIN_COEFFICIENT * abs(along), step, mass) * along
+        for j in (i, i + 1):
+            force[0, j] += 0.5 * (push * ux + rub * tx)
+            force[1, j] += 0.5 * (push * uy + rub * ty)
+            force[2, j] += 0.5 * (push * uz + rub * tz)
+
+
+@compiled
+def _damped(drag: float, step: float, mass: float) -> float:
+    """A drag per speed, kg/s, such that within the step it stops a mass against the air, but does not throw it back."""
+    return drag / (1 + step * drag / mass)
+
+
+@compiled
+def _resist(bodies: Bodies, motion: Motion, slower: float, momentum: Array) -> None:
+    """Take what makes each node slower by so much, m/s, or stops it, off the momentum of rods that touch something."""
+    for rod in range(len(bodies.length)):
+        if not motion.touched[rod]:
+            continue
+        for i in range(bodies.first[rod], bodies.first[rod + 1]):
+            speed = np.sqrt(motion.v[0, i] ** 2 + motion.v[1, i] ** 2 + motion.v[2, i] ** 2)
+            if speed > 0.0:
+                share = min(slower / speed, 1.0)
+                for c in range(3):
+                    momentum[c, i] -= share * bodies.mass[i] * motion.v[c, i]
+
+
+@compiled
+def momentum_to_be(bodies: Bodies, motion: Motion, world: World, step: float, time: float, momentum: Array) -> None:
+    """M v + h f, N s: momentum and what all forces but contact and tension add to it by `time`, the end of the step."""
+    force = np.zeros(motion.x.shape)
+    _add_gravity(bodies, world.gravity, force)
+    for rod in range(len(bodies.length)):
+        _add_elastic(bodies, motion, rod, force)
+    if world.drag:
+        air = np.empty(3)
+        air_velocity(world, time, air)
+        _add_wind(bodies, motion, air, step, force)
+    for c in range(3):
+        for i in range(len(bodies.mass)):
+            momentum[c, i] = bodies.mass[i] * motion.v[c, i] + step * force[c, i]
+    if world.resistance > 0.0:
+        _resist(bodies, motion, world.resistance * step, momentum)

@@ -1,0 +1,213 @@
+"""One time step: implicit Euler with contact.
+
+Impulses of contacts, and tensions that keep the lengths, depend on each other. They are found in turn: sweeps over the
+contacts change impulses, then each rod that they have stirred finds its places and tensions exactly, until a sweep
+finds nothing more to do. Impulses and tensions both do only what costs energy, so a step that has gained any has not
+found them: it is made again from no impulses at all, then as two steps of half the time.
+"""
+
+import numpy as np
+
+from worker.simulate.rod.arrays import Bodies, Motion, Scratch
+from worker.simulate.rod.bending import Operator, energy_of
+from worker.simulate.rod.compiled import compiled
+from worker.simulate.rod.contact import stir, was_stirred
+from worker.simulate.rod.floor import catch_sunk, hold_on_floor, let_go_pulled
+from worker.simulate.rod.impulses import (
+    Touch,
+    correct,
+    find_touched,
+    gather_load,
+    predict,
+    work_of_depenetration,
+    worst_miss,
+)
+from worker.simulate.rod.lengths import MAX_ITERATIONS, keep_lengths
+from worker.simulate.rod.model import Array
+from worker.simulate.rod.tally import ITERATIONS, RETRIES, ROUNDS, STOPS, SWEEPS, UNKEPT, Tally
+from worker.simulate.rod.world import World
+
+MAX_ROUNDS = 4
+"""How often sweeps and lengths take turns."""
+
+MAX_ROUNDS_FROM_NOTHING = 16
+"""The same, when the impulses of the step before were of no use."""
+
+MAX_FLOOR_CHANGES = 4
+"""How often the nodes that the floor holds are chosen anew when keeping the lengths has pressed or pulled others."""
+
+SLACK = 50.0
+"""How many times the tolerances of lengths do while sweeps may still change the load."""
+
+MISS_RADII = 0.1
+"""How far a step may push a rod into another, in the least radius, because impulses are not quite found."""
+
+SPEED_SPARE_M_S = 1.5e-3
+"""A gain of no more than the energy that all rods have at this speed is let pass: sweeps end before all is found."""
+
+
+@compiled
+def make_step(
+    bodies: Bodies,
+    operator: Operator,
+    motion: Motion,
+    world: World,
+    touch: Touch,
+    scratch: Scratch,
+    tally: Tally,
+    finest: bool,
+) -> bool:
+    """Move the rods by a step.
+
+    Args:
+        bodies: the rods.
+        operator: of the time step.
+        motion: is changed.
+        world: what acts on them.
+        touch: what touches; the impulses are changed.
+        scratch: `momentum` is read: what all else than contact and tension makes of it.
+        tally: counts on.
+        finest: whether no smaller step can be had. Then, rods for which no sound end is found stop where they are.
+
+    Returns:
+        Whether a sound end was found; if not, nothing has moved, and impulses and tensions are 0.
+    """
+    scratch.start[:] = motion.x
+    spare = 0.5 * bodies.mass.sum() * SPEED_SPARE_M_S**2
+    may_miss = MISS_RADII * bodies.radius.min() / operator.step
+    rounds, sound = MAX_ROUNDS, False
+    for _ in range(2):
+        kept = _take_turns(bodies, operator, motion, world, touch, scratch, tally, rounds)
+        gained = _energy_gained(bodies, operator, motion.v, scratch)
+        given = work_of_depenetration(motion, touch, scratch.rise)
+        missed = worst_miss(touch.contacts, touch.pairs, scratch.v)
+        sound = kept and missed <= may_miss and gained <= given + spare
+        if sound:
+            break
+        tally.counts[RETRIES] += 1
+        rounds = MAX_ROUNDS_FROM_NOTHING
+        motion.x[:] = scratch.start
+        motion.tension[:] = 0.0
+        motion.floor_impulse[:] = 0.0
+        touch.impulse[:] = 0.0
+    if not sound:
+        if not finest:
+            return False
+        tally.counts[STOPS] += 1
+        scratch.v[:] = 0.0
+    motion.v[:] = scratch.v
+    find_touched(bodies, motion, touch)
+    return True
+
+
+@compiled
+def _energy_gained(bodies: Bodies, operator: Operator, before: Array, scratch: Scratch) -> float:
+    """How much more energy rods have at the end of a step than at its start, J, but for what damping takes.
+
+    Of a step from velocities v to w with M v + h f = p, f linear in the places, the energy of motion, bending and
+    weight changes by w A w / 2 - w p + w M v - v M v / 2 - h tau w K w / 2. The last of these is damping.
+
+    Args:
+        bodies: the rods.
+        operator: of the step.
+        before: (3, nodes) m/s, v.
+        scratch: `momentum`, p; and `v`, w.
+    """
+    total = energy_of(bodies, operator.bands, scratch.v)
+    for c in range(3):
+        for i in range(len(bodies.mass)):
+            v, w = before[c, i], scratch.v[c, i]
+            total += bodies.mass[i] * v * (w - 0.5 * v) - scratch.momentum[c, i] * w
+    return total
+
+
+@compiled
+def _take_turns(
+    bodies: Bodies,
+    operator: Operator,
+    motion: Motion,
+    world: World,
+    touch: Touch,
+    scratch: Scratch,
+    tally: Tally,
+    rounds: int,
+) -> bool:
+    """Find impulses, and places with tensions, in turn; returns whether all lengths are kept in the end."""
+    rods, stirred = len(bodies.length), scratch.stirred
+    due = np.empty(rods, np.bool_)
+    predict(bodies, operator, motion, touch, scratch)
+    stirred[:] = 0
+    sweeps, tolerance = 0, 0.0
+    for turn in range(rounds):
+        before = sweeps
+        if touch.pairs > 0 or len(touch.floor) > 0:
+            sweeps, tolerance = correct(bodies, operator, motion, world, touch, scratch, sweeps, tolerance)
+            if turn > 0 and sweeps == before + 1:
+                break
+        elif turn > 0:
+            break
+        tally.counts[ROUNDS] += 1
+        gather_load(motion, touch, scratch)
+        # A stretch may reach from one rod into the next, so all are asked before any is placed.
+        for rod in range(rods):
+            due[rod] = turn == 0 or was_stirred(stirred, bodies.first[rod], bodies.first[rod + 1], before)
+        for rod in range(rods):
+            if due[rod]:
+                _place(bodies, operator, motion, world, scratch, tally, rod)
+                stir(stirred, bodies.first[rod], bodies.first[rod + 1] - bodies.first[rod], sweeps)
+    tally.counts[SWEEPS] += sweeps
+    kept = True
+    for rod in range(rods):
+        if not _keep_lengths_on_floor(bodies, operator, motion, world, scratch, tally, rod, 1.0):
+            tally.counts[UNKEPT] += 1
+            kept = False
+    return kept
+
+
+@compiled
+def _place(
+    bodies: Bodies, operator: Operator, motion: Motion, world: World, scratch: Scratch, tally: Tally, rod: int
+) -> None:
+    """Find about where a rod ends the step under the load that it has, from the velocities `scratch.v`, and these."""
+    h, start, v, x = operator.step, scratch.start, scratch.v, motion.x
+    for c in range(3):
+        for i in range(bodies.first[rod], bodies.first[rod + 1]):
+            x[c, i] = start[c, i] + h * v[c, i]
+    hold_on_floor(bodies, motion, scratch, h, rod)
+    _keep_lengths_on_floor(bodies, operator, motion, world, scratch, tally, rod, SLACK)
+
+
+@compiled
+def _keep_lengths_on_floor(
+    bodies: Bodies,
+    operator: Operator,
+    motion: Motion,
+    world: World,
+    scratch: Scratch,
+    tally: Tally,
+    rod: int,
+    slack: float,
+) -> bool:
+    """Keep a rod's lengths with the nodes held that the floor then pushes, and no others; find its velocities.
+
+    Returns:
+        Whether the lengths are kept to `slack` times the tolerances.
+    """
+    iterations = keep_lengths(bodies, operator, motion, scratch, rod, slack)
+    tally.counts[ITERATIONS] += iterations
+    for _ in range(MAX_FLOOR_CHANGES if world.floor else 0):
+        let_go = let_go_pulled(bodies, motion, scratch, rod)
+        if not catch_sunk(bodies, motion, scratch, operator.step, rod) and not let_go:
+            break
+        iterations = keep_lengths(bodies, operator, motion, scratch, rod, slack)
+        tally.counts[ITERATIONS] += iterations
+    _find_velocities(bodies, motion, scratch, operator.step, rod)
+    return iterations <= MAX_ITERATIONS
+
+
+@compiled
+def _find_velocities(bodies: Bodies, motion: Motion, scratch: Scratch, step: float, rod: int) -> None:
+    """Set a rod's part of `scratch.v` to what takes it from `scratch.start` to where it is in a step."""
+    for c in range(3):
+        for i in range(bodies.first[rod], bodies.first[rod + 1]):
+            scratch.v[c, i] = (motion.x[c, i] - scratch.start[c, i]) / step
