@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping
 
-from farm.asset_source import InstalledAssets
-from farm.catalogue import Inputs, make_header
-from farm.category import Category
-from farm.header import DatasetHeader
-from farm.job import Job
-from farm.spec import parse_spec
-from farm.styles import merge_tables
+from farm.cli.installed_assets import InstalledAssets
+from farm.spec.category import Category
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
+from farm.spec.make_header import Inputs, make_header
+from farm.spec.parse import parse_spec
+from farm.spec.styles import merge_tables
 
 _RANGES: Mapping[str, object] = {"cable": {"count_draws": 1, "diameter_m": [0.002, 0.002]}}
 

@@ -5,7 +5,7 @@ from typing import Any
 import bpy
 
 from blend import names
-from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
+from farm.scene.camera import FOCAL_LENGTH_MM, SENSOR_MM
 
 
 def add_lamps(scene: Any) -> None:

@@ -3,8 +3,8 @@
 import os
 import sys
 
-from farm.queue.broker import broker_url
-from farm.queue.settings import make_app
+from farm.run.queue.broker import broker_url
+from farm.run.queue.settings import make_app
 
 _WAIT_S = 10.0
 

@@ -13,3 +13,16 @@ class Model(BaseModel):
     """Immutable, refuses unknown keys, silent type changes, NaN and infinities."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
+
+
+Rgb = tuple[
+    Annotated[int, Field(ge=0, le=255)],
+    Annotated[int, Field(ge=0, le=255)],
+    Annotated[int, Field(ge=0, le=255)],
+]
+
+
+Share = Annotated[float, Field(ge=0, le=1)]
+
+
+Metres = Annotated[float, Field(gt=0)]

@@ -9,10 +9,10 @@ import fsspec
 import pytest
 import redis
 
-from farm.dataset import Dataset, Destination, create_dataset
-from farm.header import DatasetHeader
+from farm.dataset.dataset import Dataset, Destination, create_dataset
 from farm.local.redis_server import find_redis_server, private_redis
-from farm.queue.broker import connect
+from farm.run.queue.broker import connect
+from farm.spec.header import DatasetHeader
 from tests.object_store import ObjectStore, has_object_store, private_object_store
 from tests.stand_in import stand_in_header
 from worker.service.exit import leave

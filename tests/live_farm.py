@@ -9,15 +9,15 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from farm.board.port import Priority, RunState, WorkerReport, WorkerState
-from farm.board.redis import RedisBoard
-from farm.completion import Completion
-from farm.coordinator import Coordinator
-from farm.dataset import Dataset, Destination, create_dataset
+from farm.dataset.completion import Completion
+from farm.dataset.dataset import Dataset, Destination, create_dataset
 from farm.local.processes import stop
-from farm.progress import Hints
-from farm.queue.broker import connect
-from farm.redis_hints import redis_hints
+from farm.run.coordinator import Coordinator
+from farm.run.handle import redis_hints
+from farm.run.progress import Hints
+from farm.run.queue.broker import connect
+from farm.run.registry.port import Priority, RunState, WorkerReport, WorkerState
+from farm.run.registry.redis import RedisBoard
 from tests.stand_in import stand_in_header
 
 PATIENCE_S = 120.0

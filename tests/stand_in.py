@@ -19,16 +19,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from farm import __version__
-from farm.category import Category
+from farm.dataset.manifest import RejectedAttempt, RenderSettings, SettleFigures
 from farm.errors import AssetError, EnvironmentMissingError, RenderError, SceneError
-from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
-from farm.job import Job
-from farm.lights import HdriWorld, PointLamp
-from farm.looks import CableMaterial
-from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
-from farm.photograph import Camera
-from farm.scene import Cable, Floor, Friction, Scene, Wind
-from farm.spec import parse_spec
+from farm.scene.backdrop import HdriWorld
+from farm.scene.cable import Cable, CableMaterial
+from farm.scene.camera import Camera
+from farm.scene.floor import Floor
+from farm.scene.light import PointLamp
+from farm.scene.physics import Friction, Wind
+from farm.scene.scene import Scene
+from farm.spec.category import Category
+from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
+from farm.spec.job import Job
+from farm.spec.parse import parse_spec
 from worker.cli import main
 from worker.sample.seeds import Stage, generator
 from worker.service.picture import ImageMaker, MadeImage

@@ -12,10 +12,10 @@ import cv2
 import numpy as np
 import pytest
 
-from farm.category import Category
-from farm.dataset import open_dataset, parse_destination
-from farm.layout import FileRole, file_path
-from farm.verify import verify
+from farm.dataset.dataset import open_dataset, parse_destination
+from farm.dataset.paths import FileRole, file_path
+from farm.dataset.verify import verify
+from farm.spec.category import Category
 
 pytest.importorskip("bpy")
 pytestmark = [pytest.mark.blender, pytest.mark.redis, pytest.mark.slow]

@@ -13,10 +13,10 @@ from pydantic import ValidationError
 
 from assets.environments import DEFAULT_WIDTH
 from farm.errors import EnvironmentMissingError, FarmError, MessageError
-from farm.header import DatasetHeader
-from farm.job import Job
-from farm.queue.broker import broker_url
-from farm.queue.settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
+from farm.run.queue.broker import broker_url
+from farm.run.queue.settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
 from farm.storage import LocalStorage
 from worker.service.cores import only_so_many_seen
 from worker.service.picture import ImageMaker

@@ -10,7 +10,7 @@ from rich.progress import track
 from benchmarks.examples.groups import GROUPS, Example
 from benchmarks.examples.sheet import draw_sheet, examples_a_row
 from benchmarks.terminal import bench_console, blender_writes_to
-from farm.job import Job
+from farm.spec.job import Job
 from worker.blender.renderer import open_studio
 
 DEFAULT_EACH = 4

@@ -3,12 +3,12 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from farm.asset_source import InstalledAssets
-from farm.catalogue import Inputs, make_header
-from farm.category import Category
-from farm.header import DatasetHeader
-from farm.spec import parse_spec
-from farm.styles import Style
+from farm.cli.installed_assets import InstalledAssets
+from farm.spec.category import Category
+from farm.spec.header import DatasetHeader
+from farm.spec.make_header import Inputs, make_header
+from farm.spec.parse import parse_spec
+from farm.spec.styles import Style
 
 _CLOSE = {"camera": {"heights_m": [0.12, 0.15, 0.2]}}
 

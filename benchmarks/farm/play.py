@@ -9,12 +9,12 @@ from pathlib import Path
 from benchmarks.farm.memory import memory_mib
 from benchmarks.farm.rates import Finished, Throughput
 from benchmarks.farm.splits import Split
-from farm.completion import job_of_manifest, parse_manifest
-from farm.dataset import Dataset, open_dataset, parse_destination
+from farm.dataset.completion import job_of_manifest, parse_manifest
+from farm.dataset.dataset import Dataset, open_dataset, parse_destination
+from farm.dataset.verify import verify
 from farm.errors import VerificationError, error_of
 from farm.local.processes import stop
 from farm.local.tied import tied
-from farm.verify import verify
 
 _LOOK_S = 20.0
 """Between two looks at the memory, which take a tenth of a second of a core: the kernel counts pages."""

@@ -12,10 +12,10 @@ from benchmarks.masks.agreement import compare
 from benchmarks.masks.reference import SAMPLES, render_coverage
 from benchmarks.masks.results import LabelledImage, check, table, times
 from benchmarks.terminal import bench_console, blender_writes_to
-from farm.category import Category
 from farm.errors import VerificationError
-from farm.header import DatasetHeader
-from farm.scene import Scene
+from farm.scene.scene import Scene
+from farm.spec.category import Category
+from farm.spec.header import DatasetHeader
 from worker.blender.renderer import open_studio
 from worker.camera.view import View
 from worker.label.label import label_scene

@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.masks.white_on_black import white_on_black
-from farm.photograph import Camera
+from farm.scene.camera import Camera
 from worker.blender.render import render_picture
 
 SAMPLES = 1024

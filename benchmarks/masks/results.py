@@ -7,8 +7,8 @@ import numpy as np
 from rich.table import Table
 
 from benchmarks.masks.agreement import Agreement
-from farm.category import Category
 from farm.errors import VerificationError
+from farm.spec.category import Category
 
 WIDE_PX = 6.0
 MAX_BOUNDARY_ERROR_PX = 1.0

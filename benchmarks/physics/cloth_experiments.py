@@ -13,7 +13,7 @@ from benchmarks.physics.elastica import LEAST_SLENDERNESS, MOST_SLENDERNESS, dro
 from benchmarks.physics.ridge import fit_lifted
 from blend.fall import add_cables, add_floor
 from farm.errors import SceneError
-from farm.fall import ClothFall
+from farm.spec.simulation import ClothFall
 from worker.curves import Points
 from worker.simulate.cloth.joined import FLOOR_SINK, set_material
 from worker.simulate.cloth.material import SEGMENT_UNITS, SOLVER_GRAVITY, STRIP_WIDTH, achieved_stiffness, material_for

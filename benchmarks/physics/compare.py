@@ -16,7 +16,7 @@ from benchmarks.physics.textbook import textbook
 from benchmarks.terminal import bench_console, blender_writes_to
 from blend.build import TEMPLATE
 from blend.contract import open_template
-from farm.fall import Simulator
+from farm.spec.simulation import Simulator
 
 _WARM_UP_CABLES = 4
 

@@ -8,8 +8,8 @@ import numpy as np
 from benchmarks.physics.rows import Played
 from benchmarks.physics.settings import Setting
 from farm.errors import SceneError
-from farm.fall import Simulator
-from farm.scene import Scene
+from farm.scene.scene import Scene
+from farm.spec.simulation import Simulator
 from worker.simulate.checks.measure import measure
 from worker.simulate.shapes import CableShapes
 from worker.simulate.simulate import let_fall

@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 
 from benchmarks.physics.rows import Row, is_rod_default
 from benchmarks.physics.settings import COMPARED_COUNT, COUNTS
-from farm.fall import Simulator
+from farm.spec.simulation import Simulator
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first

@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 
 from blend.fall import add_floor, add_wind
 from farm.errors import SceneError
-from farm.fall import ClothFall
-from farm.scene import Cable, Scene
+from farm.scene.cable import Cable
+from farm.scene.scene import Scene
+from farm.spec.simulation import ClothFall
 from worker.curves import Points
 from worker.simulate.cloth.joined import set_wind, start_line
 from worker.simulate.cloth.scale import FallScale

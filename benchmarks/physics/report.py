@@ -14,7 +14,7 @@ from rich.table import Table
 
 from benchmarks.physics.rows import Row, best, closest, growth, is_rod_default, time_ratio
 from benchmarks.physics.settings import COMPARED_COUNT, CROWDS
-from farm.fall import Simulator
+from farm.spec.simulation import Simulator
 from worker.simulate.checks.measure import Gate
 
 _PROCESSORS = Path("/proc/cpuinfo")

@@ -7,9 +7,9 @@ import numpy as np
 
 from benchmarks.physics.gates import CantileverError
 from benchmarks.physics.settings import Setting
+from farm.dataset.manifest import SettleFigures
 from farm.errors import VerificationError
-from farm.fall import Simulator
-from farm.manifest import SettleFigures
+from farm.spec.simulation import Simulator
 from worker.simulate.checks.measure import Gate, settled_figures
 
 SCENE_GATES = (

@@ -3,12 +3,13 @@
 from importlib.metadata import version
 
 from benchmarks.bench_dataset import PUBLISHED
-from farm.category import Category
-from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
-from farm.job import Job
-from farm.scene import Cable, Scene
-from farm.spec import parse_spec
-from farm.styles import merge_tables
+from farm.scene.cable import Cable
+from farm.scene.scene import Scene
+from farm.spec.category import Category
+from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
+from farm.spec.job import Job
+from farm.spec.parse import parse_spec
+from farm.spec.styles import merge_tables
 from worker.sample.scene import draw_scene
 
 CATEGORIES = (Category.FAR, Category.FAR_ALIGNED)

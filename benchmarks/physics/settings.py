@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from farm.fall import ClothFall, Fall, RodFall, Simulator
+from farm.spec.simulation import ClothFall, Fall, RodFall, Simulator
 
 COUNTS = (1, 2, 4, 8)
 """Numbers of cables that a picture may show."""

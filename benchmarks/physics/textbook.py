@@ -13,7 +13,7 @@ from benchmarks.physics.ridge import RidgeCrossing
 from benchmarks.physics.rows import Textbook
 from benchmarks.physics.settings import Setting
 from farm.errors import SceneError
-from farm.fall import ClothFall, RodFall, Simulator
+from farm.spec.simulation import ClothFall, RodFall, Simulator
 from worker.simulate.cloth import material, scale
 from worker.simulate.rod.model import Rod, Surroundings
 from worker.simulate.rod.simulation import DivergedError, RodSimulation

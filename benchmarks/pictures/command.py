@@ -13,10 +13,10 @@ from benchmarks.pictures.promises import promises_of
 from benchmarks.pictures.report import coverage_table, figures_table, promises_table, spread_table, write_json
 from benchmarks.pictures.survey import Distribution, MeasuredPicture, distribution, groups, summarize, survey
 from benchmarks.terminal import bench_console
-from farm.category import Category
-from farm.contact_sheet import make_contact_sheet
-from farm.dataset import Dataset, open_dataset, parse_destination
+from farm.dataset.contact_sheet import make_contact_sheet
+from farm.dataset.dataset import Dataset, open_dataset, parse_destination
 from farm.errors import SpecError, VerificationError
+from farm.spec.category import Category
 
 _SHEET_COLUMNS = 6
 _SHEET_EDGE_PX = 256

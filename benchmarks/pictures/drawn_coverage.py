@@ -8,10 +8,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from farm.category import Category
-from farm.header import DatasetHeader
-from farm.job import Job
-from farm.rendering import CableDetail
+from farm.spec.category import Category
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
+from farm.spec.rendering import CableDetail
 from worker.label.label import label_scene
 from worker.sample.scene import draw_scene
 from worker.simulate.rod.fall import drop_cables

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.farm.play import run_to_end
-from farm.dataset import Dataset, open_dataset, parse_destination
+from farm.dataset.dataset import Dataset, open_dataset, parse_destination
 
 STYLES = ("published", "wide")
 

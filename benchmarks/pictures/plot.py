@@ -10,7 +10,7 @@ from benchmarks.pictures.colour import Histogram, entropy_bits, mean_hellinger
 from benchmarks.pictures.reference import PHOTOGRAPHS, PUBLISHED, WIDE
 from benchmarks.pictures.report import head, scaled, words
 from benchmarks.pictures.survey import FIGURES, MeasuredPicture, groups, values_of
-from farm.category import Category
+from farm.spec.category import Category
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first

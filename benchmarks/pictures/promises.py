@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from benchmarks.pictures.reference import PUBLISHED, WIDE
 from benchmarks.pictures.survey import Distribution, Summary
-from farm.category import Category
+from farm.spec.category import Category
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from benchmarks.physics.report import machine
 from benchmarks.pictures.promises import Promise
 from benchmarks.pictures.reference import PHOTOGRAPHS, PUBLISHED, Range
 from benchmarks.pictures.survey import FIGURES, Distribution, MeasuredPicture, Summary
-from farm.category import Category
+from farm.spec.category import Category
 
 Summaries = Mapping[Category | None, Summary]
 

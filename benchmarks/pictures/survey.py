@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from benchmarks.pictures.colour import Histogram, colour_histogram, entropy_bits, mean_hellinger
 from benchmarks.pictures.picture_figures import PictureFigures, measure
-from farm.category import Category
-from farm.collect import done_manifests
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
+from farm.dataset.index import done_manifests
+from farm.dataset.manifest import Manifest
+from farm.dataset.paths import FileRole
 from farm.errors import VerificationError
-from farm.layout import FileRole
-from farm.manifest import Manifest
+from farm.spec.category import Category
 
 FIGURES = tuple(field.name for field in fields(PictureFigures))
 

@@ -13,8 +13,8 @@ from benchmarks.render.rows import disturbing_settings, idle_settings
 from benchmarks.render.stage_set import Stage, settle
 from benchmarks.render.variants import BASE, Group, Variant, ladder, turns
 from benchmarks.terminal import bench_console, blender_writes_to
-from farm.category import Category
 from farm.errors import VerificationError
+from farm.spec.category import Category
 
 DEFAULT_SCENES = 4
 """Of each category."""

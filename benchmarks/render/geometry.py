@@ -18,7 +18,7 @@ from benchmarks.render.errors import errors
 from benchmarks.render.stage_set import SettledScene, Stage
 from benchmarks.render.variants import BASE
 from blend import names
-from farm.rendering import CableDetail, PictureSettings
+from farm.spec.rendering import CableDetail, PictureSettings
 from worker.curves import Points, smooth
 
 _FINE = CableDetail(sides=64, points_per_segment=10)

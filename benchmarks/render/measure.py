@@ -12,7 +12,7 @@ from benchmarks.render.rows import Row, Shot
 from benchmarks.render.stage_set import SettledScene, Stage
 from benchmarks.render.variants import Variant
 from benchmarks.terminal import blender_writes_to
-from farm.category import Category
+from farm.spec.category import Category
 
 
 class Measurement:

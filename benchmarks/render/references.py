@@ -10,11 +10,11 @@ import pydantic_core
 from numpy.typing import NDArray
 
 from benchmarks.render.stage_set import SettledScene, Stage
-from farm.catalogue import template_ref
 from farm.errors import AssetError
-from farm.header import DatasetHeader
 from farm.machine import cache_folder
-from farm.quality import REFERENCE
+from farm.spec.header import DatasetHeader
+from farm.spec.make_header import template_ref
+from farm.spec.quality import REFERENCE
 from worker.service.upload import encode_png
 
 VERSION = 1

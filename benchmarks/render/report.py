@@ -15,8 +15,8 @@ from rich.table import Table
 from benchmarks.render.geometry import GeometryRow
 from benchmarks.render.rows import Row, front
 from benchmarks.render.variants import Group
-from farm.category import Category
-from farm.quality import REFERENCE, CalibratedSettings, Calibration, Preset, budget_of, cheapest
+from farm.spec.category import Category
+from farm.spec.quality import REFERENCE, CalibratedSettings, Calibration, Preset, budget_of, cheapest
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first

@@ -7,7 +7,7 @@ import numpy as np
 
 from benchmarks.render.errors import Errors
 from benchmarks.render.variants import Variant
-from farm.category import Category
+from farm.spec.category import Category
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 
 from blend.build import TEMPLATE
 from blend.contract import open_template
-from farm.category import Category
 from farm.errors import RenderError
-from farm.header import DatasetHeader
-from farm.job import Job
-from farm.rendering import PictureSettings
-from farm.scene import Scene
+from farm.scene.scene import Scene
+from farm.spec.category import Category
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
+from farm.spec.rendering import PictureSettings
 from worker.backdrop.matte import Backdrop
 from worker.blender.asset_files import AssetLibrary
 from worker.blender.build_scene import realize

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
-from farm.rendering import (
+from farm.spec.rendering import (
     CableDetail,
     CyclesSettings,
     Denoiser,

@@ -18,8 +18,8 @@ from benchmarks.render.stage_set import SettledScene, Stage, settle
 from benchmarks.skips.savings import Saving, Trial
 from benchmarks.skips.skips import Skip, Skips
 from benchmarks.terminal import bench_console, blender_writes_to
-from farm.category import Category
 from farm.errors import VerificationError
+from farm.spec.category import Category
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.skips.skips import Skip
-from farm.category import Category
+from farm.spec.category import Category
 
 
 @dataclass(frozen=True, slots=True)

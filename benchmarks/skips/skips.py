@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from benchmarks.physics.scenes import DRAWN_CABLES, crowd
 from benchmarks.render.stage_set import SettledScene, Stage
 from blend import names
-from farm.category import Background, Category, Light
-from farm.header import DatasetHeader
-from farm.job import Job
-from farm.rendering import Economy, PictureSettings
-from farm.scene import Scene
+from farm.scene.scene import Scene
+from farm.spec.category import Background, Category, Light
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
+from farm.spec.rendering import Economy, PictureSettings
 from worker.blender.asset_files import AssetLibrary
 from worker.blender.floor import set_floor
 from worker.blender.image_cache import ImageShelf

@@ -9,18 +9,18 @@ from pathlib import Path
 from benchmarks.soak.growth import Sample
 from benchmarks.soak.report import soak_table, write_json, write_plot
 from benchmarks.terminal import bench_console
-from farm.asset_source import InstalledAssets
-from farm.catalogue import Inputs, make_header
-from farm.coordinator import Coordinator
-from farm.dataset import Destination, create_dataset
+from farm.cli.installed_assets import InstalledAssets
+from farm.dataset.dataset import Destination, create_dataset
+from farm.dataset.verify import verify
 from farm.errors import VerificationError
 from farm.local.redis_server import PrivateRedis
 from farm.local.workers import LocalWorkers, WorkerOptions
-from farm.progress import Progress
-from farm.queue.broker import connect
-from farm.redis_hints import redis_hints
-from farm.spec import parse_spec
-from farm.verify import verify
+from farm.run.coordinator import Coordinator
+from farm.run.handle import redis_hints
+from farm.run.progress import Progress
+from farm.run.queue.broker import connect
+from farm.spec.make_header import Inputs, make_header
+from farm.spec.parse import parse_spec
 
 RECYCLED_AFTER = 50
 

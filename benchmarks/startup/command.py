@@ -9,8 +9,8 @@ from benchmarks.bench_dataset import bench_header
 from benchmarks.startup.report import once_table, start_table, write_json, write_plot
 from benchmarks.startup.starts import start_once
 from benchmarks.terminal import bench_console
-from farm.category import Category
-from farm.job import Job
+from farm.spec.category import Category
+from farm.spec.job import Job
 
 DEFAULT_STARTS = 5
 

@@ -11,8 +11,8 @@ from typing import Any
 
 from benchmarks.startup.imports import OWN, seconds_by_library
 from farm.errors import VerificationError
-from farm.header import DatasetHeader
-from farm.job import Job
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
 
 Seconds = Mapping[str, float]
 

@@ -11,8 +11,8 @@ from unittest.mock import patch
 
 from numba.core.dispatcher import Dispatcher
 
-from farm.header import DatasetHeader
-from farm.job import Job
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
 from worker.blender.asset_files import AssetLibrary, SurfaceFiles
 from worker.service.picture import ImageMaker
 

@@ -19,12 +19,12 @@ from benchmarks.physics.report import machine
 from benchmarks.render.stage_set import SettledScene, Stage, settle
 from benchmarks.surfaces.costs import MOST, SurfaceCost, too_costly
 from benchmarks.terminal import bench_console, blender_writes_to
-from farm.asset_source import InstalledAssets
-from farm.category import Category
-from farm.header import DatasetHeader
-from farm.quality import Preset, settings_for
-from farm.scene import JointFill, Wear
-from farm.styles import Style
+from farm.cli.installed_assets import InstalledAssets
+from farm.scene.floor import JointFill, Wear
+from farm.spec.category import Category
+from farm.spec.header import DatasetHeader
+from farm.spec.quality import Preset, settings_for
+from farm.spec.styles import Style
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first

@@ -7,10 +7,10 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.collect import done_manifests
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
+from farm.dataset.index import done_manifests
+from farm.dataset.paths import FileRole
 from farm.errors import SpecError, VerificationError
-from farm.layout import FileRole
 
 EDGE_PX = 256
 """Of what the network takes."""

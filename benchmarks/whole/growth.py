@@ -15,9 +15,9 @@ from benchmarks.whole.plan import Plan
 from benchmarks.whole.rows import STAGES
 from benchmarks.whole.stopwatch import Stopwatch
 from benchmarks.whole.writing import write_files
-from farm.category import Category
-from farm.header import DatasetHeader
-from farm.job import Job
+from farm.spec.category import Category
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
 from worker.label.label import label_scene
 from worker.sample.scene import draw_scene
 from worker.simulate.checks.measure import measure

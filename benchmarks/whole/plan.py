@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from farm.category import Category
+from farm.spec.category import Category
 
 
 @dataclass(frozen=True, slots=True)

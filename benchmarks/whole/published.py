@@ -14,9 +14,9 @@ from benchmarks.whole.rows import STAGES, Shot
 from benchmarks.whole.stopwatch import Stopwatch
 from benchmarks.whole.writing import write_files
 from farm.errors import SceneError, VerificationError
-from farm.fall import Simulator
-from farm.header import DatasetHeader
-from farm.job import Job
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
+from farm.spec.simulation import Simulator
 from worker.blender.render import render_picture
 from worker.label.label import label_scene
 from worker.sample.scene import draw_scene

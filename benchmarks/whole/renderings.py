@@ -8,8 +8,8 @@ import bpy
 
 from benchmarks.render.stage_set import SettledScene, Stage
 from blend import names
-from farm.quality import REFERENCE
-from farm.rendering import Denoiser, PictureSettings, Prefilter
+from farm.spec.quality import REFERENCE
+from farm.spec.rendering import Denoiser, PictureSettings, Prefilter
 
 
 @dataclass(frozen=True, slots=True)

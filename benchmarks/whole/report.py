@@ -12,7 +12,7 @@ from benchmarks.physics.report import machine
 from benchmarks.whole.growth import Axis, Point, power
 from benchmarks.whole.plan import Plan
 from benchmarks.whole.rows import STAGES, Ratio, Row, mix, ratio
-from farm.category import Category
+from farm.spec.category import Category
 
 _RENDER = ("render",)
 

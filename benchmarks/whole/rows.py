@@ -7,8 +7,8 @@ from enum import StrEnum
 import numpy as np
 
 from benchmarks.render.errors import Errors
-from farm.category import Category
-from farm.job import Job
+from farm.spec.category import Category
+from farm.spec.job import Job
 
 STAGES = ("randomize", "simulate", "check", "realize", "render", "mask", "write")
 """Of a picture, in their order."""

@@ -15,10 +15,10 @@ from benchmarks.whole.renderings import BLENDER, BLENDERPROC, Rendering, set_pic
 from benchmarks.whole.rows import Row, Shot, Way
 from benchmarks.whole.standard import settled_again, written_picture
 from benchmarks.whole.stopwatch import Stopwatch
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
 from farm.errors import VerificationError
-from farm.job import Job
-from farm.rendering import CyclesSettings, PictureSettings
+from farm.spec.job import Job
+from farm.spec.rendering import CyclesSettings, PictureSettings
 
 RENDERINGS: Mapping[Way, Rendering] = {Way.BLENDERPROC: BLENDERPROC, Way.BLENDER: BLENDER}
 

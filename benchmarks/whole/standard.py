@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from benchmarks.render.stage_set import SettledScene
 from benchmarks.whole.rows import STAGES, Row, Shot, Way
-from farm.completion import parse_manifest
-from farm.dataset import Dataset
+from farm.dataset.completion import parse_manifest
+from farm.dataset.dataset import Dataset
+from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.verify import verify
 from farm.errors import VerificationError
-from farm.job import Job
-from farm.layout import FileRole, file_path, manifest_path
-from farm.verify import verify
+from farm.spec.job import Job
 from worker.blender.renderer import open_studio
 from worker.service.upload import upload
 from worker.simulate.simulate import let_fall

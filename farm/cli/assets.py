@@ -11,10 +11,10 @@ from assets.environments import DEFAULT_WIDTH, ENVIRONMENTS, LARGEST_WIDTH, SMAL
 from assets.hdris import registry
 from assets.plates import scan_plates
 from assets.surfaces.catalogue import SURFACES
-from farm.asset_source import InstalledAssets
 from farm.cli.baking import bake, render_environments
 from farm.cli.display import console
 from farm.cli.fetching import fetch
+from farm.cli.installed_assets import InstalledAssets
 from farm.cli.options import Assets
 from farm.cli.worker_program import blender_is_installed
 from farm.errors import AssetError, SpecError

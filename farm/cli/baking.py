@@ -9,10 +9,10 @@ from rich.progress import Progress
 from assets.bake import BakedSet, bake_surfaces
 from assets.baked import surface_directory
 from assets.environments import DEFAULT_WIDTH, FOLDER_NAME, missing_environments
-from farm.category import Background, Light
 from farm.cli.options import log_folder
 from farm.cli.worker_program import ask_worker, require_blender
-from farm.header import BuiltinSurfaceRef, DatasetHeader
+from farm.spec.category import Background, Light
+from farm.spec.header import BuiltinSurfaceRef, DatasetHeader
 
 
 def bake(names: Iterable[str], folder: Path | None, screen: Console) -> BakedSet:

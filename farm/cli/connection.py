@@ -1,11 +1,11 @@
 """Joining a dataset to its run in Redis, from the command line's options."""
 
-from farm.board.port import Priority
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
 from farm.errors import BrokerError
-from farm.progress import Hints
-from farm.queue.broker import broker_url, connect
-from farm.redis_hints import redis_hints
+from farm.run.handle import redis_hints
+from farm.run.progress import Hints
+from farm.run.queue.broker import broker_url, connect
+from farm.run.registry.port import Priority
 
 
 def hints_of(dataset: Dataset, broker: str | None, priority: Priority | None = None) -> Hints:

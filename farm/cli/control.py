@@ -4,12 +4,12 @@ from typing import Annotated
 
 import typer
 
-from farm.board.port import Priority, RunState
 from farm.cli.connection import hints_of
 from farm.cli.options import Broker, DatasetPlace
-from farm.dataset import open_dataset, parse_destination
+from farm.dataset.dataset import open_dataset, parse_destination
 from farm.errors import ConflictError
-from farm.progress import Hints
+from farm.run.progress import Hints
+from farm.run.registry.port import Priority, RunState
 
 NewPriority = Annotated[Priority | None, typer.Option("--priority", help="Also change its priority.")]
 

@@ -9,9 +9,9 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn
 from rich.table import Table
 
-from farm.board.port import RunState, WorkerState
-from farm.category import Category
-from farm.progress import Progress as DatasetProgress
+from farm.run.progress import Progress as DatasetProgress
+from farm.run.registry.port import RunState, WorkerState
+from farm.spec.category import Category
 
 _PLAIN_EVERY_S = 15.0
 

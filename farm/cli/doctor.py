@@ -1,15 +1,26 @@
 """`farm doctor`: what this machine has and lacks."""
 
+import ctypes
+import importlib.util
+import platform
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import typer
 from pydantic_core import to_json
 from rich.markup import escape
 
+from assets.baked import load_baked, surface_directory
+from assets.surfaces.catalogue import SURFACES
 from farm.cli.display import console
 from farm.cli.options import AsJson
-from farm.doctor import examine
-from farm.errors import EnvironmentMissingError
+from farm.errors import AssetError, EnvironmentMissingError
+from farm.local.redis_server import find_redis_server
+from farm.machine import memory_bytes, usable_cores
+from farm.model import Model
 
 
 def doctor(as_json: AsJson = False) -> None:
@@ -28,3 +39,205 @@ def doctor(as_json: AsJson = False) -> None:
     missing = [check.name for check in checks if check.needed and not check.ok]
     if missing:
         raise EnvironmentMissingError(f"this machine can't render yet; it lacks {', '.join(missing)}")
+
+
+_MEMORY_GIB = 4.0
+
+
+_DISK_GIB = 2.0
+
+
+_BLENDER_S = 120.0
+
+
+_DEVICES = Path("/dev")
+
+
+_GPU_SIGNS = (
+    ("optix or cuda", "nvidia[0-9]*", "NVIDIA"),
+    ("hip", "kfd", "AMD"),
+    ("oneapi or hip", "dri/renderD*", "a render node"),
+)
+
+
+# Mesa's, of older and newer packages, and NVIDIA's own; below the root.
+_DRIVERS = (
+    "usr/lib/*/dri/swrast_dri.so",
+    "usr/lib/*/dri/libdril_dri.so",
+    "usr/lib/*/libgallium-*.so",
+    "usr/lib/*/libEGL_nvidia.so.0",
+)
+
+
+# Debian's packages of the libraries that bpy is linked to.
+_PACKAGES = {
+    "libEGL.so.1": "libegl1",
+    "libGL.so.1": "libgl1",
+    "libGLX.so.0": "libglx0",
+    "libICE.so.6": "libice6",
+    "libSM.so.6": "libsm6",
+    "libX11.so.6": "libx11-6",
+    "libXext.so.6": "libxext6",
+    "libXfixes.so.3": "libxfixes3",
+    "libXi.so.6": "libxi6",
+    "libXrender.so.1": "libxrender1",
+    "libxkbcommon.so.0": "libxkbcommon0",
+}
+
+
+class Check(Model):
+    """One thing the farm looks for.
+
+    Attributes:
+        needed: without it nothing is rendered; the others are for some uses.
+        remedy: the command that mends it; empty where it is fine.
+    """
+
+    name: str
+    ok: bool
+    needed: bool
+    detail: str
+    remedy: str = ""
+
+
+def examine(folder: Path) -> list[Check]:
+    """Look at this machine.
+
+    Args:
+        folder: where datasets would go, for its disk's free space.
+    """
+    return [
+        _python(),
+        _libraries(),
+        _blender(),
+        _redis_server(),
+        _surfaces(),
+        _egl(),
+        _gpu(),
+        _flower(),
+        _cores(),
+        _memory(),
+        _disk(folder),
+    ]
+
+
+def _python() -> Check:
+    version = platform.python_version()
+    ok = sys.version_info[:2] == (3, 11)
+    return Check(
+        name="Python 3.11", ok=ok, needed=True, detail=version, remedy="" if ok else "apt-get install python3.11-venv"
+    )
+
+
+def _blender_libraries() -> Sequence[Path]:
+    spec = importlib.util.find_spec("bpy")
+    if spec is None or spec.origin is None:
+        return ()
+    return sorted(Path(spec.origin).parent.glob("__init__*.so"))
+
+
+def _libraries() -> Check:
+    name = "libraries for Blender"
+    modules = _blender_libraries()
+    ldd = shutil.which("ldd")
+    if not modules or ldd is None:
+        return Check(name=name, ok=True, needed=True, detail="not checked: no bpy, or no ldd")
+    listing = subprocess.run(  # noqa: S603 - a program of the system on a file of our own
+        [ldd, str(modules[0])], capture_output=True, text=True, check=False
+    ).stdout
+    missing = [line.split()[0] for line in listing.splitlines() if line.rstrip().endswith("not found")]
+    if not missing:
+        return Check(name=name, ok=True, needed=True, detail="all found")
+    packages = sorted({_PACKAGES.get(library, library) for library in missing})
+    remedy = f"apt-get install --no-install-recommends {' '.join(packages)}"
+    return Check(name=name, ok=False, needed=True, detail=f"missing: {', '.join(missing)}", remedy=remedy)
+
+
+def _blender() -> Check:
+    name = "Blender (bpy)"
+    if importlib.util.find_spec("bpy") is None:
+        remedy = "pip install 'cable-farm[worker]'"
+        return Check(name=name, ok=False, needed=True, detail="not installed", remedy=remedy)
+    program = "import bpy; print('version', bpy.app.version_string)"
+    try:
+        result = subprocess.run(  # noqa: S603 - our own program
+            [sys.executable, "-P", "-c", program], capture_output=True, text=True, check=False, timeout=_BLENDER_S
+        )
+    except subprocess.TimeoutExpired:
+        return Check(
+            name=name, ok=False, needed=True, detail="does not start", remedy="pip install --force-reinstall bpy"
+        )
+    versions = [line for line in result.stdout.splitlines() if line.startswith("version ")]
+    if result.returncode == 0 and versions:
+        return Check(name=name, ok=True, needed=True, detail=versions[-1].removeprefix("version "))
+    last = result.stderr.strip().splitlines()[-1:] or [f"it ended with code {result.returncode}"]
+    return Check(name=name, ok=False, needed=True, detail=last[0], remedy="mend the libraries above, then try again")
+
+
+def _redis_server() -> Check:
+    found = find_redis_server()
+    remedy = "" if found else "pip install 'cable-farm[local]', or apt-get install redis-server"
+    detail = str(found) if found else "not found; farm run needs it"
+    # Only `farm run` starts one; workers and coordinators of a cluster are given theirs.
+    return Check(name="redis-server", ok=found is not None, needed=False, detail=detail, remedy=remedy)
+
+
+def _surfaces() -> Check:
+    name, folder = "built-in surfaces", surface_directory()
+    try:
+        present = set(load_baked(folder))
+    except AssetError:
+        present = set()
+    lacking = len(SURFACES.keys() - present)
+    detail = f"{len(SURFACES) - lacking} of {len(SURFACES)} drawn, in {folder}"
+    # Not needed, as every command that renders draws them first.
+    return Check(name=name, ok=lacking == 0, needed=False, detail=detail, remedy="farm assets build" if lacking else "")
+
+
+def _egl() -> Check:
+    try:
+        ctypes.CDLL("libEGL.so.1")
+    except OSError:
+        remedy = "apt-get install --no-install-recommends libegl1 libgl1-mesa-dri"
+        return Check(name="EGL", ok=False, needed=False, detail="not found; --engine eevee needs it", remedy=remedy)
+    if not any(list(Path("/").glob(pattern)) for pattern in _DRIVERS):
+        remedy = "apt-get install --no-install-recommends libgl1-mesa-dri"
+        detail = "found, but no driver for it; --engine eevee needs one"
+        return Check(name="EGL", ok=False, needed=False, detail=detail, remedy=remedy)
+    return Check(name="EGL", ok=True, needed=False, detail="found with a driver, for --engine eevee")
+
+
+def _gpu() -> Check:
+    # Whether Cycles can use it, only Blender knows; this tells in no time what is worth a try.
+    found = [
+        f"{backend} ({sign})"
+        for backend, pattern, sign in _GPU_SIGNS
+        if list(_DEVICES.glob(pattern)) or (sign == "NVIDIA" and shutil.which("nvidia-smi"))
+    ]
+    detail = f"may serve --device {'; '.join(found)}" if found else "none found; Cycles renders on the CPU"
+    return Check(name="GPU", ok=True, needed=False, detail=detail)
+
+
+def _flower() -> Check:
+    ok = importlib.util.find_spec("flower") is not None
+    remedy = "" if ok else "pip install 'cable-farm[flower]'"
+    return Check(name="Flower", ok=ok, needed=False, detail="installed" if ok else "not installed", remedy=remedy)
+
+
+def _cores() -> Check:
+    count = usable_cores()
+    return Check(name="processor cores", ok=True, needed=False, detail=str(count))
+
+
+def _memory() -> Check:
+    total_gib = memory_bytes() / 2**30
+    ok = total_gib >= _MEMORY_GIB
+    remedy = "" if ok else "farm run --workers 1"
+    return Check(name="memory", ok=ok, needed=False, detail=f"{total_gib:.1f} GiB", remedy=remedy)
+
+
+def _disk(folder: Path) -> Check:
+    free_gib = shutil.disk_usage(folder).free / 2**30
+    ok = free_gib >= _DISK_GIB
+    remedy = "" if ok else "free some, or choose an --out on another disk"
+    return Check(name="free disk", ok=ok, needed=False, detail=f"{free_gib:.0f} GiB at {folder}", remedy=remedy)

@@ -10,7 +10,7 @@ import typer
 
 from farm.cli.options import Broker
 from farm.errors import EnvironmentMissingError, SpecError
-from farm.queue.broker import broker_url, connect
+from farm.run.queue.broker import broker_url, connect
 
 _PASSWORD_VARIABLE = "FLOWER_BASIC_AUTH"  # noqa: S105 - a name, no password
 

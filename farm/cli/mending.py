@@ -5,17 +5,17 @@ from typing import Annotated
 
 import typer
 
-from farm.board.port import RunState
 from farm.cli.connection import hints_if_reachable, hints_of
 from farm.cli.options import Broker, DatasetPlace
-from farm.coordinator import Coordinator
-from farm.dataset import Dataset, open_dataset, parse_destination
+from farm.dataset.dataset import Dataset, open_dataset, parse_destination
+from farm.dataset.paths import manifest_path
+from farm.dataset.quarantine import Quarantine
+from farm.dataset.verify import damaged_jobs
 from farm.errors import SpecError
-from farm.job import Job
-from farm.layout import manifest_path
-from farm.progress import Hints
-from farm.quarantine import Quarantine
-from farm.verify import damaged_jobs
+from farm.run.coordinator import Coordinator
+from farm.run.progress import Hints
+from farm.run.registry.port import RunState
+from farm.spec.job import Job
 
 
 def repair(

@@ -10,13 +10,13 @@ from typing import Annotated
 import redis
 import typer
 
-from farm.board.redis import RedisBoard
 from farm.cli.options import Broker
-from farm.dataset import Dataset, Destination, open_dataset, parse_destination
+from farm.dataset.dataset import Dataset, Destination, open_dataset, parse_destination
 from farm.errors import ConflictError, DestinationError, EnvironmentMissingError, SpecError
-from farm.progress import Hints
-from farm.queue.broker import broker_url, connect
-from farm.redis_hints import redis_hints
+from farm.run.handle import redis_hints
+from farm.run.progress import Hints
+from farm.run.queue.broker import broker_url, connect
+from farm.run.registry.redis import RedisBoard
 
 
 def metrics(
@@ -39,7 +39,7 @@ def metrics(
     # Not every machine of a farm has it.
     from prometheus_client import CollectorRegistry, start_http_server  # noqa: PLC0415
 
-    from farm.metrics import FarmCollector  # noqa: PLC0415
+    from farm.run.metrics import FarmCollector  # noqa: PLC0415
 
     if not places and store is None:
         raise SpecError("name datasets, or the --store that holds those that are worked on")

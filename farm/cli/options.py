@@ -11,12 +11,12 @@ from typing import Annotated, Any
 
 import typer
 
-from farm.description import Description, describe, parse_quotas
 from farm.errors import SpecError
-from farm.fall import Simulator
-from farm.quality import read_quality
-from farm.spec import Engine
-from farm.styles import Style
+from farm.spec.dataset_spec import Engine
+from farm.spec.parse import Description, describe, parse_quotas
+from farm.spec.quality import read_quality
+from farm.spec.simulation import Simulator
+from farm.spec.styles import Style
 
 _DATASET = "What to make"
 

@@ -6,15 +6,15 @@ from typing import Annotated
 
 import typer
 
-from farm.asset_source import InstalledAssets
-from farm.catalogue import make_header
-from farm.category import Category
 from farm.cli.baking import bake_for
 from farm.cli.display import console
+from farm.cli.installed_assets import InstalledAssets
 from farm.cli.options import Assets, DatasetOptions, Device, DeviceChoice, Logs, log_folder, takes_dataset_options
 from farm.cli.worker_program import ask_worker, require_blender
 from farm.errors import DestinationError, SpecError
-from farm.job import Job
+from farm.spec.category import Category
+from farm.spec.job import Job
+from farm.spec.make_header import make_header
 
 
 @takes_dataset_options

@@ -5,8 +5,8 @@ from typing import Annotated
 import tomli_w
 import typer
 
-from farm.spec import DEFAULT_STYLE
-from farm.styles import RANGES_OF, Style
+from farm.spec.dataset_spec import DEFAULT_STYLE
+from farm.spec.styles import RANGES_OF, Style
 
 
 def ranges(

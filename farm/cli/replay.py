@@ -9,9 +9,9 @@ from farm.cli.baking import bake_for
 from farm.cli.display import console
 from farm.cli.options import Assets, DatasetPlace, Device, DeviceChoice, Logs, log_folder
 from farm.cli.worker_program import ask_worker, require_blender
-from farm.dataset import open_dataset, parse_destination
+from farm.dataset.dataset import open_dataset, parse_destination
 from farm.errors import DestinationError, SpecError
-from farm.job import Job
+from farm.spec.job import Job
 
 
 def replay(

@@ -6,11 +6,11 @@ from typing import Annotated
 import typer
 
 from farm.cli.options import DatasetPlace
-from farm.collect import write_index
-from farm.contact_sheet import make_contact_sheet
-from farm.dataset import open_dataset, parse_destination
-from farm.layout import INDEX_FILE, REPORT_FILE
-from farm.report import write_report
+from farm.dataset.contact_sheet import make_contact_sheet
+from farm.dataset.dataset import open_dataset, parse_destination
+from farm.dataset.index import write_index
+from farm.dataset.paths import INDEX_FILE, REPORT_FILE
+from farm.dataset.report import write_report
 from farm.storage import open_storage
 
 _SHEET_EDGE_PX = 192

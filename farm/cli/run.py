@@ -4,10 +4,9 @@ from typing import Annotated
 
 import typer
 
-from farm.asset_source import InstalledAssets
-from farm.catalogue import make_header
 from farm.cli.baking import bake_for
 from farm.cli.display import ProgressDisplay, console
+from farm.cli.installed_assets import InstalledAssets
 from farm.cli.options import (
     Assets,
     DatasetOptions,
@@ -20,13 +19,14 @@ from farm.cli.options import (
     takes_dataset_options,
 )
 from farm.cli.worker_program import ask_worker, check_device, require_blender
-from farm.dataset import find_dataset, open_dataset, parse_destination
+from farm.dataset.dataset import find_dataset, open_dataset, parse_destination
+from farm.dataset.paths import REPORT_FILE
+from farm.dataset.report import write_overview
 from farm.errors import IncompleteError
-from farm.layout import REPORT_FILE
 from farm.local.run import LocalRun, default_workers, run_locally
 from farm.machine import usable_cores
-from farm.queue.settings import MIN_FREE_MIB
-from farm.report import write_overview
+from farm.run.queue.settings import MIN_FREE_MIB
+from farm.spec.make_header import make_header
 
 
 @takes_dataset_options

@@ -2,18 +2,18 @@
 
 import typer
 
-from farm.board.port import RunState, WorkerReport
 from farm.cli.connection import hints_if_reachable, hints_of
 from farm.cli.display import ProgressDisplay, console, duration, table
 from farm.cli.options import AsJson, Broker, DatasetPlace
-from farm.completion import Completion
-from farm.coordinator import Coordinator
-from farm.dataset import Dataset, open_dataset, parse_destination
+from farm.dataset.completion import Completion
+from farm.dataset.dataset import Dataset, open_dataset, parse_destination
+from farm.dataset.quarantine import Quarantine
+from farm.dataset.report import write_overview
 from farm.errors import IncompleteError
-from farm.progress import Progress, on_disk, with_hints
-from farm.quarantine import Quarantine
-from farm.queue.broker import broker_url, masked
-from farm.report import write_overview
+from farm.run.coordinator import Coordinator
+from farm.run.progress import Progress, on_disk, with_hints
+from farm.run.queue.broker import broker_url, masked
+from farm.run.registry.port import RunState, WorkerReport
 
 
 def status(place: DatasetPlace, broker: Broker = None, as_json: AsJson = False) -> None:

@@ -4,17 +4,17 @@ from typing import Annotated
 
 import typer
 
-from farm.asset_source import InstalledAssets
-from farm.board.port import Priority
-from farm.catalogue import make_header
 from farm.cli.connection import hints_of
 from farm.cli.display import console
+from farm.cli.installed_assets import InstalledAssets
 from farm.cli.options import Broker, DatasetOptions, Logs, Out, log_folder, takes_dataset_options
 from farm.cli.status import watch_to_the_end
 from farm.cli.worker_program import ask_worker, blender_is_installed
-from farm.coordinator import Coordinator
-from farm.dataset import create_dataset, parse_destination
-from farm.queue.broker import broker_url, connect
+from farm.dataset.dataset import create_dataset, parse_destination
+from farm.run.coordinator import Coordinator
+from farm.run.queue.broker import broker_url, connect
+from farm.run.registry.port import Priority
+from farm.spec.make_header import make_header
 
 
 @takes_dataset_options

@@ -7,10 +7,10 @@ from rich.progress import Progress
 
 from farm.cli.display import console
 from farm.cli.options import AsJson, DatasetPlace
-from farm.dataset import open_dataset, parse_destination
+from farm.dataset.dataset import open_dataset, parse_destination
+from farm.dataset.verify import Verdict
+from farm.dataset.verify import verify as verify_dataset
 from farm.errors import IncompleteError, VerificationError
-from farm.verify import Verdict
-from farm.verify import verify as verify_dataset
 
 _SHOWN = 50
 

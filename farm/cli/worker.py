@@ -12,8 +12,8 @@ from farm.cli.display import console
 from farm.cli.options import Assets, Broker, Device, DeviceChoice, Logs, MinFree, log_folder
 from farm.cli.worker_program import become_worker, check_device, require_blender
 from farm.machine import usable_cores
-from farm.queue.broker import broker_url, wait_for
-from farm.queue.settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
+from farm.run.queue.broker import broker_url, wait_for
+from farm.run.queue.settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
 from farm.storage import open_storage
 
 

@@ -10,9 +10,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from farm.errors import EnvironmentMissingError, RenderError, error_of
-from farm.header import DatasetHeader
 from farm.local.workers import WORKER_COMMAND
-from farm.queue.broker import BROKER_VARIABLE
+from farm.run.queue.broker import BROKER_VARIABLE
+from farm.spec.header import DatasetHeader
 
 
 def blender_is_installed() -> bool:

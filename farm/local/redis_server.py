@@ -14,7 +14,7 @@ from typing import Self
 from farm.errors import BrokerError, EnvironmentMissingError
 from farm.local.processes import stop
 from farm.local.tied import tied
-from farm.queue.broker import connect
+from farm.run.queue.broker import connect
 
 _START_S = 15.0
 _SOCKET_PATH_LIMIT = 100  # bytes; the kernel's limit for a Unix socket's path is 108

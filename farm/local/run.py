@@ -4,17 +4,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from farm.coordinator import Coordinator
-from farm.dataset import Destination, create_dataset
-from farm.feeder import LOST_AFTER_S
-from farm.header import DatasetHeader
+from farm.dataset.dataset import Destination, create_dataset
 from farm.local.redis_server import PrivateRedis
 from farm.local.workers import WORKER_COMMAND, LocalWorkers, WorkerOptions
 from farm.machine import memory_bytes, usable_cores
-from farm.progress import Progress
-from farm.queue.broker import connect
-from farm.queue.settings import MIN_FREE_MIB
-from farm.redis_hints import redis_hints
+from farm.run.coordinator import Coordinator
+from farm.run.feeder import LOST_AFTER_S
+from farm.run.handle import redis_hints
+from farm.run.progress import Progress
+from farm.run.queue.broker import connect
+from farm.run.queue.settings import MIN_FREE_MIB
+from farm.spec.header import DatasetHeader
 
 _WORKER_BYTES = 2 * 2**30
 """Left free for each worker: Blender, the solver, textures."""
@@ -32,7 +32,7 @@ class LocalRun:
         logs: folder for the workers' logs.
         worker_command: the program that is a worker.
         min_free_mib: no picture is made while the dataset's disk has less room.
-        lost_after_s: see `farm.feeder.LOST_AFTER_S`.
+        lost_after_s: see `farm.run.feeder.LOST_AFTER_S`.
     """
 
     workers: int

@@ -13,8 +13,8 @@ from typing import Self
 from farm.errors import BrokerError, DestinationError, EnvironmentMissingError, error_of
 from farm.local.processes import stop
 from farm.local.tied import tied
-from farm.queue.broker import BROKER_VARIABLE
-from farm.queue.settings import MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
+from farm.run.queue.broker import BROKER_VARIABLE
+from farm.run.queue.settings import MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
 
 WORKER_COMMAND = (sys.executable, "-P", "-m", "worker")
 """Started as a program of its own, as this package must not import it."""

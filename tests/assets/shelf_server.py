@@ -14,7 +14,7 @@ import numpy as np
 
 from assets.fetchable import Asset, AssetFile, Kind, Registry
 from assets.files import sha256
-from tests.farm.queue.servers import Certificates
+from tests.farm.run.queue.servers import Certificates
 
 Answer = Callable[[BaseHTTPRequestHandler], None]
 

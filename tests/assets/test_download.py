@@ -12,7 +12,7 @@ from assets.download import PassingError, Patience, download
 from assets.files import sha256
 from farm.errors import AssetError
 from tests.assets.shelf_server import Answer, ShelfServer, drip, redirect, send, shelf_server
-from tests.farm.queue.servers import Certificates, make_certificates
+from tests.farm.run.queue.servers import Certificates, make_certificates
 
 CONTENT = bytes(range(256)) * 800
 SOON = Patience(silence_s=5.0, pauses_s=(0.0, 0.0))

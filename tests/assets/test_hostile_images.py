@@ -17,7 +17,7 @@ from assets.hdris import read_hdri, scan_hdris
 from assets.texture_names import TextureRole
 from assets.textures import read_map, scan_textures
 from farm.errors import AssetError
-from farm.header import FileRef
+from farm.spec.header import FileRef
 from worker.blender.asset_files import checked
 
 SIZES = [(100_000, 100_000), (16_384, 16_384)]
@@ -110,7 +110,7 @@ def test_pipes_are_no_assets(tmp_path: Path) -> None:
 def test_a_header_that_names_something_else_than_a_file(path: str) -> None:
     """A dataset's header may come from anybody; a worker doesn't hang on what it names."""
     program = (
-        "from farm.errors import AssetError\nfrom farm.header import FileRef\n"
+        "from farm.errors import AssetError\nfrom farm.spec.header import FileRef\n"
         "from worker.blender.asset_files import checked\n"
         f"try: checked(FileRef(path={path!r}, sha256='0' * 64))\nexcept AssetError as error: print('refused')\n"
     )

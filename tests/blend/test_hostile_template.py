@@ -8,10 +8,10 @@ import pytest
 
 pytest.importorskip("bpy")
 
-from farm.asset_source import InstalledAssets  # after importorskip
-from farm.catalogue import Inputs, make_header
+from farm.cli.installed_assets import InstalledAssets  # after importorskip
 from farm.errors import TemplateError
-from farm.spec import parse_spec
+from farm.spec.make_header import Inputs, make_header
+from farm.spec.parse import parse_spec
 
 pytestmark = [pytest.mark.blender, pytest.mark.slow]
 

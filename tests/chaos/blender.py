@@ -6,12 +6,12 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from farm.asset_source import InstalledAssets
-from farm.catalogue import make_header
-from farm.description import describe
-from farm.header import DatasetHeader
+from farm.cli.installed_assets import InstalledAssets
 from farm.local.workers import WORKER_COMMAND
-from farm.quality import Preset
+from farm.spec.header import DatasetHeader
+from farm.spec.make_header import make_header
+from farm.spec.parse import describe
+from farm.spec.quality import Preset
 from tests.chaos.expected import Expected
 from tests.chaos.farm_under_test import Plan
 from tests.chaos.judge import Claims

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
-from farm.header import DatasetHeader
-from farm.job import Job
-from farm.layout import FileRole, file_path
+from farm.dataset.paths import FileRole, file_path
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
 from tests.stand_in import stand_in_pixels
 from worker.service.upload import encode_png
 

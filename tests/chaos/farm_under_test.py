@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from farm.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.paths import manifest_folder
 from farm.errors import IncompleteError
-from farm.header import DatasetHeader
-from farm.layout import manifest_folder
 from farm.local.workers import WorkerOptions
-from farm.queue.broker import BROKER_VARIABLE
+from farm.run.queue.broker import BROKER_VARIABLE
+from farm.spec.header import DatasetHeader
 from tests.chaos.clock import WrongClock, find_faketime
 from tests.chaos.disk import SmallDisk, small_disk
 from tests.chaos.manifest_watch import ManifestWatch

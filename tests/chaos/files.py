@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from farm.job import Job
-from farm.layout import FileRole, file_path, manifest_path
+from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.spec.job import Job
 from tests.chaos.farm_under_test import FarmUnderTest
 
 _AT_FDCWD = -100  # from linux/fcntl.h

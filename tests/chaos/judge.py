@@ -10,11 +10,11 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.verify import Verdict, verify
 from farm.errors import IncompleteError
-from farm.job import Job
-from farm.layout import FileRole, file_path, manifest_path
+from farm.spec.job import Job
 from farm.storage import is_temporary
-from farm.verify import Verdict, verify
 from tests.chaos.expected import Expected
 from tests.chaos.farm_under_test import FarmUnderTest
 from tests.chaos.queue_keys import unacknowledged, waiting

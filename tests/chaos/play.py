@@ -9,7 +9,7 @@ from pathlib import Path
 
 import redis
 
-from farm.completion import Completion
+from farm.dataset.completion import Completion
 from tests.chaos.farm_under_test import FarmUnderTest, Plan, farm_under_test
 from tests.chaos.faults import NotNowError, Undo, strike
 from tests.chaos.judge import Claims, Judgement, judge, starts

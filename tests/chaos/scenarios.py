@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from farm.quotas import split_total
+from farm.spec.quotas import split_total
 from tests.chaos.expected import drawn_by_stand_in
 from tests.chaos.farm_under_test import CLAIM_S, Plan
 from tests.chaos.judge import Claims

@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from farm.job import queue_key
+from farm.spec.job import queue_key
 from tests.chaos.poison import poisons
 from tests.chaos.queue_keys import is_queue, job_of, redelivered
 

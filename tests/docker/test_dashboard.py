@@ -6,13 +6,13 @@ from pathlib import Path
 
 from prometheus_client import CollectorRegistry, generate_latest
 
-from farm.board.memory import MemoryBoard
-from farm.board.port import Run
-from farm.dataset import Dataset
-from farm.ledger.memory import MemoryLedger
-from farm.metrics import FarmCollector
-from farm.progress import Hints
-from farm.queue.memory import MemoryQueue
+from farm.dataset.dataset import Dataset
+from farm.run.metrics import FarmCollector
+from farm.run.progress import Hints
+from farm.run.registry.port import Run
+from tests.doubles.ledger import MemoryLedger
+from tests.doubles.queue import MemoryQueue
+from tests.doubles.registry import MemoryBoard
 
 _DASHBOARD = Path(__file__).parents[2] / "docker/grafana/cable-farm.json"
 

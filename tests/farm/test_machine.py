@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from farm import machine
-from farm.ledger.owner import is_gone, this_process
 from farm.machine import machine_name
+from farm.run.ledger.owner import is_gone, this_process
 
 
 @pytest.fixture(autouse=True)

@@ -19,15 +19,15 @@ from assets.exr import check_exr
 from assets.fetchable import OWN_REGISTRY, read_registry
 from assets.plates import decode_plate
 from assets.radiance import check_radiance
-from farm.completion import job_of_manifest, parse_manifest
-from farm.dataset import Dataset, Destination, create_dataset, open_dataset, parse_destination
-from farm.description import describe, parse_quotas
+from farm.dataset.completion import job_of_manifest, parse_manifest
+from farm.dataset.dataset import Dataset, Destination, create_dataset, open_dataset, parse_destination
+from farm.dataset.paths import HEADER_FILE, FileRole, file_path, manifest_path
 from farm.errors import FarmError
-from farm.job import Job, JobMessage
-from farm.layout import HEADER_FILE, FileRole, file_path, manifest_path
-from farm.quality import read_quality
-from farm.queue.broker import broker_url, masked
-from farm.queue.wire import ENVELOPE_BYTES, checked_envelope, decode_json
+from farm.run.queue.broker import broker_url, masked
+from farm.run.queue.wire import ENVELOPE_BYTES, checked_envelope, decode_json
+from farm.spec.job import Job, JobMessage
+from farm.spec.parse import describe, parse_quotas
+from farm.spec.quality import read_quality
 from tests.stand_in import StandInMaker, stand_in_header
 from worker.service.upload import upload
 

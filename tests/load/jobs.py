@@ -10,16 +10,16 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from farm.coordinator import Coordinator
-from farm.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.verify import verify
 from farm.errors import VerificationError
 from farm.local.processes import stop
 from farm.local.redis_server import PrivateRedis
 from farm.local.tied import tied
-from farm.progress import Hints
-from farm.queue.broker import BROKER_VARIABLE, connect
-from farm.redis_hints import redis_hints
-from farm.verify import verify
+from farm.run.coordinator import Coordinator
+from farm.run.handle import redis_hints
+from farm.run.progress import Hints
+from farm.run.queue.broker import BROKER_VARIABLE, connect
 from tests.load.processor_time import processor_s
 from tests.stand_in import StandInMaker, stand_in_header
 

@@ -8,12 +8,12 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from farm.dataset import open_dataset, parse_destination
+from farm.dataset.dataset import open_dataset, parse_destination
 from farm.errors import VerificationError
-from farm.feeder import WINDOW
 from farm.local.redis_server import PrivateRedis
-from farm.queue.broker import connect
-from farm.redis_hints import redis_hints
+from farm.run.feeder import WINDOW
+from farm.run.handle import redis_hints
+from farm.run.queue.broker import connect
 
 
 @dataclass(frozen=True, slots=True)

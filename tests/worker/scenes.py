@@ -1,11 +1,11 @@
 """Headers, scenes and pieces of cables for the tests of the worker's stages."""
 
-from farm.category import Category
-from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
-from farm.job import Job
-from farm.looks import Sheath, Skin
-from farm.scene import Scene
-from farm.spec import parse_spec
+from farm.scene.cable import Sheath, Skin
+from farm.scene.scene import Scene
+from farm.spec.category import Category
+from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
+from farm.spec.job import Job
+from farm.spec.parse import parse_spec
 from worker.cable.piece import Tubular
 from worker.curves import Points
 from worker.sample.scene import draw_scene

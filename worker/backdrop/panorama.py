@@ -10,8 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.lens import SENSOR_MM
-from farm.photograph import Camera
+from farm.scene.camera import SENSOR_MM, Camera
 from worker.camera.view import View
 
 UPPER_WIDTH_PX = 512

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assets.hdris import LUMINANCE
-from farm.scene import Plate
+from farm.scene.backdrop import Plate
 from worker.backdrop.panorama import disc
 
 DARKEST = 1e-3

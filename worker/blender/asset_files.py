@@ -10,7 +10,7 @@ from assets.environments import Environment, load_environment
 from assets.files import open_regular
 from assets.hdris import Hdri, builtin_hdris
 from farm.errors import AssetError
-from farm.header import BuiltinSurfaceRef, DatasetHeader, FileRef, FolderSurfaceRef
+from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, FileRef, FolderSurfaceRef
 
 
 @dataclass(frozen=True, slots=True)

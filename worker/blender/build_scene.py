@@ -1,10 +1,10 @@
 """A scene made real in the open template: cables, floor, light, world and camera. Sets everything, every time."""
 
 from assets.hdris import LUMINANCE
-from farm.category import Background, CategoryTraits
-from farm.lights import HdriWorld
-from farm.rendering import CableDetail, Economy
-from farm.scene import Scene
+from farm.scene.backdrop import HdriWorld
+from farm.scene.scene import Scene
+from farm.spec.category import Background, CategoryTraits
+from farm.spec.rendering import CableDetail, Economy
 from worker.backdrop.matte import Backdrop, covered_by
 from worker.backdrop.panorama import Panorama, lens_radius_m
 from worker.backdrop.photograph import plate_backdrop

@@ -8,8 +8,9 @@ import bpy
 import numpy as np
 
 from blend import names
-from farm.lights import Lamp, StudioLamp
-from farm.looks import CableMaterial, Rgb
+from farm.model import Rgb
+from farm.scene.cable import CableMaterial
+from farm.scene.light import Lamp, StudioLamp
 from worker.blender.image_cache import ImageShelf
 from worker.cable.piece import Convex, Piece, Plain, Tubular
 from worker.cable.plain import draw_plain

@@ -4,8 +4,7 @@ import bpy
 from mathutils import Matrix
 
 from blend import names
-from farm.lens import SENSOR_MM
-from farm.photograph import Camera
+from farm.scene.camera import SENSOR_MM, Camera
 from worker.camera.view import View
 
 

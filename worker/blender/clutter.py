@@ -7,9 +7,9 @@ import numpy as np
 
 from blend import names
 from blend.nodes import add_node, link
-from farm.clutter import Part, Sheet, Stick
-from farm.looks import Rgb
-from farm.scene import Scene
+from farm.model import Rgb
+from farm.scene.clutter import Part, Sheet, Stick
+from farm.scene.scene import Scene
 from worker.blender.image_cache import ImageShelf
 from worker.camera.view import View
 from worker.clutter.fit import parts_that_fit

@@ -8,8 +8,8 @@ import numpy as np
 from mathutils import Vector
 
 from blend import names
-from farm.quality import ChosenSettings, Preset, Quality
-from farm.rendering import CyclesSettings, Economy, PictureSettings
+from farm.spec.quality import ChosenSettings, Preset, Quality
+from farm.spec.rendering import CyclesSettings, Economy, PictureSettings
 
 _SAMPLES: Final[Mapping[Quality, int]] = {Preset.DRAFT: 8, Preset.STANDARD: 16, Preset.REFERENCE: 128}
 

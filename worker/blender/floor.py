@@ -7,7 +7,7 @@ import numpy as np
 
 from assets.surfaces.maps import joint_distance_mm
 from blend import names
-from farm.scene import Floor, Wear
+from farm.scene.floor import Floor, Wear
 from worker.blender.asset_files import SurfaceFiles
 from worker.blender.image_cache import ImageShelf, TextureFile
 from worker.camera.view import View

@@ -7,7 +7,7 @@ import bpy
 from mathutils import Vector
 
 from blend import names
-from farm.lights import StudioLamp
+from farm.scene.light import StudioLamp
 from worker.camera.black_body import black_body
 
 _PREFIX = "studio_lamp."

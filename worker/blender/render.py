@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from blend import names
 from farm.errors import RenderError
-from farm.photograph import Development
-from farm.rendering import CyclesSettings, Denoiser, Pattern, PictureSettings
-from farm.scene import Scene
+from farm.scene.camera import Development
+from farm.scene.scene import Scene
+from farm.spec.rendering import CyclesSettings, Denoiser, Pattern, PictureSettings
 from worker.backdrop.matte import Backdrop, lay_over
 from worker.backdrop.panorama import Panorama
 from worker.blender.eevee import light_with_a_spot
@@ -121,7 +121,7 @@ def render_picture(
 
     Args:
         behind: what is behind all that is rendered; None if the scene has it all.
-        distortion: of the lens, which Blender's has none of; see `farm.photograph.Camera`.
+        distortion: of the lens, which Blender's has none of; see `farm.scene.camera.Camera`.
         development: what the camera makes of the light; None for the scene's view transform.
         lit_by: colour of the scene's light, (3,), for the development.
 

@@ -12,15 +12,15 @@ import numpy as np
 
 from blend.build import TEMPLATE
 from blend.contract import open_template
-from farm.category import Category
+from farm.dataset.manifest import RejectedAttempt, RenderSettings, SettleFigures
 from farm.errors import SceneError, SpecError
-from farm.header import DatasetHeader, FileRef
-from farm.job import Job
-from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
-from farm.quality import ChosenSettings
-from farm.rendering import PictureSettings
-from farm.scene import Scene
-from farm.spec import DatasetSpec, Engine
+from farm.scene.scene import Scene
+from farm.spec.category import Category
+from farm.spec.dataset_spec import DatasetSpec, Engine
+from farm.spec.header import DatasetHeader, FileRef
+from farm.spec.job import Job
+from farm.spec.quality import ChosenSettings
+from farm.spec.rendering import PictureSettings
 from worker.backdrop.matte import Backdrop
 from worker.blender import eevee
 from worker.blender.asset_files import AssetLibrary, checked

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from blend import names
 from blend.world import is_as_built
-from farm.lights import AreaLamp, GreyWorld, HdriWorld, Lamp, PointLamp, StudioLamp
-from farm.photograph import Camera
+from farm.scene.backdrop import HdriWorld
+from farm.scene.camera import Camera
+from farm.scene.light import AreaLamp, GreyWorld, Lamp, PointLamp, StudioLamp
 from worker.backdrop.panorama import Panorama, backdrop, upper_world
 from worker.blender.asset_files import AssetLibrary
 from worker.blender.image_cache import ImageShelf

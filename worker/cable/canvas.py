@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.looks import Rgb
+from farm.model import Rgb
 from worker.noise import Field
 
 _DARKEST, _LIGHTEST = 0.09, 0.91

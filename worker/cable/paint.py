@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from farm.looks import Marking, Stripe, StripeKind
+from farm.scene.cable import Marking, Stripe, StripeKind
 from worker.cable.canvas import Canvas, pigment
 from worker.noise import Field, field, patches
 

@@ -7,7 +7,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.looks import CableMaterial, Rgb, Skin
+from farm.model import Rgb
+from farm.scene.cable import CableMaterial, Skin
 from worker.curves import Points
 
 OCCLUDER: Final = 0

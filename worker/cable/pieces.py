@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.looks import Bundle, CableEnd, EndKind, Skin
-from farm.scene import Cable, Scene
+from farm.scene.cable import Bundle, Cable, CableEnd, EndKind, Skin
+from farm.scene.scene import Scene
 from worker.cable.piece import Piece, Plain, Substance, Surface, Tubular
 from worker.cable.strands import places, strand_radius, turning
 from worker.cable.tie import is_clear, solids_of

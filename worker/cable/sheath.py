@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from farm.looks import Skin
+from farm.scene.cable import Skin
 from worker.cable.canvas import Canvas, pigment, tone
 from worker.noise import Field, field, fractal
 

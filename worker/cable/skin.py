@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.looks import Sheath, Skin
+from farm.scene.cable import Sheath, Skin
 from worker.cable.canvas import Canvas
 from worker.cable.paint import paint_stripe, print_marking
 from worker.cable.sheath import draw_braid, draw_plain, draw_translucent

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.looks import envelope_ratio
+from farm.scene.cable import envelope_ratio
 from worker.cable.tube import frames
 from worker.curves import Points
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.looks import Tie
+from farm.scene.cable import Tie
 from worker.cable.piece import OCCLUDER, Convex, Plain, Substance
 from worker.cable.strands import turn_at
 from worker.cable.tube import frames

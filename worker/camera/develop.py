@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from farm.errors import RenderError
-from farm.photograph import Development
+from farm.scene.camera import Development
 from worker.camera.distortion import Distortion
 from worker.camera.illuminant import NEUTRAL
 from worker.colour import REC709_LUMINANCE, luminance, srgb
@@ -64,7 +64,7 @@ def develop(
     Args:
         light: as rendered through a lens without distortion; not finite or negative is black.
         development: what the camera does with it.
-        distortion: of its lens, see `farm.photograph.Camera`.
+        distortion: of its lens, see `farm.scene.camera.Camera`.
         lit_by: colour of the scene's light (3,), which its white balance is after.
 
     Returns:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.lights import GreyWorld, Lamp, StudioLamp
+from farm.scene.light import GreyWorld, Lamp, StudioLamp
 from worker.camera.black_body import black_body
 
 NEUTRAL = np.ones(3)

@@ -7,8 +7,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.lens import FOCAL_LENGTH_MM, SENSOR_MM
-from farm.photograph import Camera
+from farm.scene.camera import FOCAL_LENGTH_MM, SENSOR_MM, Camera
 from worker.camera.distortion import Distortion
 from worker.curves import Points
 

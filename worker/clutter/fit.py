@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.clutter import Part
+from farm.scene.clutter import Part
 from worker.clutter.parts import part_extent
 from worker.curves import Points
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from farm.clutter import Sheet
+from farm.scene.clutter import Sheet
 from worker.clutter.print import Print, ink, levels, pixels_of, plain, relief
 from worker.noise import Field, rough_noise, smooth_noise, smooth_step
 

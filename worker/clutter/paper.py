@@ -5,7 +5,7 @@ from collections.abc import Callable
 import cv2
 import numpy as np
 
-from farm.clutter import Sheet
+from farm.scene.clutter import Sheet
 from worker.clutter.print import TEXEL_M, Print, bars, ink, levels, lines, on_floor, pixels_of, plain, relief, write
 from worker.noise import Field, rough_noise, smooth_noise
 

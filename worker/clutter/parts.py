@@ -9,7 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from farm.clutter import Part, PartKind
+from farm.scene.clutter import Part, PartKind
 from worker.clutter.solid import (
     Array,
     Finish,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from farm.clutter import Sheet
+from farm.scene.clutter import Sheet
 from worker.clutter.print import Print, bars, ink, levels, on_floor, pixels_of, plain, relief, write
 from worker.noise import rough_noise, smooth_noise
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from farm.clutter import Sheet, SheetKind
+from farm.scene.clutter import Sheet, SheetKind
 from worker.clutter.ground import draw_painted_line, draw_seam, draw_slot
 from worker.clutter.paper import draw_label, draw_paper
 from worker.clutter.print import Print

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from farm.clutter import Stick, StickKind
+from farm.scene.clutter import Stick, StickKind
 from worker.clutter.solid import Finish, Section, Solid, box, section
 
 SIDES = 48

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from farm.clutter import Stick
+from farm.scene.clutter import Stick
 from worker.clutter.solid import Array, Finish, Section, Solid, joined, turned_on_lathe
 from worker.clutter.stick_kinds import SIDES, TURNERS
 from worker.curves import Points

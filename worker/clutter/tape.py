@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.clutter import Sheet
+from farm.scene.clutter import Sheet
 from worker.clutter.print import TEXEL_M, Levels, Print, ink, levels, on_floor, pixels_of, plain, relief
 from worker.noise import Field, rough_noise, smooth_noise, smooth_step
 

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.scene import JointFill, Wear
+from farm.scene.floor import JointFill, Wear
 from worker.noise import Field, rough_noise, smooth_step
 
 EDGE_M = 0.6

@@ -3,7 +3,7 @@
 import cv2
 import numpy as np
 
-from farm.scene import Wear
+from farm.scene.floor import Wear
 from worker.colour import Texels, levels_of, light_of
 from worker.floor.marks import Marks
 from worker.noise import Field

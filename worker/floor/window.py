@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.scene import Floor
+from farm.scene.floor import Floor
 from worker.camera.view import View
 from worker.colour import Texels, levels_of, light_of
 

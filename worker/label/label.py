@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.rendering import CableDetail
-from farm.scene import Scene
+from farm.scene.scene import Scene
+from farm.spec.rendering import CableDetail
 from worker.cable.piece import Piece
 from worker.cable.pieces import pieces_of
 from worker.camera.view import View

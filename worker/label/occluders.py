@@ -1,6 +1,6 @@
 """Sticks as what hides cables: in labels they are background, in front of some cables and beneath others."""
 
-from farm.scene import Scene
+from farm.scene.scene import Scene
 from worker.cable.piece import OCCLUDER, Plain, Substance, Tubular
 from worker.clutter.sticks import stick_outline
 from worker.simulate.shapes import CableShapes

@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from farm.category import Background
-from farm.header import DatasetHeader, HdriRef
-from farm.lights import HdriWorld
-from farm.scene import Plate
+from farm.scene.backdrop import HdriWorld, Plate
+from farm.spec.category import Background
+from farm.spec.header import DatasetHeader, HdriRef
 from worker.sample.values import chance, uniform
 
 OVER_FLOORS = "sunrise"

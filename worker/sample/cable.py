@@ -5,11 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from farm.category import Disposition
-from farm.looks import CableMaterial
-from farm.photograph import Camera
-from farm.ranges import BEND_KNOTS, SPACING_DIAMETERS, CableRanges, PlacementRanges, Ranges
-from farm.scene import Cable
+from farm.scene.cable import Cable, CableMaterial
+from farm.scene.camera import Camera
+from farm.spec.category import Disposition
+from farm.spec.ranges.all import Ranges
+from farm.spec.ranges.cable import CableRanges
+from farm.spec.ranges.placement import BEND_KNOTS, SPACING_DIAMETERS, PlacementRanges
 from worker.sample.cable_curve import Course, draw_course
 from worker.sample.cable_kind import CableKind, draw_ends, draw_kinds
 from worker.sample.seeds import Stage, Streams

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from farm.ranges import SPACING_DIAMETERS, PlacementRanges
+from farm.spec.ranges.placement import SPACING_DIAMETERS, PlacementRanges
 from worker.sample.values import chance, log_uniform
 
 FINE_KNOTS = 33

@@ -4,14 +4,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from farm.look_ranges import BundleRanges, EndRanges, SkinRanges
-from farm.looks import (
+from farm.model import Rgb
+from farm.scene.cable import (
     Bundle,
     CableEnd,
     EndKind,
     Look,
     Marking,
-    Rgb,
     Sheath,
     Skin,
     Stripe,
@@ -19,8 +18,8 @@ from farm.looks import (
     Tie,
     envelope_ratio,
 )
-from farm.photograph import Camera
-from farm.ranges import CableRanges
+from farm.scene.camera import Camera
+from farm.spec.ranges.cable import BundleRanges, CableRanges, EndRanges, SkinRanges
 from worker.sample.palette import draw_colours
 from worker.sample.values import chance, level, log_uniform, pattern_seed, uniform
 

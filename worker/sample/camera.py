@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from farm.camera_ranges import CameraRanges, DevelopmentRanges
-from farm.lens import FOCAL_LENGTH_MM
-from farm.photograph import Camera, Development
+from farm.scene.camera import FOCAL_LENGTH_MM, Camera, Development
+from farm.spec.ranges.camera import CameraRanges, DevelopmentRanges
 from worker.sample.values import chance, level, log_uniform, pattern_seed, uniform
 
 NO_JPEG = 101

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from farm.clutter import Part, PartKind, Sheet, SheetKind, Stick, StickKind
-from farm.look_ranges import ClutterRanges
-from farm.looks import Rgb
-from farm.ranges import SPACING_DIAMETERS
+from farm.model import Rgb
+from farm.scene.clutter import Part, PartKind, Sheet, SheetKind, Stick, StickKind
+from farm.spec.ranges.clutter import ClutterRanges
+from farm.spec.ranges.placement import SPACING_DIAMETERS
 from worker.sample.values import chance, level, log_uniform, pattern_seed, rgb, uniform
 
 _REACH = 0.45

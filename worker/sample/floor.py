@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from farm.header import DatasetHeader
-from farm.ranges import FloorRanges, WearRanges
-from farm.scene import Floor, JointFill, Wear
+from farm.scene.floor import Floor, JointFill, Wear
+from farm.spec.header import DatasetHeader
+from farm.spec.ranges.floor import FloorRanges, WearRanges
 from worker.sample.values import chance, log_uniform, pattern_seed, uniform
 
 

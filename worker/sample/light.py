@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from farm.light_ranges import LampRanges, StudioRanges
-from farm.lights import AreaLamp, GreyWorld, Lamp, PointLamp, StudioLamp
+from farm.scene.light import AreaLamp, GreyWorld, Lamp, PointLamp, StudioLamp
+from farm.spec.ranges.light import LampRanges, StudioRanges
 from worker.sample.values import chance, level, log_uniform, uniform
 
 

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from farm.look_ranges import PaletteRanges
-from farm.looks import Rgb
+from farm.model import Rgb
+from farm.spec.ranges.cable import PaletteRanges
 from worker.sample.values import rgb
 
 _WHITE, _BROWN, _GREEN, _YELLOW = (232, 230, 222), (98, 60, 36), (28, 122, 58), (238, 200, 34)

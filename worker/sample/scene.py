@@ -2,11 +2,13 @@
 
 import numpy as np
 
-from farm.category import Background, Light
-from farm.header import DatasetHeader
-from farm.job import Job
-from farm.ranges import CableRanges
-from farm.scene import Floor, Friction, Scene
+from farm.scene.floor import Floor
+from farm.scene.physics import Friction
+from farm.scene.scene import Scene
+from farm.spec.category import Background, Light
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
+from farm.spec.ranges.cable import CableRanges
 from worker.sample.backdrop import draw_plate, draw_world
 from worker.sample.cable import draw_cables, draw_substances
 from worker.sample.camera import draw_camera, draw_development

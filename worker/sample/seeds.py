@@ -9,7 +9,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from farm.category import Category
+from farm.spec.category import Category
 
 
 class Stage(IntEnum):

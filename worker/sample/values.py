@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from farm.looks import Rgb
+from farm.model import Rgb
 
 
 def uniform(rng: np.random.Generator, bounds: tuple[float, float]) -> float:

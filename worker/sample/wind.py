@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from farm.ranges import WindRanges
-from farm.scene import Gust, Wind
+from farm.scene.physics import Gust, Wind
+from farm.spec.ranges.placement import WindRanges
 from worker.sample.values import uniform
 
 GUSTS = 3

@@ -7,7 +7,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from farm.errors import DestinationError
-from farm.job import JobMessage, queue_key
+from farm.spec.job import JobMessage, queue_key
 
 MAX_BYTES = 256 * 1024
 """Of a job's log the end of this size is kept."""

@@ -13,7 +13,7 @@ from types import TracebackType
 from typing import Self
 
 from farm.errors import BrokerError, FarmError
-from farm.ledger.port import CLAIM_S, Ledger
+from farm.run.ledger.port import CLAIM_S, Ledger
 
 log = logging.getLogger(__name__)
 

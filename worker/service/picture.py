@@ -7,10 +7,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.header import DatasetHeader
-from farm.job import Job
-from farm.manifest import RejectedAttempt, RenderSettings, SettleFigures
-from farm.scene import Scene
+from farm.dataset.manifest import RejectedAttempt, RenderSettings, SettleFigures
+from farm.scene.scene import Scene
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
 
 
 @dataclass(frozen=True, slots=True)

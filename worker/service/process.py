@@ -13,16 +13,16 @@ from typing import Any
 import billiard
 from celery import signals
 
-from farm.board.port import Board, RunState, WorkerState
-from farm.board.redis import RedisBoard
 from farm.errors import DestinationError, FarmError
-from farm.ledger.port import Ledger
-from farm.ledger.redis import RedisLedger
 from farm.local.tied import die_with_parent
-from farm.queue.broker import connect
-from farm.queue.celery import CeleryQueue
-from farm.queue.settings import HARD_LIMIT_S, QUEUE, SOFT_LIMIT_S, make_app
-from farm.queue.wire import install, keep_only_task
+from farm.run.ledger.port import Ledger
+from farm.run.ledger.redis import RedisLedger
+from farm.run.queue.broker import connect
+from farm.run.queue.celery import CeleryQueue
+from farm.run.queue.settings import HARD_LIMIT_S, QUEUE, SOFT_LIMIT_S, make_app
+from farm.run.queue.wire import install, keep_only_task
+from farm.run.registry.port import Board, RunState, WorkerState
+from farm.run.registry.redis import RedisBoard
 from farm.storage import open_storage
 from worker.service.backoff import Hold
 from worker.service.job_log import JobLogs

@@ -8,8 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from celery.exceptions import SoftTimeLimitExceeded
 
-from farm.completion import is_done
-from farm.dataset import Dataset, open_for_message
+from farm.dataset.completion import is_done
+from farm.dataset.dataset import Dataset, open_for_message
+from farm.dataset.manifest import Manifest
+from farm.dataset.paths import FileRole
+from farm.dataset.quarantine import is_in_quarantine, put_in_quarantine
 from farm.errors import (
     AssetError,
     BrokerError,
@@ -25,13 +28,10 @@ from farm.errors import (
     TemplateError,
     UnfitWorkerError,
 )
-from farm.header import DatasetHeader
-from farm.job import Job, JobMessage
-from farm.layout import FileRole
-from farm.ledger.owner import is_gone, this_process
-from farm.ledger.port import CLAIM_S, MAX_ABSENCES, Ledger, LedgerFactory
-from farm.manifest import Manifest
-from farm.quarantine import is_in_quarantine, put_in_quarantine
+from farm.run.ledger.owner import is_gone, this_process
+from farm.run.ledger.port import CLAIM_S, MAX_ABSENCES, Ledger, LedgerFactory
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job, JobMessage
 from worker.service.job_log import JobLogs
 from worker.service.lease import ClaimLostError, HeldClaim
 from worker.service.picture import ImageMaker, MadeImage

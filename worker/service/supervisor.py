@@ -16,11 +16,11 @@ from celery import bootsteps
 from celery.worker import state
 from kombu.entity import Queue
 
-from farm.board.port import Board, RunState, WorkerReport, WorkerState
 from farm.errors import BrokerError, DestinationError, MessageError, RenderError, UnfitWorkerError
-from farm.job import JobMessage
-from farm.ledger.port import LedgerFactory
-from farm.queue.settings import QUEUE, queue_name
+from farm.run.ledger.port import LedgerFactory
+from farm.run.queue.settings import QUEUE, queue_name
+from farm.run.registry.port import Board, RunState, WorkerReport, WorkerState
+from farm.spec.job import JobMessage
 from worker.service.backoff import Hold
 from worker.service.job_log import JobLogs
 from worker.service.runner import FAILED_IN_A_ROW

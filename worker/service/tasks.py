@@ -10,7 +10,7 @@ from celery.exceptions import Ignore, Reject
 from celery.worker.request import Request
 
 from farm.errors import BrokerError, DestinationError, FarmError, UnfitWorkerError
-from farm.queue.settings import TASK_NAME
+from farm.run.queue.settings import TASK_NAME
 from worker.service.runner import JobRunner, TryLaterError
 from worker.service.supervisor import Foreman
 

@@ -8,12 +8,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.completion import is_done
-from farm.dataset import Dataset
+from farm.dataset.completion import is_done
+from farm.dataset.dataset import Dataset
+from farm.dataset.manifest import FileRecord, Manifest
+from farm.dataset.paths import FileRole, file_path, manifest_path
 from farm.errors import BrokerError, RenderError
-from farm.job import Job
-from farm.layout import FileRole, file_path, manifest_path
-from farm.manifest import FileRecord, Manifest
+from farm.spec.job import Job
 from worker.service.lease import ClaimLostError
 from worker.service.picture import MadeImage
 

@@ -1,8 +1,8 @@
 """The fall: a drawn scene becomes settled cables, by the simulator that the dataset names."""
 
 from benchmarks.physics.published_cloth import drop_cables as drop_as_published_cloth
-from farm.fall import Fall, Simulator
-from farm.scene import Scene
+from farm.scene.scene import Scene
+from farm.spec.simulation import Fall, Simulator
 from worker.simulate.cloth.joined import drop_cables as drop_as_joined_cloth
 from worker.simulate.rod.fall import drop_cables as drop_as_rods
 from worker.simulate.shapes import CableShapes

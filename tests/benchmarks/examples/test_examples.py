@@ -9,8 +9,8 @@ from PIL import Image
 from benchmarks.examples.groups import CABLE_KINDS, GROUPS
 from benchmarks.examples.options import GROUP_NAMES
 from benchmarks.examples.sheet import EDGE_PX, draw_sheet, examples_a_row
-from farm.job import Job
-from farm.looks import Bundle, Skin
+from farm.scene.cable import Bundle, Skin
+from farm.spec.job import Job
 from worker.sample.scene import draw_scene
 
 

@@ -14,7 +14,7 @@ from benchmarks.farm.rates import Finished, Throughput, best, factors
 from benchmarks.farm.report import conclusions, throughput_table, write_json, write_plot
 from benchmarks.farm.splits import SPLITS, Split, parse_split
 from benchmarks.terminal import bench_console
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
 from farm.errors import SpecError
 from tests.stand_in import StandInMaker
 from worker.service.upload import upload

@@ -7,8 +7,8 @@ from rich.console import Console
 
 from benchmarks.masks.agreement import Agreement
 from benchmarks.masks.results import LabelledImage, Width, check, table
-from farm.category import Category
 from farm.errors import VerificationError
+from farm.spec.category import Category
 
 
 def image(

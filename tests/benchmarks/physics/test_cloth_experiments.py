@@ -5,7 +5,7 @@ import pytest
 pytest.importorskip("bpy")
 
 from benchmarks.physics.cloth_experiments import cloth_cantilever, cloth_crossing
-from farm.fall import ClothFall
+from farm.spec.simulation import ClothFall
 
 pytestmark = pytest.mark.blender
 

@@ -17,7 +17,7 @@ from benchmarks.physics.scenes import SPACING_M, bench_scenes
 from benchmarks.physics.settings import COMPARED_COUNT, COUNTS, CROWDS, Setting, all_settings, rod_settings
 from benchmarks.terminal import bench_console
 from farm.errors import VerificationError
-from farm.fall import Simulator
+from farm.spec.simulation import Simulator
 from tests.worker.settled import rod, shapes
 from worker.simulate.checks.measure import measure
 

@@ -14,11 +14,11 @@ from benchmarks.pictures.command import run
 from benchmarks.pictures.making import STYLES, NamedDataset, make, parse_named
 from benchmarks.pictures.options import add_pictures, styles_of
 from benchmarks.pictures.survey import distribution, groups, summarize, survey
-from farm.category import Category
-from farm.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.paths import FileRole, file_path
 from farm.errors import DatasetMissingError, FarmError, SpecError, VerificationError
-from farm.job import Job
-from farm.layout import FileRole, file_path
+from farm.spec.category import Category
+from farm.spec.job import Job
 from tests.stand_in import StandInMaker, stand_in_header
 from worker.service.upload import upload
 

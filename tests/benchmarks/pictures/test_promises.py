@@ -4,7 +4,7 @@ import pytest
 
 from benchmarks.pictures.promises import promises_of
 from benchmarks.pictures.survey import FIGURES, Distribution, Summary
-from farm.category import Category
+from farm.spec.category import Category
 
 
 def summary(**figures: Distribution) -> Summary:

@@ -7,8 +7,8 @@ from benchmarks.render.errors import Errors
 from benchmarks.render.report import calibrate
 from benchmarks.render.rows import Row, Shot, disturbing_settings, front, idle_settings
 from benchmarks.render.variants import Group, Variant, ladder, turns
-from farm.category import Category
-from farm.rendering import CyclesSettings, PictureSettings
+from farm.spec.category import Category
+from farm.spec.rendering import CyclesSettings, PictureSettings
 
 FIGURES = st.tuples(st.floats(0.1, 10), st.floats(0.001, 0.2), st.floats(20, 50))
 

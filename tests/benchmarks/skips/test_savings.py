@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from farm.category import Category
+from farm.spec.category import Category
 
 pytest.importorskip("bpy")
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from farm.category import Category
 from farm.errors import VerificationError
+from farm.spec.category import Category
 
 pytest.importorskip("bpy")
 

@@ -17,7 +17,7 @@ from benchmarks.training.options import add_training, training_plan_of
 from benchmarks.training.outcome import Lesson
 from benchmarks.training.plan import PHOTOGRAPHS, Plan
 from benchmarks.training.plot import overlay
-from farm.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, Destination, create_dataset
 from farm.errors import EnvironmentMissingError, SpecError
 from tests.stand_in import StandInMaker, stand_in_header
 from worker.service.upload import upload

@@ -8,8 +8,8 @@ import pytest
 from benchmarks.render.errors import Errors
 from benchmarks.terminal import bench_console
 from benchmarks.whole.rows import STAGES, Row, Shot, Way, mix, ratio
-from farm.category import Category
-from farm.job import Job
+from farm.spec.category import Category
+from farm.spec.job import Job
 
 
 def shot(category: Category, index: int = 0, errors: Errors | None = None, **stages: float) -> Shot:

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from farm.category import Category
 from farm.errors import SpecError, VerificationError
-from farm.job import Job
+from farm.spec.category import Category
+from farm.spec.job import Job
 from tests.worker.settled import rod, shapes
 
 bpy = pytest.importorskip("bpy")

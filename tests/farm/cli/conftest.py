@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from farm.cli import main
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
 from tests.farm.cli.result import Farm, Result
 from tests.stand_in import StandInMaker
 from worker.service.upload import upload

@@ -12,7 +12,7 @@ from assets.bake import BakedSet
 from assets.environments import ENVIRONMENTS
 from farm.cli import baking
 from farm.errors import AssetError, SpecError
-from farm.header import HdriRef
+from farm.spec.header import HdriRef
 from tests.farm.cli.result import Farm, assert_refused
 from tests.stand_in import stand_in_header
 

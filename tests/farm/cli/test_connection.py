@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
 from farm.errors import BrokerError
 from tests.farm.cli.result import Farm, assert_refused
 

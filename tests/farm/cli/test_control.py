@@ -3,13 +3,13 @@
 import pytest
 import redis
 
-from farm.board.port import Priority, Run, RunState
-from farm.board.redis import RedisBoard
-from farm.coordinator import Coordinator
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
 from farm.errors import ConflictError, DestinationError
-from farm.progress import Hints
-from farm.redis_hints import redis_hints
+from farm.run.coordinator import Coordinator
+from farm.run.handle import redis_hints
+from farm.run.progress import Hints
+from farm.run.registry.port import Priority, Run, RunState
+from farm.run.registry.redis import RedisBoard
 from tests.farm.cli.result import Farm, assert_refused
 
 pytestmark = pytest.mark.redis

@@ -15,7 +15,7 @@ import pytest
 
 from farm.errors import BrokerError, SpecError
 from tests.farm.cli.result import Farm, assert_refused
-from tests.farm.queue.servers import free_port
+from tests.farm.run.queue.servers import free_port
 
 START_S = 30.0
 PASSWORD = "me:hush"  # noqa: S105  # of a server that lives for one test

@@ -5,12 +5,12 @@ from pathlib import Path
 import pytest
 import redis
 
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
+from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.quarantine import Quarantine, put_in_quarantine
 from farm.errors import DestinationError, MessageError, SpecError
-from farm.job import Job
-from farm.layout import FileRole, file_path, manifest_path
-from farm.quarantine import Quarantine, put_in_quarantine
-from farm.redis_hints import redis_hints
+from farm.run.handle import redis_hints
+from farm.spec.job import Job
 from tests.farm.cli.result import Farm, assert_refused
 
 JOB = Job.from_id("far-000001")

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from farm.category import Category
 from farm.errors import DestinationError, SpecError
+from farm.spec.category import Category
 from tests.farm.cli.result import USAGE, Farm, assert_refused
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import redis
 
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
 from farm.errors import ConflictError, DestinationError, EnvironmentMissingError
 from farm.local import run as local_run
 from farm.local.run import LocalRun

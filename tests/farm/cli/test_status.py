@@ -7,15 +7,15 @@ from pathlib import Path
 import pytest
 import redis
 
-from farm.board.port import RunState, WorkerReport, WorkerState
-from farm.board.redis import RedisBoard
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
+from farm.dataset.paths import INDEX_FILE, REPORT_FILE
+from farm.dataset.quarantine import put_in_quarantine
 from farm.errors import DestinationError, IncompleteError
-from farm.job import Job
-from farm.layout import INDEX_FILE, REPORT_FILE
-from farm.ledger.redis import RedisLedger
-from farm.quarantine import put_in_quarantine
-from farm.redis_hints import run_of
+from farm.run.handle import run_of
+from farm.run.ledger.redis import RedisLedger
+from farm.run.registry.port import RunState, WorkerReport, WorkerState
+from farm.run.registry.redis import RedisBoard
+from farm.spec.job import Job
 from tests.farm.cli.result import Farm, assert_refused
 
 submit_command = import_module("farm.cli.submit")  # the package's own `submit` is the command

@@ -3,9 +3,9 @@
 import pytest
 import redis
 
-from farm.board.port import Priority, RunState
-from farm.board.redis import RedisBoard
 from farm.errors import ConflictError
+from farm.run.registry.port import Priority, RunState
+from farm.run.registry.redis import RedisBoard
 from tests.farm.cli.result import Farm, assert_refused
 
 

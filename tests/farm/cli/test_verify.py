@@ -2,12 +2,12 @@
 
 import json
 
-from farm.collect import write_index
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
+from farm.dataset.index import write_index
+from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.quarantine import put_in_quarantine
 from farm.errors import IncompleteError, VerificationError
-from farm.job import Job
-from farm.layout import FileRole, file_path, manifest_path
-from farm.quarantine import put_in_quarantine
+from farm.spec.job import Job
 from tests.farm.cli.result import Farm, assert_refused
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from farm.cli import worker_program
 from farm.errors import DestinationError, FarmError, PermanentError, RetryableError
-from farm.header import DatasetHeader
+from farm.spec.header import DatasetHeader
 
 KINDS = [
     kind

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from farm.photograph import Camera
+from farm.scene.camera import Camera
 from worker.backdrop.panorama import UPPER_WIDTH_PX, Panorama, backdrop, upper_world
 
 UPRIGHT = np.eye(3)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from assets.hdris import LUMINANCE
-from farm.scene import Plate
+from farm.scene.backdrop import Plate
 from worker.backdrop.panorama import disc
 from worker.backdrop.photograph import DARKEST, plate_backdrop
 

@@ -8,7 +8,7 @@ from assets.bake import bake_surfaces
 from assets.environments import EnvironmentKind, EnvironmentRecord, environment_directory
 from assets.files import sha256
 from farm.errors import AssetError
-from farm.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, PlateRef
+from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, PlateRef
 from worker.blender.asset_files import AssetLibrary
 
 SHOWN, OTHER = "stucco", "galvanised_steel"

@@ -13,15 +13,15 @@ from blend import names  # noqa: E402
 from blend.build import TEMPLATE  # noqa: E402
 from blend.contract import open_template  # noqa: E402
 from blend.world import is_as_built  # noqa: E402
-from farm.asset_source import InstalledAssets  # noqa: E402
-from farm.catalogue import Inputs, make_header  # noqa: E402
-from farm.category import Category  # noqa: E402
-from farm.header import DatasetHeader  # noqa: E402
-from farm.job import Job  # noqa: E402
-from farm.photograph import Camera  # noqa: E402
-from farm.quality import REFERENCE  # noqa: E402
-from farm.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
-from farm.spec import parse_spec  # noqa: E402
+from farm.cli.installed_assets import InstalledAssets  # noqa: E402
+from farm.scene.camera import Camera  # noqa: E402
+from farm.spec.category import Category  # noqa: E402
+from farm.spec.header import DatasetHeader  # noqa: E402
+from farm.spec.job import Job  # noqa: E402
+from farm.spec.make_header import Inputs, make_header  # noqa: E402
+from farm.spec.parse import parse_spec  # noqa: E402
+from farm.spec.quality import REFERENCE  # noqa: E402
+from farm.spec.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
 from worker.backdrop.matte import Backdrop  # noqa: E402
 from worker.blender.asset_files import AssetLibrary  # noqa: E402
 from worker.blender.build_scene import realize  # noqa: E402

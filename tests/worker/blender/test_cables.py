@@ -11,14 +11,22 @@ from assets.bake import bake_surfaces  # noqa: E402  # after importorskip
 from benchmarks.masks.agreement import compare  # noqa: E402
 from benchmarks.masks.reference import render_coverage  # noqa: E402
 from blend import names  # noqa: E402
-from farm.asset_source import InstalledAssets  # noqa: E402
-from farm.catalogue import Inputs, make_header  # noqa: E402
-from farm.category import Category  # noqa: E402
-from farm.header import DatasetHeader  # noqa: E402
-from farm.job import Job  # noqa: E402
-from farm.looks import Bundle, CableEnd, EndKind, Sheath, Tie, envelope_ratio  # noqa: E402
-from farm.scene import Cable, Scene  # noqa: E402
-from farm.spec import parse_spec  # noqa: E402
+from farm.cli.installed_assets import InstalledAssets  # noqa: E402
+from farm.scene.cable import (  # noqa: E402
+    Bundle,
+    Cable,
+    CableEnd,
+    EndKind,
+    Sheath,
+    Tie,
+    envelope_ratio,
+)
+from farm.scene.scene import Scene  # noqa: E402
+from farm.spec.category import Category  # noqa: E402
+from farm.spec.header import DatasetHeader  # noqa: E402
+from farm.spec.job import Job  # noqa: E402
+from farm.spec.make_header import Inputs, make_header  # noqa: E402
+from farm.spec.parse import parse_spec  # noqa: E402
 from tests.worker.scenes import make_skin  # noqa: E402
 from worker.blender.renderer import Studio, open_studio  # noqa: E402
 from worker.sample.scene import draw_scene  # noqa: E402

@@ -10,10 +10,10 @@ from benchmarks.masks.agreement import compare  # noqa: E402
 from benchmarks.masks.reference import render_coverage  # noqa: E402
 from blend.build import TEMPLATE  # noqa: E402  # after importorskip
 from blend.contract import open_template  # noqa: E402
-from farm.category import Category  # noqa: E402
-from farm.photograph import Camera  # noqa: E402
-from farm.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
-from farm.scene import Scene  # noqa: E402
+from farm.scene.camera import Camera  # noqa: E402
+from farm.scene.scene import Scene  # noqa: E402
+from farm.spec.category import Category  # noqa: E402
+from farm.spec.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
 from tests.worker.scenes import make_header, make_scene  # noqa: E402
 from worker.backdrop.matte import covered_by  # noqa: E402
 from worker.backdrop.panorama import lens_radius_m  # noqa: E402

@@ -11,16 +11,17 @@ bpy = pytest.importorskip("bpy")
 from assets.bake import bake_surfaces  # noqa: E402  # after importorskip
 from blend.build import TEMPLATE  # noqa: E402
 from blend.contract import open_template  # noqa: E402
-from farm.asset_source import InstalledAssets  # noqa: E402
-from farm.catalogue import Inputs  # noqa: E402
-from farm.catalogue import make_header as catalogue_header  # noqa: E402
-from farm.category import Category  # noqa: E402
-from farm.clutter import PartKind, SheetKind, StickKind  # noqa: E402
-from farm.header import DatasetHeader  # noqa: E402
-from farm.job import Job  # noqa: E402
-from farm.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
-from farm.scene import Scene, Wear  # noqa: E402
-from farm.spec import parse_spec  # noqa: E402
+from farm.cli.installed_assets import InstalledAssets  # noqa: E402
+from farm.scene.clutter import PartKind, SheetKind, StickKind  # noqa: E402
+from farm.scene.floor import Wear  # noqa: E402
+from farm.scene.scene import Scene  # noqa: E402
+from farm.spec.category import Category  # noqa: E402
+from farm.spec.header import DatasetHeader  # noqa: E402
+from farm.spec.job import Job  # noqa: E402
+from farm.spec.make_header import Inputs  # noqa: E402
+from farm.spec.make_header import make_header as catalogue_header  # noqa: E402
+from farm.spec.parse import parse_spec  # noqa: E402
+from farm.spec.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
 from tests.worker.clutter.things import make_part, make_sheet, make_stick  # noqa: E402
 from worker.blender.asset_files import AssetLibrary  # noqa: E402
 from worker.blender.build_scene import realize  # noqa: E402

@@ -10,15 +10,15 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from assets.bake import bake_surfaces  # noqa: E402  # after importorskip
-from farm.asset_source import InstalledAssets  # noqa: E402
-from farm.catalogue import Inputs, make_header  # noqa: E402
-from farm.category import Category  # noqa: E402
-from farm.header import DatasetHeader  # noqa: E402
-from farm.job import Job  # noqa: E402
-from farm.lights import GreyWorld, StudioLamp  # noqa: E402
-from farm.photograph import Camera, Development  # noqa: E402
-from farm.scene import Scene  # noqa: E402
-from farm.spec import parse_spec  # noqa: E402
+from farm.cli.installed_assets import InstalledAssets  # noqa: E402
+from farm.scene.camera import Camera, Development  # noqa: E402
+from farm.scene.light import GreyWorld, StudioLamp  # noqa: E402
+from farm.scene.scene import Scene  # noqa: E402
+from farm.spec.category import Category  # noqa: E402
+from farm.spec.header import DatasetHeader  # noqa: E402
+from farm.spec.job import Job  # noqa: E402
+from farm.spec.make_header import Inputs, make_header  # noqa: E402
+from farm.spec.parse import parse_spec  # noqa: E402
 from worker.blender.renderer import Studio, open_studio  # noqa: E402
 from worker.sample.scene import draw_scene  # noqa: E402
 from worker.service.picture import MadeImage  # noqa: E402

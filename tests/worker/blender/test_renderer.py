@@ -15,13 +15,13 @@ from benchmarks.masks.reference import render_coverage  # noqa: E402
 from benchmarks.pictures.drawn_coverage import drawn_coverage  # noqa: E402
 from blend.build import TEMPLATE  # noqa: E402
 from blend.contract import open_template  # noqa: E402
-from farm.asset_source import InstalledAssets  # noqa: E402
-from farm.catalogue import Inputs, make_header, template_ref  # noqa: E402
-from farm.category import Background, Category  # noqa: E402
+from farm.cli.installed_assets import InstalledAssets  # noqa: E402
 from farm.errors import AssetError, EnvironmentMissingError, SceneError, SpecError, TemplateError  # noqa: E402
-from farm.header import DatasetHeader, FileRef  # noqa: E402
-from farm.job import Job  # noqa: E402
-from farm.spec import parse_spec  # noqa: E402
+from farm.spec.category import Background, Category  # noqa: E402
+from farm.spec.header import DatasetHeader, FileRef  # noqa: E402
+from farm.spec.job import Job  # noqa: E402
+from farm.spec.make_header import Inputs, make_header, template_ref  # noqa: E402
+from farm.spec.parse import parse_spec  # noqa: E402
 from worker.blender.asset_files import checked  # noqa: E402
 from worker.blender.render import render_picture  # noqa: E402
 from worker.blender.renderer import Studio, open_studio  # noqa: E402

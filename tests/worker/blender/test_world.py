@@ -11,9 +11,9 @@ bpy = pytest.importorskip("bpy")
 from blend import names  # noqa: E402  # after importorskip
 from blend.build import TEMPLATE  # noqa: E402
 from blend.contract import open_template  # noqa: E402
-from farm.lights import AreaLamp, GreyWorld, StudioLamp  # noqa: E402
-from farm.photograph import Camera  # noqa: E402
-from farm.rendering import CyclesSettings, Denoiser, PictureSettings  # noqa: E402
+from farm.scene.camera import Camera  # noqa: E402
+from farm.scene.light import AreaLamp, GreyWorld, StudioLamp  # noqa: E402
+from farm.spec.rendering import CyclesSettings, Denoiser, PictureSettings  # noqa: E402
 from worker.blender.camera import set_camera  # noqa: E402
 from worker.blender.render import configure_cycles, configure_picture, render_picture  # noqa: E402
 from worker.blender.world import set_grey_world, set_lamps  # noqa: E402

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import cdist
 
-from farm.clutter import Stick, StickKind
-from farm.looks import Bundle, CableEnd, EndKind, Tie, envelope_ratio
-from farm.scene import Cable, Scene
+from farm.scene.cable import Bundle, Cable, CableEnd, EndKind, Tie, envelope_ratio
+from farm.scene.clutter import Stick, StickKind
+from farm.scene.scene import Scene
 from tests.worker.scenes import make_scene, make_skin
 from worker.cable.piece import OCCLUDER, Convex, Piece, Plain, Substance, Tubular
 from worker.cable.pieces import instance_count, pieces_of

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from farm.looks import Marking, Rgb, Sheath, Skin, Stripe, StripeKind
+from farm.model import Rgb
+from farm.scene.cable import Marking, Sheath, Skin, Stripe, StripeKind
 from tests.worker.scenes import make_skin
 from worker.cable.canvas import pigment
 from worker.cable.skin import SkinImages, draw_skin

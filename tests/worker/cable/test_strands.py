@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import cdist
 
-from farm.looks import envelope_ratio
+from farm.scene.cable import envelope_ratio
 from worker.cable.strands import places, strand_radius, turning
 
 COUNTS = range(2, 8)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from farm.photograph import Development
+from farm.scene.camera import Development
 from worker.camera import develop as steps
 from worker.camera.develop import Light, develop
 from worker.colour import luminance, srgb

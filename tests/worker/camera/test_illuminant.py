@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from farm.lights import GreyWorld, PointLamp, StudioLamp
+from farm.scene.light import GreyWorld, PointLamp, StudioLamp
 from worker.camera.black_body import black_body
 from worker.camera.illuminant import illuminant
 

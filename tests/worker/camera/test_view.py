@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from farm.photograph import Camera
+from farm.scene.camera import Camera
 from worker.camera.view import View
 
 HEIGHT = 0.2

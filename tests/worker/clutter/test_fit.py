@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from farm.clutter import PartKind
+from farm.scene.clutter import PartKind
 from tests.worker.clutter.things import make_part
 from worker.clutter.fit import parts_that_fit
 from worker.clutter.parts import part_extent, part_solid

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from farm.clutter import PartKind
+from farm.scene.clutter import PartKind
 from tests.worker.clutter.test_solid import volume_m3
 from tests.worker.clutter.things import make_part
 from worker.clutter.parts import NUTS_MM, part_extent, part_solid

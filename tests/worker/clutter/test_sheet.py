@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from farm.clutter import SheetKind
+from farm.scene.clutter import SheetKind
 from tests.worker.clutter.things import make_sheet
 from worker.clutter.print import TEXEL_M
 from worker.clutter.sheet import print_sheet, sheet_corners

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from farm.clutter import StickKind
+from farm.scene.clutter import StickKind
 from tests.worker.clutter.test_solid import volume_m3
 from tests.worker.clutter.things import make_stick
 from tests.worker.scenes import tubular

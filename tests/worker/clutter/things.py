@@ -1,6 +1,6 @@
 """Clutter for the tests."""
 
-from farm.clutter import Part, PartKind, Sheet, SheetKind, Stick, StickKind
+from farm.scene.clutter import Part, PartKind, Sheet, SheetKind, Stick, StickKind
 
 
 def make_stick(kind: StickKind = StickKind.ROD, *, seed: int = 0, diameter_m: float = 0.008, **keys: object) -> Stick:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from farm.scene import JointFill, Wear
+from farm.scene.floor import JointFill, Wear
 from worker.floor.marks import CELL_M, EDGE_M, marks_on, scratch_lines, stain_grids
 
 WEAR = Wear(

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from farm.scene import JointFill, Wear
+from farm.scene.floor import JointFill, Wear
 from worker.floor.marks import Marks
 from worker.floor.wear import turned_over, worn_colour, worn_roughness
 

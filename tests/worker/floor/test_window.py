@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from farm.scene import Floor
+from farm.scene.floor import Floor
 from worker.camera.view import View
 from worker.floor.window import TextureWindow, texels_to_floor, tile_coordinates, window_on
 

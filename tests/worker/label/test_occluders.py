@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.category import Category
-from farm.clutter import StickKind
+from farm.scene.clutter import StickKind
+from farm.spec.category import Category
 from tests.worker.clutter.things import make_stick
 from tests.worker.scenes import make_scene, tubular
 from worker.camera.view import View

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.integrate import trapezoid
 
-from farm.styles import RANGES_OF, Style
+from farm.spec.styles import RANGES_OF, Style
 from worker.sample.cable_curve import draw_course
 from worker.simulate.shapes import bent_rod
 

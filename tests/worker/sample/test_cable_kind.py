@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from farm.looks import Bundle, CableMaterial, EndKind, Sheath, Skin, StripeKind, envelope_ratio
-from farm.photograph import Camera
-from farm.styles import RANGES_OF, Style
+from farm.scene.cable import Bundle, CableMaterial, EndKind, Sheath, Skin, StripeKind, envelope_ratio
+from farm.scene.camera import Camera
+from farm.spec.styles import RANGES_OF, Style
 from worker.sample.cable_kind import CableKind, draw_ends, draw_kinds
 
 WIDE = RANGES_OF[Style.WIDE].cable

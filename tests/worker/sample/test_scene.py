@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from farm.category import Background, Category, Light
-from farm.lights import AreaLamp, PointLamp
-from farm.ranges import Ranges
-from farm.scene import Scene
+from farm.scene.light import AreaLamp, PointLamp
+from farm.scene.scene import Scene
+from farm.spec.category import Background, Category, Light
+from farm.spec.ranges.all import Ranges
 from tests.worker.scenes import make_scene
 
 RANGES = Ranges()

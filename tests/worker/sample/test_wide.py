@@ -4,12 +4,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from farm.category import Background, Category, Light
-from farm.clutter import PartKind, SheetKind, StickKind
-from farm.header import BuiltinSurfaceRef
-from farm.job import Job
-from farm.lights import StudioLamp
-from farm.scene import Scene
+from farm.scene.clutter import PartKind, SheetKind, StickKind
+from farm.scene.light import StudioLamp
+from farm.scene.scene import Scene
+from farm.spec.category import Background, Category, Light
+from farm.spec.header import BuiltinSurfaceRef
+from farm.spec.job import Job
 from tests.worker.scenes import make_header, make_scene
 from worker.sample.scene import draw_scene
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 import worker.service.job_log
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
 from farm.errors import DestinationError
-from farm.job import Job, JobMessage
+from farm.spec.job import Job, JobMessage
 from worker.service.job_log import MAX_BYTES, JobLogs
 
 
@@ -28,7 +28,7 @@ def logs(tmp_path: Path) -> JobLogs:
 
 PROGRAM = """
 import os, pathlib, sys
-from farm.job import JobMessage
+from farm.spec.job import JobMessage
 from worker.service.job_log import JobLogs
 
 logs = JobLogs(pathlib.Path(sys.argv[1]))

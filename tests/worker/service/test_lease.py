@@ -6,7 +6,7 @@ from unittest.mock import patch
 import pytest
 
 from farm.errors import BrokerError
-from farm.ledger.memory import MemoryLedger
+from tests.doubles.ledger import MemoryLedger
 from worker.service.lease import ClaimLostError, HeldClaim
 
 JOB_ID = "far-000001"

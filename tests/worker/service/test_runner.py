@@ -9,8 +9,11 @@ from unittest.mock import Mock
 import pytest
 from celery.exceptions import SoftTimeLimitExceeded
 
-from farm.completion import is_done
-from farm.dataset import Dataset
+from farm.dataset.completion import is_done
+from farm.dataset.dataset import Dataset
+from farm.dataset.manifest import Manifest
+from farm.dataset.paths import FileRole, file_path, manifest_path, quarantine_path
+from farm.dataset.quarantine import Quarantine, QuarantineRecord, put_in_quarantine
 from farm.errors import (
     AssetError,
     DestinationError,
@@ -23,14 +26,11 @@ from farm.errors import (
     TemplateError,
     UnfitWorkerError,
 )
-from farm.header import DatasetHeader
-from farm.job import Job
-from farm.layout import FileRole, file_path, manifest_path, quarantine_path
-from farm.ledger.memory import MemoryLedger
-from farm.ledger.owner import this_process
-from farm.ledger.port import MAX_ABSENCES, RETRY_OWNER
-from farm.manifest import Manifest
-from farm.quarantine import Quarantine, QuarantineRecord, put_in_quarantine
+from farm.run.ledger.owner import this_process
+from farm.run.ledger.port import MAX_ABSENCES, RETRY_OWNER
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
+from tests.doubles.ledger import MemoryLedger
 from tests.stand_in import StandInMaker
 from worker.service.picture import ImageMaker, MadeImage
 from worker.service.runner import BACKOFF_S, FAILED_IN_A_ROW, MAX_STARTS, MAX_TRIES, JobRunner, TryLaterError

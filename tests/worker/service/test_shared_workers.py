@@ -8,17 +8,17 @@ from pathlib import Path
 
 import pytest
 
-from farm.board.port import Priority, RunState, WorkerState
 from farm.cli.mending import repair, retry
-from farm.coordinator import Coordinator
-from farm.dataset import Dataset
+from farm.dataset.dataset import Dataset
+from farm.dataset.paths import FileRole, file_path, manifest_path, quarantine_path
+from farm.dataset.quarantine import Quarantine, QuarantineRecord, put_in_quarantine
+from farm.dataset.verify import verify
 from farm.errors import RunCancelledError
-from farm.job import Job
-from farm.layout import FileRole, file_path, manifest_path, quarantine_path
 from farm.local.redis_server import private_redis
-from farm.progress import Hints
-from farm.quarantine import Quarantine, QuarantineRecord, put_in_quarantine
-from farm.verify import verify
+from farm.run.coordinator import Coordinator
+from farm.run.progress import Hints
+from farm.run.registry.port import Priority, RunState, WorkerState
+from farm.spec.job import Job
 from tests.live_farm import LiveFarm, done, is_once_each, live_farm, wait_for, wait_until_done
 from worker.service.runner import MAX_STARTS
 

@@ -10,17 +10,17 @@ from pathlib import Path
 import pytest
 import redis
 
-from farm.board.port import Run
-from farm.board.redis import RedisBoard
-from farm.completion import Completion
-from farm.dataset import Dataset
+from farm.dataset.completion import Completion
+from farm.dataset.dataset import Dataset
+from farm.dataset.quarantine import Quarantine
 from farm.errors import DatasetMissingError, EnvironmentMissingError
-from farm.job import Job
-from farm.ledger.redis import RedisLedger
-from farm.quarantine import Quarantine
-from farm.queue.celery import CeleryQueue
-from farm.queue.settings import QUEUE, TASK_NAME, make_app
-from farm.redis_hints import run_of
+from farm.run.handle import run_of
+from farm.run.ledger.redis import RedisLedger
+from farm.run.queue.celery import CeleryQueue
+from farm.run.queue.settings import QUEUE, TASK_NAME, make_app
+from farm.run.registry.port import Run
+from farm.run.registry.redis import RedisBoard
+from farm.spec.job import Job
 
 pytestmark = pytest.mark.redis
 

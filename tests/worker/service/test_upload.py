@@ -9,13 +9,13 @@ import cv2
 import numpy as np
 import pytest
 
-from farm.completion import is_done
-from farm.dataset import Dataset
+from farm.dataset.completion import is_done
+from farm.dataset.dataset import Dataset
+from farm.dataset.paths import FileRole, file_path, manifest_path
 from farm.errors import BrokerError, DestinationError, RenderError
-from farm.job import Job
-from farm.layout import FileRole, file_path, manifest_path
-from farm.ledger.memory import MemoryLedger
+from farm.spec.job import Job
 from farm.storage import LocalStorage
+from tests.doubles.ledger import MemoryLedger
 from tests.stand_in import StandInMaker, stand_in_header
 from worker.service.lease import ClaimLostError, HeldClaim
 from worker.service.picture import MadeImage

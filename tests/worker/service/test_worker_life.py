@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 import redis
 
-from farm.board.port import WorkerState
-from farm.dataset import Dataset
-from farm.quarantine import Quarantine
-from farm.verify import verify
+from farm.dataset.dataset import Dataset
+from farm.dataset.quarantine import Quarantine
+from farm.dataset.verify import verify
+from farm.run.registry.port import WorkerState
 from tests.live_farm import (
     PATIENCE_S,
     LiveFarm,

@@ -1,6 +1,6 @@
 """Whether a settled scene may be shipped. Measuring is `worker.simulate.checks.measure`."""
 
-from farm.manifest import SettleFigures
+from farm.dataset.manifest import SettleFigures
 from worker.simulate.checks.measure import Gate, settled_figures
 
 MAX_PENETRATION_ANYWHERE = 0.20

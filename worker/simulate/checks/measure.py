@@ -10,8 +10,8 @@ from enum import Enum
 
 import numpy as np
 
-from farm.fall import Simulator
-from farm.manifest import SettleFigures
+from farm.dataset.manifest import SettleFigures
+from farm.spec.simulation import Simulator
 from worker.simulate.checks.contact import find_contacts, search_reach_m
 from worker.simulate.checks.plan_view import find_crossings
 from worker.simulate.checks.spans import cut

@@ -11,8 +11,10 @@ from numpy.typing import NDArray
 from blend import names
 from blend.fall import SELF_DISTANCE
 from farm.errors import SceneError
-from farm.fall import ClothFall
-from farm.scene import Cable, Friction, Scene, Wind
+from farm.scene.cable import Cable
+from farm.scene.physics import Friction, Wind
+from farm.scene.scene import Scene
+from farm.spec.simulation import ClothFall
 from worker.curves import Points
 from worker.simulate.checks.accept import MAX_SPEED_MM_S, MAX_SPEED_RMS_MM_S
 from worker.simulate.cloth.material import SEGMENT_UNITS, STRIP_WIDTH, StripMaterial, strip_material

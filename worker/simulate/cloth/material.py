@@ -23,8 +23,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from farm.fall import ClothFall
-from farm.scene import Cable, Scene
+from farm.scene.cable import Cable
+from farm.scene.scene import Scene
+from farm.spec.simulation import ClothFall
 from worker.simulate.cloth.scale import GRAVITY, RADIUS_UNITS, FallScale
 
 SEGMENT_UNITS = 5.0 * RADIUS_UNITS

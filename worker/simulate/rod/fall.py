@@ -2,10 +2,12 @@
 
 import numpy as np
 
-from farm.clutter import Stick, StickKind
 from farm.errors import SceneError
-from farm.fall import RodFall
-from farm.scene import Cable, Scene, Wind
+from farm.scene.cable import Cable
+from farm.scene.clutter import Stick, StickKind
+from farm.scene.physics import Wind
+from farm.scene.scene import Scene
+from farm.spec.simulation import RodFall
 from worker.simulate.rod.model import Array, Breeze, Rod, Surroundings
 from worker.simulate.rod.simulation import DivergedError, RodSimulation
 from worker.simulate.shapes import CableShapes, bent_rod

@@ -20,7 +20,7 @@ from benchmarks.physics.gates import (
     stress_fault,
 )
 from benchmarks.physics.ridge import RidgeCrossing
-from farm.fall import Simulator
+from farm.spec.simulation import Simulator
 from tests.worker.settled import RADIUS, looped, rod, shapes
 from worker.curves import Points
 from worker.simulate.checks.measure import Gate, measure, settled_figures

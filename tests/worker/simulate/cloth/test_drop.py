@@ -10,8 +10,8 @@ bpy = pytest.importorskip("bpy")
 from benchmarks.physics.published_cloth import CABLES, all_eight  # noqa: E402
 from blend.build import TEMPLATE  # noqa: E402  # after importorskip
 from blend.contract import open_template  # noqa: E402
-from farm.fall import ClothFall, Fall, Simulator  # noqa: E402
-from farm.scene import Scene  # noqa: E402
+from farm.scene.scene import Scene  # noqa: E402
+from farm.spec.simulation import ClothFall, Fall, Simulator  # noqa: E402
 from tests.worker.scenes import make_scene  # noqa: E402
 from worker.simulate.simulate import let_fall  # noqa: E402
 

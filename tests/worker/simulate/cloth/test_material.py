@@ -2,8 +2,8 @@
 
 import pytest
 
-from farm.fall import ClothFall
-from farm.scene import Scene
+from farm.scene.scene import Scene
+from farm.spec.simulation import ClothFall
 from tests.worker.scenes import make_scene
 from worker.simulate.cloth.material import achieved_moduli_pa, achieved_stiffness, material_for, most_bending
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.physics.gates import StressFault, stress_fault
-from farm.fall import RodFall
+from farm.spec.simulation import RodFall
 from tests.worker.simulate.physics.rods import RADIUS_M, curve_m, line, rod, shapes
 from worker.simulate.checks.measure import Gate, measure
 from worker.simulate.rod.contact import UNDOING_S

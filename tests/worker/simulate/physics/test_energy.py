@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.physics.gates import energy_rise
-from farm.fall import RodFall
+from farm.spec.simulation import RodFall
 from tests.worker.scenes import make_scene
 from tests.worker.simulate.physics.rods import IN_THE_AIR, line, rod
 from worker.simulate.checks.measure import Gate

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from farm.fall import RodFall
+from farm.spec.simulation import RodFall
 from tests.worker.scenes import make_scene
 from tests.worker.simulate.physics.rods import line, rod, shapes
 from worker.simulate.checks.measure import measure, settled_figures

@@ -7,13 +7,13 @@ import sys
 import pytest
 
 from benchmarks.physics.gates import same_bits
-from farm.fall import RodFall
+from farm.spec.simulation import RodFall
 from tests.worker.scenes import make_scene
 from worker.simulate.rod.fall import drop_cables
 
 PROGRAM = """
 import hashlib
-from farm.fall import RodFall
+from farm.spec.simulation import RodFall
 from tests.worker.scenes import make_scene
 from worker.simulate.rod.fall import drop_cables
 shapes = drop_cables(make_scene(index=1, ranges={"cable": {"count": [6, 6]}}), RodFall())

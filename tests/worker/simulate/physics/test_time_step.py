@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.physics.gates import largest_movement, observed_orders
-from farm.fall import RodFall
+from farm.spec.simulation import RodFall
 from tests.worker.simulate.physics.rods import line, rod, shapes
 from worker.simulate.checks.measure import Gate
 from worker.simulate.rod.model import Breeze, Rod, Surroundings

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from farm.clutter import StickKind
-from farm.fall import RodFall
-from farm.scene import Scene
+from farm.scene.clutter import StickKind
+from farm.scene.scene import Scene
+from farm.spec.simulation import RodFall
 from tests.worker.clutter.things import make_stick
 from tests.worker.scenes import make_scene
 from worker.simulate.checks.accept import find_fault

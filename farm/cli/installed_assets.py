@@ -1,0 +1,80 @@
+"""The surfaces, HDRIs and photographs of this machine, as a dataset's header names them."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from assets.environments import ENVIRONMENTS
+from assets.hdris import registry, scan_hdris
+from assets.plates import scan_plates
+from assets.surfaces.catalogue import FLOORS, LIGHT, SURFACES
+from assets.texture_names import TextureRole
+from assets.textures import TextureSet, scan_textures
+from farm.spec.header import BuiltinSurfaceRef, FileRef, FolderSurfaceRef, HdriRef, PlateRef
+from farm.spec.styles import Style
+
+
+class InstalledAssets:
+    """Implements `farm.spec.make_header.AssetSource` over the `assets` package."""
+
+    def builtin_surfaces(self, style: Style) -> Sequence[BuiltinSurfaceRef]:
+        """See `AssetSource.builtin_surfaces`."""
+        recipes = FLOORS if style is Style.PUBLISHED else SURFACES
+        return [
+            BuiltinSurfaceRef(name=recipe.name, recipe_version=recipe.version, light=recipe.name in LIGHT)
+            for recipe in recipes.values()
+        ]
+
+    def surfaces_in(self, folder: Path) -> Sequence[FolderSurfaceRef]:
+        """See `AssetSource.surfaces_in`."""
+        return [_surface(texture) for texture in scan_textures(folder)]
+
+    def builtin_hdris(self) -> Sequence[HdriRef]:
+        """See `AssetSource.builtin_hdris`. Told by the registry, as a coordinator may be without Blender's files."""
+        return [
+            HdriRef(name=hdri.name, path=None, sha256=hdri.sha256, dark=hdri.dark, backdrop=hdri.backdrop)
+            for hdri in registry()
+        ]
+
+    def environments(self) -> Sequence[HdriRef]:
+        """See `AssetSource.environments`. Told by the registry, as each machine renders its own."""
+        return [
+            HdriRef(name=recipe.name, path=None, dark=False, recipe_version=recipe.version)
+            for recipe in ENVIRONMENTS.values()
+        ]
+
+    def hdris_in(self, folder: Path) -> Sequence[HdriRef]:
+        """See `AssetSource.hdris_in`."""
+        return [
+            HdriRef(
+                name=hdri.name,
+                path=str(hdri.path.resolve()),
+                sha256=hdri.sha256,
+                dark=hdri.dark,
+                backdrop=hdri.backdrop,
+            )
+            for hdri in scan_hdris(folder)
+        ]
+
+    def plates_in(self, folder: Path) -> Sequence[PlateRef]:
+        """See `AssetSource.plates_in`."""
+        return [
+            PlateRef(name=plate.name, path=str(plate.path.resolve()), sha256=plate.sha256)
+            for plate in scan_plates(folder)
+        ]
+
+
+_RENDERED = frozenset({TextureRole.COLOUR, TextureRole.ROUGHNESS, TextureRole.NORMAL, TextureRole.METALLIC})
+"""Roles that the floor's material has a place for; occlusion and height maps are checked and left aside."""
+
+
+def _surface(texture: TextureSet) -> FolderSurfaceRef:
+    return FolderSurfaceRef(
+        name=texture.name,
+        files={
+            entry.role.value: FileRef(path=str(entry.path.resolve()), sha256=entry.sha256)
+            for entry in texture.maps
+            if entry.role in _RENDERED
+        },
+        flip_green=texture.flip_green,
+        gloss=texture.invert_roughness,
+    )

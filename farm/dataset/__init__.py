@@ -1,0 +1,1 @@
+"""A dataset's folder: its paths, its manifests, what is done, the index, the report, and the checks."""

@@ -1,0 +1,42 @@
+"""A contact sheet: the first pictures of every category in one image, a row a category."""
+
+import io
+
+from PIL import Image
+
+from farm.dataset.dataset import Dataset
+from farm.dataset.paths import FileRole, file_path
+from farm.errors import IncompleteError
+from farm.spec.category import Category
+from farm.spec.job import Job
+
+_GAP_PX = 4
+_JPEG_QUALITY = 88
+
+
+def make_contact_sheet(dataset: Dataset, *, columns: int, edge_px: int) -> bytes:
+    """A JPEG of the first `columns` pictures of each category that has a quota, each `edge_px` wide.
+
+    Raises:
+        IncompleteError: if a picture is not there yet.
+        DestinationError: if the dataset can't be read.
+    """
+    rows = [(category, min(columns, quota)) for category, quota in dataset.header.spec.quotas.items() if quota]
+    step = edge_px + _GAP_PX
+    sheet = Image.new("RGB", (step * max(count for _, count in rows) - _GAP_PX, step * len(rows) - _GAP_PX), "white")
+    for row, (category, count) in enumerate(rows):
+        for column in range(count):
+            picture = _read(dataset, category, column)
+            sheet.paste(picture.resize((edge_px, edge_px), Image.Resampling.LANCZOS), (column * step, row * step))
+    encoded = io.BytesIO()
+    sheet.save(encoded, "JPEG", quality=_JPEG_QUALITY)
+    return encoded.getvalue()
+
+
+def _read(dataset: Dataset, category: Category, index: int) -> Image.Image:
+    job = Job(category=category, index=index)
+    try:
+        content = dataset.storage.read(file_path(job, FileRole.IMAGE))
+    except FileNotFoundError as error:
+        raise IncompleteError(f"{job.id} is not there yet; finish the dataset first") from error
+    return Image.open(io.BytesIO(content)).convert("RGB")

@@ -1,0 +1,107 @@
+"""The manifest: what stands beside every picture, written last. A job is done when it is there and agrees."""
+
+from collections.abc import Mapping
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from farm.dataset.paths import FileRole
+from farm.model import Model, Sha256
+from farm.scene.scene import Scene
+from farm.spec.job import DatasetName
+from farm.spec.rendering import PictureSettings
+
+Seconds = Annotated[float, Field(ge=0)]
+
+
+class FileRecord(Model):
+    """One file of a job: where it is below the dataset's folder, its size and checksum."""
+
+    path: str
+    bytes: Annotated[int, Field(ge=0)]
+    sha256: Sha256
+
+
+class RejectedAttempt(Model):
+    """A scene that was drawn and failed a physics check."""
+
+    attempt: Annotated[int, Field(ge=0)]
+    reason: str
+
+
+class SettleFigures(Model):
+    """What was measured on the settled cables, on the smooth centrelines that are rendered.
+
+    Attributes:
+        fall_s: how long the cables fell and settled, in true time.
+        steps: time steps of the rod solver, or frames of the cloth.
+        length_error: worst cable, |L/L0 - 1|.
+        cable_penetration: depth of a cable in another, or in itself farther along than four radii, over the smaller
+            radius; the 99.9th percentile of all places.
+        cable_penetration_max: deepest single place.
+        floor_penetration: depth of a cable in the floor over its radius; the 99.9th percentile of all places.
+        floor_penetration_max: deepest single place.
+        pass_throughs: crossings of two cables, away from all ends, whose order flipped between start and rest.
+        end_slips: such crossings within ten radii of an end of either cable, round which they may have slipped.
+        floor_pass_throughs: cables whose centreline is anywhere below the floor.
+        self_crossings: places where a cable crosses itself, seen from above.
+        speed_rms_mm_s: root mean square speed of the nodes at the end, in true time.
+        speed_max_mm_s: fastest node at the end.
+        support_gap: smallest clearance of a cable to the floor, or to another cable within half a radius, over its
+            radius; the worst cable's. Negative where it is pressed in.
+    """
+
+    fall_s: float
+    steps: int
+    length_error: float
+    cable_penetration: float
+    cable_penetration_max: float
+    floor_penetration: float
+    floor_penetration_max: float
+    pass_throughs: int
+    end_slips: int
+    floor_pass_throughs: int
+    self_crossings: int
+    speed_rms_mm_s: float
+    speed_max_mm_s: float
+    support_gap: float
+
+
+class RenderSettings(Model):
+    """How the picture was rendered, as acted on, not as asked for.
+
+    Attributes:
+        samples: a pixel.
+        settings: of Cycles; None for another engine.
+        expected_flip: mean FLIP against a picture without noise, as calibrated; None where it is not known, as for
+            pictures that a camera's development changes.
+    """
+
+    engine: str
+    device: str
+    resolution: int
+    samples: int
+    settings: PictureSettings | None = None
+    expected_flip: float | None = None
+
+
+class Manifest(Model):
+    """Everything about one picture.
+
+    Attributes:
+        timings_s: seconds per stage of this job (open, randomize, simulate, render, mask, write).
+        versions: of the farm, Blender and the libraries that take part.
+    """
+
+    version: Literal[1] = 1
+    dataset: DatasetName
+    spec_sha256: Sha256
+    job_id: str
+    seed: int
+    scene: Scene
+    settled: SettleFigures
+    rejected: tuple[RejectedAttempt, ...]
+    render: RenderSettings
+    timings_s: Mapping[str, Seconds]
+    versions: Mapping[str, str]
+    files: Mapping[FileRole, FileRecord]

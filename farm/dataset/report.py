@@ -1,0 +1,131 @@
+"""`report.html`: the pictures with their masks beside them, and what they cost. One file, no scripts."""
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from html import escape
+from importlib.resources import files
+from statistics import fmean
+from string import Template
+from urllib.parse import quote
+
+from farm.dataset.dataset import Dataset
+from farm.dataset.index import IndexEntry, done_manifests, index_entry, write_index
+from farm.dataset.paths import REPORT_FILE
+from farm.spec.category import Category
+
+_UNKNOWN = "-"
+
+
+@dataclass(slots=True)
+class _Section:
+    """What the page tells of one category; only the first pictures are kept."""
+
+    quota: int
+    done: int = 0
+    shown: list[IndexEntry] = field(default_factory=list)
+    seconds: dict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
+
+
+def write_report(dataset: Dataset, *, pictures_per_category: int = 40) -> int:
+    """Write the page.
+
+    Args:
+        dataset: the dataset, done or in the making.
+        pictures_per_category: at most so many are shown.
+
+    Returns:
+        How many images are done.
+
+    Raises:
+        DestinationError: if the folder can't be read or written.
+    """
+    sections = {category: _Section(quota) for category, quota in dataset.header.spec.quotas.items() if quota}
+    for job, manifest in done_manifests(dataset):
+        section = sections[job.category]
+        section.done += 1
+        if len(section.shown) < pictures_per_category:
+            section.shown.append(index_entry(job, manifest))
+        for stage, seconds in manifest.timings_s.items():
+            section.seconds[stage].append(seconds)
+    dataset.storage.write(REPORT_FILE, _page(dataset, sections).encode())
+    return sum(section.done for section in sections.values())
+
+
+def write_overview(dataset: Dataset) -> None:
+    """Write the index and the page, at the end of a dataset's making, whether it succeeded or not.
+
+    Raises:
+        DestinationError: if the folder can't be read or written.
+    """
+    write_index(dataset)
+    write_report(dataset)
+
+
+def _page(dataset: Dataset, sections: Mapping[Category, _Section]) -> str:
+    spec = dataset.header.spec
+    facts = {
+        "images": f"{sum(section.done for section in sections.values())} of {spec.total}",
+        "seed": str(spec.seed),
+        "size": f"{spec.resolution} x {spec.resolution} px",
+        "engine": f"{spec.engine}, {spec.quality}",
+        "surfaces": str(len(dataset.header.surfaces)),
+        "HDRIs": str(len(dataset.header.hdris)),
+        "description": dataset.header.spec_sha256[:12],
+    }
+    template = Template((files("farm.dataset") / "report_template.html").read_text(encoding="utf-8"))
+    return template.substitute(
+        title=escape(dataset.name),
+        facts="".join(f"<div><dt>{escape(name)}</dt><dd>{escape(value)}</dd></div>" for name, value in facts.items()),
+        table=_table(sections),
+        navigation=" ".join(f'<a href="#{category}">{escape(_words(category))}</a>' for category in sections),
+        sections="".join(_section(category, section) for category, section in sections.items()),
+    )
+
+
+def _table(sections: Mapping[Category, _Section]) -> str:
+    stages = list(dict.fromkeys(stage for section in sections.values() for stage in section.seconds))
+    head = "".join(f"<th>{escape(name)}</th>" for name in ["category", "done", "quota", *stages, "sum"])
+    body = "".join(_rows(sections, stages))
+    caption = "Mean seconds per image and stage"
+    return f"<table><caption>{caption}</caption><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _rows(sections: Mapping[Category, _Section], stages: list[str]) -> Iterable[str]:
+    for category, section in sections.items():
+        means = [fmean(section.seconds[stage]) if section.seconds[stage] else None for stage in stages]
+        known = [mean for mean in means if mean is not None]
+        cells = [_words(category), str(section.done), str(section.quota)]
+        cells += [_UNKNOWN if mean is None else f"{mean:.2f}" for mean in means]
+        cells.append(f"{sum(known):.2f}" if known else _UNKNOWN)
+        yield "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>"
+
+
+def _section(category: Category, section: _Section) -> str:
+    count = f"{section.done} of {section.quota}"
+    if len(section.shown) < section.done:
+        count += f", the first {len(section.shown)} shown"
+    cards = "".join(_card(entry) for entry in section.shown)
+    return (
+        f'<section id="{category}"><h2>{escape(_words(category))} <small>{escape(count)}</small></h2>'
+        f'<div class="grid">{cards}</div></section>'
+    )
+
+
+def _card(entry: IndexEntry) -> str:
+    pictures = "".join(
+        f'<a href="{quote(path)}"><img src="{quote(path)}" alt="{what} of {escape(entry.job_id)}" loading="lazy"></a>'
+        for what, path in (("image", entry.image), ("mask", entry.mask))
+    )
+    facts = [f"{entry.cables} cable{'s' if entry.cables != 1 else ''}", f"{entry.camera_height_m * 100:.0f} cm high"]
+    facts += [str(fact) for fact in (entry.surface, entry.hdri, entry.lamp and f"{entry.lamp} lamp") if fact]
+    facts += [f"seed {entry.seed}"] + ([f"draw {entry.attempt + 1}"] if entry.attempt else [])
+    chips = "".join(f"<li>{escape(fact)}</li>" for fact in facts)
+    return (
+        f'<figure><div class="pair">{pictures}</div><figcaption><b>{escape(entry.job_id)}</b>'
+        f"<span>{escape(_words(entry.category))}</span><ul>{chips}</ul></figcaption></figure>"
+    )
+
+
+def _words(category: Category) -> str:
+    return category.replace("_", " ")

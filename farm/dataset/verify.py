@@ -1,0 +1,204 @@
+"""Checks every file of a dataset against its manifest, down to the pixels."""
+
+import hashlib
+import itertools
+import time
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from enum import StrEnum
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from farm.dataset.completion import STALE_TEMPORARY_S, parse_manifest
+from farm.dataset.dataset import Dataset
+from farm.dataset.manifest import FileRecord, Manifest
+from farm.dataset.paths import HEADER_FILE, INDEX_FILE, REPORT_FILE, FileRole, file_path, manifest_path, quarantine_path
+from farm.dataset.quarantine import Quarantine
+from farm.model import Model
+from farm.spec.job import Job
+from farm.storage import StoredFile, is_temporary
+
+_THREADS = 4  # OpenCV and hashing leave the interpreter's lock while they work
+_AT_A_TIME = 1000
+
+
+class Fault(StrEnum):
+    """What can be wrong with a file."""
+
+    MISSING = "missing"
+    EXTRA = "extra"
+    TRUNCATED = "truncated"
+    ALTERED = "altered"
+
+
+class Finding(Model):
+    """One file that is not as it should be."""
+
+    fault: Fault
+    path: str
+    detail: str
+
+
+class Verdict(Model):
+    """What a check of a whole dataset found.
+
+    Attributes:
+        images: jobs whose manifest and files are all as they should be.
+        quota: jobs asked for.
+        quarantined: jobs that are given up, by id with the reason; of these nothing is missing.
+    """
+
+    location: str
+    images: int
+    quota: int
+    findings: tuple[Finding, ...]
+    quarantined: Mapping[str, str] = {}
+
+    @property
+    def clean(self) -> bool:
+        """Whether everything but what is given up is there, and nothing else."""
+        return not self.findings
+
+
+def verify(dataset: Dataset, on_checked: Callable[[int], None] = lambda _: None) -> Verdict:
+    """Check a dataset, which may grow meanwhile: what is made before its job is looked at is not missing.
+
+    Args:
+        dataset: the dataset.
+        on_checked: told how many jobs were checked, after each.
+
+    Raises:
+        DestinationError: if the folder or a file in it can't be read.
+    """
+    findings: list[Finding] = []
+    given_up = Quarantine(dataset).look()
+    quarantined: dict[str, str] = {}
+    clean = 0
+    for count, (job, found) in enumerate(_check_all(dataset), start=1):
+        if job.id in given_up and _is_missing(job, found):
+            quarantined[job.id] = given_up[job.id]
+        else:
+            findings += found
+            clean += not found
+        on_checked(count)
+    findings += _extra(dataset, dataset.storage.files())
+    return Verdict(
+        location=dataset.storage.location,
+        images=clean,
+        quota=dataset.header.spec.total,
+        findings=tuple(sorted(findings, key=lambda finding: (finding.fault, finding.path))),
+        quarantined=quarantined,
+    )
+
+
+def damaged_jobs(dataset: Dataset) -> Iterator[Job]:
+    """The jobs whose manifest is there but wrong, or one of whose files is not as it tells.
+
+    Raises:
+        DestinationError: if the folder or a file in it can't be read.
+    """
+    for job, found in _check_all(dataset):
+        if found and not _is_missing(job, found):
+            yield job
+
+
+def _check_all(dataset: Dataset) -> Iterator[tuple[Job, list[Finding]]]:
+    """Each job with its findings, some jobs at a time, so that a large dataset does not fill the memory."""
+    jobs = dataset.header.spec.jobs()
+    with ThreadPoolExecutor(_THREADS) as threads:
+        while some := list(itertools.islice(jobs, _AT_A_TIME)):
+            yield from zip(some, threads.map(lambda job: list(_check_job_twice(dataset, job)), some), strict=True)
+
+
+def _is_missing(job: Job, findings: list[Finding]) -> bool:
+    return [(finding.fault, finding.path) for finding in findings] == [(Fault.MISSING, manifest_path(job))]
+
+
+def _check_job_twice(dataset: Dataset, job: Job) -> Iterator[Finding]:
+    """Look again at what seems wrong: a worker may have been replacing the files one by one."""
+    if list(_check_job(dataset, job)):
+        yield from _check_job(dataset, job)
+
+
+def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
+    path = manifest_path(job)
+    try:
+        manifest = parse_manifest(dataset.storage.read(path), dataset, job)
+    except FileNotFoundError:
+        yield Finding(fault=Fault.MISSING, path=path, detail="not rendered yet, or its manifest is lost")
+        return
+    if manifest is None:
+        yield Finding(fault=Fault.ALTERED, path=path, detail="not a manifest of this job of this dataset")
+        return
+    pixels: dict[FileRole, NDArray[np.generic]] = {}
+    for role in FileRole:
+        found = _check_file(dataset, role, manifest.files[role], pixels)
+        if found is not None:
+            yield found
+    if len(pixels) == len(FileRole):
+        yield from _check_pixels(manifest, dataset.header.spec.resolution, pixels)
+
+
+def _check_file(
+    dataset: Dataset,
+    role: FileRole,
+    record: FileRecord,
+    pixels: dict[FileRole, NDArray[np.generic]],
+) -> Finding | None:
+    # Read rather than looked up in a listing, which would be older than the manifest where the dataset grows.
+    try:
+        content = dataset.storage.read(record.path)
+    except FileNotFoundError:
+        return Finding(fault=Fault.MISSING, path=record.path, detail="its manifest is there")
+    if len(content) < record.bytes:
+        detail = f"{len(content)} of {record.bytes} bytes"
+        return Finding(fault=Fault.TRUNCATED, path=record.path, detail=detail)
+    if len(content) != record.bytes or hashlib.sha256(content).hexdigest() != record.sha256:
+        return Finding(fault=Fault.ALTERED, path=record.path, detail="its checksum is not the manifest's")
+    decoded = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
+    if decoded is None:
+        return Finding(fault=Fault.ALTERED, path=record.path, detail="no readable PNG")
+    pixels[role] = decoded
+    return None
+
+
+def _check_pixels(
+    manifest: Manifest, resolution: int, pixels: dict[FileRole, NDArray[np.generic]]
+) -> Iterator[Finding]:
+    square = (resolution, resolution)
+    expected = {
+        FileRole.IMAGE: ((*square, 3), np.dtype(np.uint8)),
+        FileRole.MASK: (square, np.dtype(np.uint8)),
+        FileRole.INSTANCES: (square, np.dtype(np.uint16)),
+    }
+    for role, (shape, kind) in expected.items():
+        if pixels[role].shape != shape or pixels[role].dtype != kind:
+            detail = f"{pixels[role].shape} {pixels[role].dtype}, expected {shape} {kind}"
+            yield Finding(fault=Fault.ALTERED, path=manifest.files[role].path, detail=detail)
+            return
+    mask, instances = pixels[FileRole.MASK], pixels[FileRole.INSTANCES]
+    if not np.isin(mask, (0, 255)).all():
+        yield Finding(
+            fault=Fault.ALTERED, path=manifest.files[FileRole.MASK].path, detail="has other values than 0, 255"
+        )
+    elif not np.array_equal(mask == 255, instances > np.uint16(0)):
+        yield Finding(
+            fault=Fault.ALTERED, path=manifest.files[FileRole.INSTANCES].path, detail="does not agree with the mask"
+        )
+
+
+def _extra(dataset: Dataset, files: dict[str, StoredFile]) -> Iterator[Finding]:
+    known = {HEADER_FILE, INDEX_FILE, REPORT_FILE}
+    for job in dataset.header.spec.jobs():
+        known.add(manifest_path(job))
+        known.add(quarantine_path(job))
+        known.update(file_path(job, role) for role in FileRole)
+    now_s = time.time()
+    for path in files.keys() - known:
+        if not is_temporary(path):
+            yield Finding(fault=Fault.EXTRA, path=path, detail="belongs to no job of this dataset")
+        elif now_s - files[path].modified_s > STALE_TEMPORARY_S:
+            # A younger one may be somebody's work in progress.
+            yield Finding(fault=Fault.EXTRA, path=path, detail="left by a killed writer; farm submit removes it")

@@ -1,0 +1,1 @@
+"""A run: what is queued, who works on it, and how far it is."""

@@ -1,0 +1,260 @@
+"""Sees to it that a dataset gets done: queues what is missing, and again what got lost on the way."""
+
+import time
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import replace
+
+from farm.dataset.completion import Completion
+from farm.dataset.dataset import Dataset
+from farm.dataset.paths import HEADER_FILE
+from farm.dataset.quarantine import Quarantine
+from farm.errors import BrokerError, DatasetMissingError, DestinationError, IncompleteError, RunCancelledError
+from farm.run.feeder import LOST_AFTER_S, WINDOW, Feeder
+from farm.run.ledger.owner import is_gone, this_process
+from farm.run.ledger.port import MAX_ABSENCES
+from farm.run.progress import Hints, Progress, on_disk, with_hints
+from farm.run.registry.port import RunState
+from farm.spec.job import Job
+from farm.spec.job_set import JobSet
+
+_REST = 20
+"""Pause between two looks, in the time that one took: at a full dataset they must not take a core from the workers."""
+
+_LONGEST_REST_S = 60.0
+
+_AUDIT_S = 30.0
+_AUDIT_REST = 100
+"""The files' sizes are compared so often, or after so many times what it takes, and before a run ends."""
+
+_LEAD_S = 30.0
+"""Whoever queues a dataset's jobs is followed by another after this time, and three rests, without a word."""
+
+_REASONS_SHOWN = 20
+
+
+class Coordinator:
+    """Sees one dataset through. Of several for one dataset, one queues jobs and the others look on.
+
+    Args:
+        dataset: with its header in place.
+        hints: its run in Redis.
+        poll_s: pause between two looks, in seconds; longer where a look takes long.
+        lost_after_s: see `farm.run.feeder.LOST_AFTER_S`.
+        window: see `farm.run.feeder.WINDOW`.
+    """
+
+    def __init__(
+        self,
+        dataset: Dataset,
+        hints: Hints,
+        *,
+        poll_s: float = 1.0,
+        lost_after_s: float = LOST_AFTER_S,
+        window: int = WINDOW,
+    ) -> None:
+        self._dataset = dataset
+        self._hints = hints
+        self._poll_s = poll_s
+        self._completion = Completion(dataset)
+        self._quarantine = Quarantine(dataset)
+        self._feeder = Feeder(dataset, hints, window=window, lost_after_s=lost_after_s)
+        self._quarantined: Mapping[str, str] = {}
+        self._leads = False
+        self._audited_s = float("-inf")
+        self._audit_took_s = 0.0
+
+    def submit_missing(self, on_submitted: Callable[[int], None] = lambda _: None) -> int:
+        """Queue every job that is neither done, given up, nor on its way; of a large dataset, a window.
+
+        Args:
+            on_submitted: told the number so far, now and then.
+
+        Returns:
+            How many jobs were queued.
+
+        Raises:
+            BrokerError: if Redis goes away.
+            DestinationError: if the folder can't be read.
+            RunCancelledError: if the run was cancelled, and not submitted again since.
+        """
+        self._audit()
+        self._completion.remove_leftovers(time.time())
+        self._look_at_quarantine()
+        undone = self._undone()
+        if len(undone):
+            self._follow_notice()
+            self._hints.ledger.forgive([])
+        else:
+            self._hints.board.remove(self._hints.run.key)
+        self._feeder.survey()
+        return self._feeder.feed(undone, on_submitted)
+
+    @property
+    def left_out(self) -> int:
+        """Jobs that were undone at the last look and are not on their way, as the window is full."""
+        return self._feeder.left_out(self._undone())
+
+    def _undone(self) -> JobSet:
+        given_up = JobSet(self._dataset.header.spec.quotas)
+        for job_id in self._quarantined:
+            given_up.add(Job.from_id(job_id))
+        return self._completion.done.others() - given_up
+
+    def _audit(self) -> None:
+        start_s = time.monotonic()
+        self._completion.audit()
+        self._audited_s = time.monotonic()
+        self._audit_took_s = self._audited_s - start_s
+
+    def _look_at_quarantine(self) -> None:
+        found = self._quarantine.look()
+        done = [job_id for job_id in found if Job.from_id(job_id) in self._completion.done]
+        # Made after all, say by a worker that was thought dead.
+        self._quarantine.release(done)
+        self._quarantined = {job_id: why for job_id, why in found.items() if job_id not in done}
+
+    def watch(
+        self,
+        on_progress: Callable[[Progress], None] = lambda _: None,
+        *,
+        supervise: Callable[[], None] = lambda: None,
+    ) -> Progress:
+        """Wait until every job is done or given up. A Redis or folder that goes away meanwhile is waited for.
+
+        Args:
+            on_progress: told after every look.
+            supervise: called at every look; may restart workers.
+
+        Returns:
+            The last look.
+
+        Raises:
+            IncompleteError: if jobs were given up; it lists their reasons.
+            RunCancelledError: if somebody cancelled the run.
+            FarmError: what `supervise` raises.
+        """
+        try:
+            while True:
+                supervise()
+                start_s = time.monotonic()
+                progress = self._look(mend=True)
+                on_progress(progress)
+                # Of a Redis that is away nothing is needed any more.
+                if progress.ended and self._ends_well():
+                    return self._end(progress)
+                took_s = time.monotonic() - start_s
+                time.sleep(max(self._poll_s, min(_LONGEST_REST_S, _REST * took_s)))
+        finally:
+            with suppress(BrokerError):
+                self._hints.ledger.resign(this_process())
+
+    def end_if_complete(self, on_progress: Callable[[Progress], None] = lambda _: None) -> Progress | None:
+        """Look once, and queue nothing.
+
+        Returns:
+            The look, if every job is done; None if some are not.
+
+        Raises:
+            IncompleteError: if those that are not were given up.
+        """
+        progress = self._look(mend=False)
+        if not progress.ended or not self._ends_well():
+            return None
+        on_progress(progress)
+        return self._end(progress)
+
+    def _look(self, *, mend: bool) -> Progress:
+        trouble = None
+        try:
+            self._require_header()
+            if time.monotonic() - self._audited_s > max(_AUDIT_S, _AUDIT_REST * self._audit_took_s):
+                self._audit()
+            else:
+                self._completion.look()
+            self._look_at_quarantine()
+        except DestinationError as error:
+            trouble = f"{error}; waiting for it"
+        progress = on_disk(self._dataset, self._completion.done, self._quarantined)
+        try:
+            if trouble is None and mend and not progress.ended:
+                self._tend()
+            progress = with_hints(progress, self._hints)
+        except BrokerError as error:
+            # Redis may come back empty: then nothing that was on its way is.
+            self._leads = False
+            trouble = f"{error}; waiting for it"
+        return progress.model_copy(update={"trouble": trouble})
+
+    def _require_header(self) -> None:
+        # Of a folder that is gone, say with its mount, no file is listed, as if nothing were done.
+        try:
+            self._dataset.storage.read(HEADER_FILE)
+        except FileNotFoundError as error:
+            raise DestinationError(f"{self._dataset.storage.location}: its {HEADER_FILE} is gone") from error
+
+    def _tend(self) -> None:
+        self._follow_notice()
+        if self._hints.run.state is RunState.PAUSED or not self._take_the_lead():
+            return
+        if self._hints.ledger.absences() > MAX_ABSENCES:
+            raise DatasetMissingError(
+                f"{self._dataset.storage.location}: {MAX_ABSENCES} workers in a row found no such dataset in their "
+                "store; give them the --store that holds it, then submit it again"
+            )
+        undone = self._undone()
+        self._feeder.mend(undone)
+        self._feeder.top_up(undone)
+
+    def _follow_notice(self) -> None:
+        """Put the run's notice up, as it was last seen: a Redis that lost its memory does not undo a pause."""
+        run = self._hints.board.register(self._hints.run)
+        self._hints = replace(self._hints, run=run)
+        self._feeder.follow(run)
+        if run.state is RunState.CANCELLED:
+            # What a coordinator was about to queue when it was cancelled goes, too.
+            self._hints.queue.clear(run)
+            raise RunCancelledError(
+                f"{self._dataset.storage.location}: cancelled by farm cancel; submit it again to go on"
+            )
+
+    def _take_the_lead(self) -> bool:
+        ledger, me = self._hints.ledger, this_process()
+        leader = ledger.leader()
+        if leader is not None and leader != me and is_gone(leader):
+            ledger.resign(leader)
+        led, self._leads = self._leads and leader == me, ledger.lead(me, _LEAD_S + 3 * _LONGEST_REST_S)
+        if self._leads and not led:
+            self._feeder.survey()
+        return self._leads
+
+    def _ends_well(self) -> bool:
+        """Whether the end still stands after a look at the files themselves."""
+        try:
+            self._require_header()
+            self._audit()
+            self._look_at_quarantine()
+            self._completion.remove_leftovers(time.time())
+        except DestinationError:
+            return False
+        return not len(self._undone())
+
+    def _end(self, progress: Progress) -> Progress:
+        with suppress(BrokerError):
+            self._hints.board.remove(self._hints.run.key)
+            self._hints.queue.clear(self._hints.run)
+        if progress.quarantined:
+            raise IncompleteError(_reasons(progress))
+        return progress
+
+
+def _reasons(progress: Progress) -> str:
+    given_up = progress.quarantined
+    lines = [
+        f"{progress.location}: {len(given_up)} of {progress.quota} images failed and are in quarantine; once the cause "
+        f"is mended, farm retry {progress.location}"
+    ]
+    lines += [f"  {job_id}: {reason}" for job_id, reason in list(given_up.items())[:_REASONS_SHOWN]]
+    if len(given_up) > _REASONS_SHOWN:
+        lines.append(f"  and {len(given_up) - _REASONS_SHOWN} more; see farm status")
+    return "\n".join(lines)

@@ -1,0 +1,47 @@
+"""Who holds a claim: a process, by machine and number. A dead process of this machine loses its claims at once."""
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from farm.machine import machine_name
+from farm.run.ledger.port import Ledger
+
+
+def this_process() -> str:
+    """The owner's name of the calling process."""
+    return f"{machine_name()}:{os.getpid()}"
+
+
+def is_gone(owner: str) -> bool:
+    """Whether the owner is a process of this machine that has ended. Of others nothing can be said: False."""
+    machine, _, number = owner.rpartition(":")
+    if machine != machine_name() or not number.isdecimal():
+        return False
+    return not _lives(int(number))
+
+
+def _lives(process_id: int) -> bool:
+    try:
+        os.kill(process_id, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        return True
+    try:
+        # A zombie answers signals though it has ended; its state follows the name in brackets.
+        state = Path(f"/proc/{process_id}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return True
+    return state not in {"Z", "X"}
+
+
+def live_claims(ledger: Ledger) -> Mapping[str, str]:
+    """The claims but for those of ended processes, which are released on the way; jobs that wait for a retry count."""
+    living = {}
+    for job_id, owner in ledger.claims().items():
+        if is_gone(owner):
+            ledger.release(job_id, owner)
+        else:
+            living[job_id] = owner
+    return living

@@ -1,0 +1,166 @@
+"""The farm's own metrics for Prometheus, read at each scrape: from the board and ledgers in Redis, and the folders.
+
+Flower tells of Celery's tasks; these tell of images. Names follow Prometheus' conventions: base units, `_total` for
+what only grows.
+"""
+
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
+from prometheus_client.registry import Collector
+
+from farm.dataset.completion import Completion
+from farm.dataset.dataset import Dataset
+from farm.dataset.quarantine import Quarantine
+from farm.errors import BrokerError, DestinationError
+from farm.run.ledger.owner import live_claims
+from farm.run.ledger.port import RETRY_OWNER
+from farm.run.progress import Hints
+from farm.run.registry.port import Board, RunState, WorkerState
+from farm.spec.job import Job
+from farm.spec.job_set import JobSet
+
+FOLDER_EVERY_S = 30.0
+"""A folder is listed at most so often, however often somebody scrapes."""
+
+
+@dataclass(slots=True)
+class _Folder:
+    completion: Completion
+    quarantine: Quarantine
+    quarantined: JobSet
+    looked_s: float = float("-inf")
+
+
+Found = tuple[Dataset, Hints]
+
+
+class FarmCollector(Collector):
+    """Collects what there is to know of some datasets and of all workers.
+
+    Args:
+        find: the datasets, each with its run in Redis; asked at each scrape. May raise BrokerError.
+        board: where workers report.
+        clock: counts seconds.
+    """
+
+    def __init__(
+        self, find: Callable[[], Sequence[Found]], board: Board, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._find = find
+        self._board = board
+        self._clock = clock
+        self._known: Sequence[Found] = ()
+        self._folders: dict[str, _Folder] = {}
+
+    def collect(self) -> Iterator[Metric]:
+        """All families; those that Redis tells are left out while it is away, and `farm_redis_up` is 0."""
+        up = True
+        try:
+            self._known = self._find()
+            told = list(self._from_redis())
+        except BrokerError:
+            up, told = False, []
+        images = GaugeMetricFamily(
+            "farm_images", "Images by category and state.", labels=["dataset", "category", "state"]
+        )
+        for dataset, _ in self._known:
+            self._add_images(images, dataset)
+        yield from (images, *told)
+        yield GaugeMetricFamily("farm_redis_up", "Whether Redis answers.", value=float(up))
+
+    def _add_images(self, images: GaugeMetricFamily, dataset: Dataset) -> None:
+        folder = self._folders.setdefault(dataset.storage.location, _folder(dataset))
+        if self._clock() - folder.looked_s >= FOLDER_EVERY_S:
+            try:
+                folder.completion.look()
+                folder.quarantined = JobSet(dataset.header.spec.quotas)
+                for job_id in folder.quarantine.look():
+                    folder.quarantined.add(Job.from_id(job_id))
+                folder.looked_s = self._clock()
+            except DestinationError:
+                return  # what is not known is not shown
+        done, given_up = folder.completion.done.counts(), (folder.quarantined - folder.completion.done).counts()
+        for category, quota in dataset.header.spec.quotas.items():
+            states = {
+                "done": done[category],
+                "quarantined": given_up[category],
+                "missing": quota - done[category] - given_up[category],
+            }
+            for state, count in states.items():
+                images.add_metric([dataset.name, str(category), state], count)
+
+    def _from_redis(self) -> Iterator[Metric]:
+        waiting = GaugeMetricFamily("farm_queue_length", "Jobs that wait in Redis.", labels=["dataset"])
+        running = GaugeMetricFamily("farm_jobs_running", "Jobs that workers hold.", labels=["dataset"])
+        retrying = GaugeMetricFamily("farm_jobs_postponed", "Jobs that wait for their next try.", labels=["dataset"])
+        active = GaugeMetricFamily("farm_run_active", "Whether the run may be worked on.", labels=["dataset"])
+        totals = _Totals()
+        for dataset, hints in self._known:
+            owners = list(live_claims(hints.ledger).values())
+            run = hints.board.runs().get(hints.run.key)
+            waiting.add_metric([dataset.name], hints.queue.length(hints.run))
+            running.add_metric([dataset.name], sum(owner != RETRY_OWNER for owner in owners))
+            retrying.add_metric([dataset.name], sum(owner == RETRY_OWNER for owner in owners))
+            active.add_metric([dataset.name], float(run is not None and run.state is RunState.ACTIVE))
+            totals.add(dataset.name, hints.ledger.figures())
+        yield from (waiting, running, retrying, active, *totals.families())
+        yield from _workers(self._board)
+
+
+class _Totals:
+    """The ledgers' running totals; they begin anew with an emptied Redis, as counters may."""
+
+    _PLAIN: ClassVar = {
+        "retries": "Failures that may pass, tried again.",
+        "crashes": "Processes that died, or were killed at the time limit, with their job.",
+        "quarantined": "Jobs given up.",
+        "redrawn": "Scenes that failed a physics check and were drawn again.",
+    }
+
+    def __init__(self) -> None:
+        labels = ["dataset"]
+        self._plain = {
+            name: CounterMetricFamily(f"farm_{name}", text, labels=labels) for name, text in self._PLAIN.items()
+        }
+        self._made = CounterMetricFamily("farm_images_made", "Images made.", labels=["dataset", "category"])
+        self._seconds = CounterMetricFamily(
+            "farm_stage_seconds", "Seconds spent in each stage of the images made.", labels=["dataset", "stage"]
+        )
+
+    def add(self, dataset: str, totals: Mapping[str, float]) -> None:
+        """Take in one ledger's totals."""
+        for name, family in self._plain.items():
+            family.add_metric([dataset], totals.get(name, 0.0))
+        for name, value in sorted(totals.items()):
+            kind, _, what = name.partition(":")
+            if kind == "images":
+                self._made.add_metric([dataset, what], value)
+            elif kind == "seconds":
+                self._seconds.add_metric([dataset, what], value)
+
+    def families(self) -> Iterator[Metric]:
+        """All of them."""
+        yield from (*self._plain.values(), self._made, self._seconds)
+
+
+def _folder(dataset: Dataset) -> _Folder:
+    return _Folder(Completion(dataset), Quarantine(dataset), JobSet(dataset.header.spec.quotas))
+
+
+def _workers(board: Board) -> Iterator[Metric]:
+    states = GaugeMetricFamily("farm_workers", "Workers by state.", labels=["state"])
+    done = CounterMetricFamily("farm_worker_jobs", "Jobs a worker finished since it started.", labels=["worker"])
+    memory = GaugeMetricFamily(
+        "farm_worker_resident_memory_bytes", "Resident memory of a worker's renderers.", labels=["worker"]
+    )
+    reports = board.workers()
+    for state in WorkerState:
+        states.add_metric([str(state)], sum(report.state is state for report in reports))
+    for report in reports:
+        done.add_metric([report.name], report.done)
+        memory.add_metric([report.name], report.rss_bytes)
+    yield from (states, done, memory)

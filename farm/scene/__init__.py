@@ -1,0 +1,1 @@
+"""One drawn scene: every random value of a picture, free of Blender."""

@@ -1,0 +1,76 @@
+"""The description of a dataset: what a user writes in TOML or as flags, fully resolved."""
+
+from collections.abc import Iterator, Mapping
+from enum import StrEnum
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from farm.model import Model
+from farm.spec.category import Category
+from farm.spec.job import Job
+from farm.spec.quality import Preset, Quality, settings_for
+from farm.spec.ranges.all import Ranges
+from farm.spec.simulation import Fall, Simulator
+from farm.spec.styles import Style
+
+Quota = Annotated[int, Field(ge=0, le=10**7)]
+
+
+DEFAULT_STYLE = Style.WIDE
+
+
+class Engine(StrEnum):
+    """Blender's render engine."""
+
+    CYCLES = "cycles"
+    EEVEE = "eevee"
+
+
+class DatasetSpec(Model):
+    """A dataset: how many images of which category, from which seed, made how.
+
+    `quotas` holds all six categories; `parse_spec` fills it in from a total, and `ranges` from the style.
+    """
+
+    version: Literal[1] = 1
+    seed: Annotated[int, Field(ge=0, lt=2**64)] = 0
+    quotas: Mapping[Category, Quota]
+    resolution: Annotated[int, Field(ge=32, le=8192)] = 512
+    engine: Engine = Engine.CYCLES
+    quality: Quality = Preset.STANDARD
+    close_distributed_hdri: str | None = None
+    style: Style = Style.PUBLISHED
+    simulator: Simulator = Simulator.ROD
+    fall: Fall = Fall()
+    ranges: Ranges = Ranges()
+
+    @model_validator(mode="after")
+    def _asks_for_something(self) -> "DatasetSpec":
+        if self.total == 0:
+            raise ValueError("the quotas add up to zero images; ask for at least one")
+        return self
+
+    @model_validator(mode="after")
+    def _can_be_rendered_so_well(self) -> "DatasetSpec":
+        if isinstance(self.quality, float) and self.engine is not Engine.CYCLES:
+            raise ValueError("quality as a number is measured for engine 'cycles' alone; name a preset")
+        if self.engine is Engine.CYCLES:
+            for category in (category for category, quota in self.quotas.items() if quota):
+                settings_for(self.quality, category)  # raises if there are none
+        return self
+
+    @property
+    def total(self) -> int:
+        """Images in all."""
+        return sum(self.quotas.values())
+
+    def jobs(self) -> Iterator[Job]:
+        """Every job of the dataset, lazily, the categories in proportion.
+
+        Jobs of all categories are interleaved so that a dataset stopped half way has all of them.
+        """
+        for numerator in range(max(self.quotas.values())):
+            for category, quota in self.quotas.items():
+                if numerator < quota:
+                    yield Job.model_construct(category=category, index=numerator)

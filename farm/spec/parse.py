@@ -1,0 +1,164 @@
+"""From a TOML file and flags to a dataset's description and inputs. A flag overrides the file's key."""
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pydantic_core
+from pydantic import ValidationError
+
+from farm.errors import SpecError
+from farm.spec.category import Category
+from farm.spec.dataset_spec import DEFAULT_STYLE, DatasetSpec
+from farm.spec.make_header import Inputs
+from farm.spec.quotas import split_total
+from farm.spec.styles import Style, merge_ranges
+
+_MOST_DIGITS = 12
+"""More than any quota has; Python refuses to read thousands."""
+
+_FOLDERS = ("textures", "hdris", "backgrounds")
+"""Keys that list folders."""
+
+
+@dataclass(frozen=True, slots=True)
+class Description:
+    """What to make, and of what."""
+
+    spec: DatasetSpec
+    inputs: Inputs
+
+
+def parse_quotas(pairs: Sequence[str]) -> dict[str, int]:
+    """Read `category=number` pairs.
+
+    Raises:
+        SpecError: if one is malformed, names no category, or a category twice.
+    """
+    quotas: dict[str, int] = {}
+    for pair in pairs:
+        name, _, number = pair.partition("=")
+        if name not in set(Category):
+            raise SpecError(f"--quota {pair}: unknown category '{name}'; there are {', '.join(Category)}")
+        if not number.isascii() or not number.isdigit() or len(number) > _MOST_DIGITS:
+            raise SpecError(f"--quota {pair}: expected CATEGORY=NUMBER with a whole number, 0 or more")
+        if name in quotas:
+            raise SpecError(f"--quota {pair}: {name} has a quota already")
+        quotas[name] = int(number)
+    return quotas
+
+
+def describe(file: Path | None, flags: Mapping[str, object], inputs: Mapping[str, object]) -> Description:
+    """Merge a TOML file with flags.
+
+    Args:
+        file: keys of `DatasetSpec`, `images`, and those of `Inputs`; its paths are relative to its own folder.
+        flags: keys of `DatasetSpec` and `images` that were given, overriding the file's.
+        inputs: keys of `Inputs` that were given, overriding the file's.
+
+    Raises:
+        SpecError: with the key, what was wrong with it, and where.
+    """
+    data: dict[str, Any] = {} if file is None else read_toml(file)
+    folder = Path() if file is None else file.parent
+    from_file = {key: data.pop(key) for key in Inputs.__dataclass_fields__ if key in data}
+    source = "flags" if file is None else str(file)
+    merged_inputs = {**_read_inputs(from_file, folder, source), **inputs}
+    if "images" in flags or "quotas" in flags:
+        data.pop("images", None)
+        data.pop("quotas", None)
+    return Description(
+        spec=parse_spec({**data, **flags}, source=source if not flags or file is None else f"{source} and flags"),
+        inputs=Inputs(**merged_inputs),
+    )
+
+
+def _read_inputs(data: Mapping[str, object], folder: Path, source: str) -> dict[str, Any]:
+    inputs: dict[str, Any] = {}
+    for key, value in data.items():
+        if key == "template" and isinstance(value, str):
+            inputs[key] = folder / value
+        elif key in _FOLDERS and isinstance(value, list) and all(isinstance(entry, str) for entry in value):
+            inputs[key] = tuple(folder / entry for entry in value)
+        elif key in {"builtin_textures", "builtin_hdris", "environments"} and isinstance(value, bool):
+            inputs[key] = value
+        else:
+            expected = {"template": "a path", **dict.fromkeys(_FOLDERS, "a list of paths")}
+            raise SpecError(
+                f"{source}: {key}: expected {expected.get(key, 'true or false')}, not {type(value).__name__}"
+            )
+    return inputs
+
+
+def _resolve_quotas(data: Mapping[str, object]) -> dict[str, object]:
+    resolved = dict(data)
+    images, quotas = resolved.pop("images", None), resolved.get("quotas")
+    if images is not None and quotas is not None:
+        raise SpecError("give either images or quotas, not both")
+    if images is not None:
+        if not isinstance(images, int) or isinstance(images, bool) or images < 0:
+            raise SpecError(f"images: expected a whole number, 0 or more, not {images!r}")
+        quotas = {str(category): count for category, count in split_total(images).items()}
+    if isinstance(quotas, Mapping):
+        unknown = sorted({str(key) for key in quotas} - set(Category))
+        if unknown:
+            raise SpecError(f"quotas: unknown category {unknown[0]!r}; there are {', '.join(Category)}")
+        quotas = {str(category): quotas.get(category, 0) for category in Category}
+    return resolved if quotas is None else resolved | {"quotas": quotas}
+
+
+def _resolve_ranges(data: Mapping[str, object]) -> dict[str, object]:
+    style, overrides = data.get("style", DEFAULT_STYLE), data.get("ranges", {})
+    if not isinstance(style, str) or style not in set(Style):
+        raise SpecError(f"style: expected one of {', '.join(Style)}, not {style!r}")
+    if not isinstance(overrides, Mapping):
+        raise SpecError(f"ranges: expected a table, not {overrides!r}")
+    return {**data, "style": style, "ranges": merge_ranges(Style(style), overrides)}
+
+
+def parse_spec(data: Mapping[str, object], *, source: str) -> DatasetSpec:
+    """Validate a description; a total `images` is split over the categories as published, 2:2:1:1:2:2.
+
+    Args:
+        data: JSON-like values, with either `images` or `quotas`.
+        source: where they come from, named in the error.
+
+    Raises:
+        SpecError: with the key, what was wrong with it, and where.
+    """
+    try:
+        return DatasetSpec.model_validate_json(pydantic_core.to_json(_resolve_ranges(_resolve_quotas(data))))
+    except ValidationError as error:
+        raise SpecError(f"{source}: {_describe(error)}") from error
+    except (SpecError, pydantic_core.PydanticSerializationError) as error:
+        raise SpecError(f"{source}: {error}") from error
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Read a TOML file.
+
+    Raises:
+        SpecError: if it can't be read or is no TOML.
+    """
+    try:
+        with path.open("rb") as file:
+            return tomllib.load(file)
+    except OSError as error:
+        raise SpecError(f"{path}: can't read the dataset's description: {error.strerror}") from error
+    except (ValueError, RecursionError) as error:
+        # Besides those of its own, tomllib raises what Python does over numbers of thousands of digits and deep tables.
+        raise SpecError(f"{path}: not valid TOML: {error}") from error
+
+
+def _describe(error: ValidationError) -> str:
+    first = error.errors(include_url=False, include_context=False)[0]
+    where = ".".join(str(part) for part in first["loc"])
+    message = first["msg"].removeprefix("Value error, ")
+    if first["type"] == "extra_forbidden":
+        message = "unknown key; the README tells where all keys are listed"
+    if first["type"] == "missing" and where == "quotas":
+        message = "give the number of images: images, or a [quotas] table"
+    more = f" (and {error.error_count() - 1} more)" if error.error_count() > 1 else ""
+    return f"{where}: {message}{more}" if where else f"{message}{more}"

@@ -1,0 +1,173 @@
+"""Quality as an error budget: which settings render a category's pictures within it, at the least time.
+
+An error is NVIDIA's FLIP (Andersson et al. 2020, "FLIP: A difference evaluator for alternating images"), the mean over
+a picture of how much a viewer would see it differ from one without noise when flipping between the two: 0 is none, 1
+black against white. `make bench-render` measures it, and its calibration comes with the farm.
+"""
+
+from collections.abc import Mapping
+from enum import StrEnum
+from functools import lru_cache
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import BeforeValidator, Field
+
+from farm.model import Model
+from farm.spec.category import Background, Category, Light
+from farm.spec.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings
+
+CALIBRATION = Path(__file__).with_name("calibration.json")
+
+
+class Preset(StrEnum):
+    """How much time a picture may take for how little noise."""
+
+    DRAFT = "draft"
+    STANDARD = "standard"
+    REFERENCE = "reference"
+
+
+MOST_FLIP = 0.5
+
+
+def _check_quality(value: object) -> str | float:
+    if isinstance(value, str) and value in set(Preset):
+        return value
+    if isinstance(value, int | float) and not isinstance(value, bool) and 0 < value <= MOST_FLIP:
+        return float(value)
+    raise ValueError(f"expected {', '.join(Preset)}, or a mean FLIP above 0 and up to {MOST_FLIP}, not {value!r}")
+
+
+Quality = Annotated[Preset | float, BeforeValidator(_check_quality)]
+"""A preset, or the mean FLIP that every category is to keep to."""
+
+
+class Budget(Model):
+    """What a picture must keep to.
+
+    Attributes:
+        flip: mean FLIP, at most.
+        psnr_db: peak signal over noise, at least.
+        samples: a pixel, at least. With fewer, cables are ragged or smeared, which a mean over a picture that is mostly
+            something else does not tell.
+    """
+
+    flip: float
+    psnr_db: float = 0.0
+    samples: int = 1
+
+
+class CalibratedSettings(Model):
+    """Settings, and what they were measured to cost and to miss over a category's calibration scenes.
+
+    Attributes:
+        seconds: of realizing and rendering, on the machine of the calibration; only good to compare.
+        flip: mean over scenes of the mean FLIP.
+        psnr_db: mean over scenes.
+    """
+
+    settings: PictureSettings
+    seconds: Annotated[float, Field(gt=0)]
+    flip: Annotated[float, Field(ge=0)]
+    psnr_db: float
+
+
+class Calibration(Model):
+    """What comes with the farm: per category, settings of which none is both faster and better than another.
+
+    Attributes:
+        measured_on: the machine, in words.
+        samples: Cycles samples a pixel of the references.
+        scenes: of each category.
+    """
+
+    version: int
+    measured_on: str
+    samples: int
+    scenes: int
+    categories: Mapping[Category, tuple[CalibratedSettings, ...]]
+
+
+class ChosenSettings(Model):
+    """Settings of a picture, and the error to expect; None where they are the reference themselves."""
+
+    settings: PictureSettings
+    expected_flip: float | None
+
+
+STANDARD_SAMPLES = 6
+
+BACKDROP_SAMPLES = 4
+"""Where cables are laid over a backdrop, as how much of a pixel they cover is exact with any number of samples."""
+
+REFERENCE = PictureSettings(
+    cycles=CyclesSettings(
+        samples=1024,
+        bounces=12,
+        diffuse_bounces=4,
+        glossy_bounces=4,
+        caustics=True,
+        denoiser=Denoiser.NONE,
+        world_map_px=0,
+    ),
+    detail=CableDetail(sides=40, points_per_segment=10),
+    economy=Economy(cables_in_view=False, texture_window=False, upper_world=False, backdrop=False),
+)
+"""Nothing left out, and Blender's own limits of paths: what errors are measured against."""
+
+
+def read_quality(text: str) -> str | float:
+    """A preset's name or a number, as given by a flag; the spec checks which of them there are."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def budget_of(quality: Quality, category: Category) -> Budget:
+    """What a quality, other than `REFERENCE`, asks of a category: a textured floor under an HDRI is the noisiest."""
+    traits = category.traits
+    hdri_floor = traits.background is Background.FLOOR and traits.light is Light.DISTRIBUTED
+    if quality is Preset.DRAFT:
+        return Budget(flip=0.09 if hdri_floor else 0.06)
+    samples = BACKDROP_SAMPLES if traits.background is Background.HDRI else STANDARD_SAMPLES
+    if isinstance(quality, float):
+        return Budget(flip=quality, samples=samples)
+    return Budget(flip=0.05 if hdri_floor else 0.03, psnr_db=35.0, samples=samples)
+
+
+def _keeps_to(row: CalibratedSettings, budget: Budget) -> bool:
+    enough = row.settings.cycles.samples >= budget.samples
+    return enough and row.flip <= budget.flip and row.psnr_db >= budget.psnr_db
+
+
+def cheapest(rows: tuple[CalibratedSettings, ...], budget: Budget) -> CalibratedSettings | None:
+    """The fastest of `rows` within a budget, if any is."""
+    within = [row for row in rows if _keeps_to(row, budget)]
+    return min(within, key=lambda row: row.seconds, default=None)
+
+
+@lru_cache(maxsize=1)
+def calibration() -> Calibration:
+    """The calibration that comes with the farm."""
+    return Calibration.model_validate_json(CALIBRATION.read_bytes())
+
+
+def settings_for(quality: Quality, category: Category) -> ChosenSettings:
+    """The settings that a quality means for a category.
+
+    Raises:
+        ValueError: if no calibrated settings keep to the budget; the text names the least that can be asked for.
+    """
+    if quality is Preset.REFERENCE:
+        return ChosenSettings(settings=REFERENCE, expected_flip=None)
+    rows = calibration().categories[category]
+    found = cheapest(rows, budget_of(quality, category))
+    if found is None:
+        least = min(row.flip for row in rows)
+        raise ValueError(
+            f"quality {quality}: no calibrated settings render {category} so well, the least FLIP is {least:.3f}; "
+            "for less ask for 'reference'"
+        )
+    return ChosenSettings(settings=found.settings, expected_flip=found.flip)

@@ -1,0 +1,1 @@
+"""The range of every random parameter, a module a subject."""

@@ -1,0 +1,228 @@
+"""What a check of a dataset finds."""
+
+import hashlib
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.manifest import FileRecord, Manifest
+from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.verify import Fault, verify
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
+from farm.storage import LocalStorage
+from tests.object_store import ObjectStore
+from tests.stand_in import StandInMaker
+from worker.service.upload import encode_png, upload
+
+JOB = Job.from_id("far-000001")
+IMAGE, MASK, INSTANCES = (file_path(JOB, role) for role in FileRole)
+
+
+@pytest.fixture
+def made(dataset: Dataset) -> Dataset:
+    """A finished dataset."""
+    for job in dataset.header.spec.jobs():
+        upload(StandInMaker().make(job, dataset.header), job, dataset)
+    return dataset
+
+
+def found(dataset: Dataset) -> list[tuple[Fault, str]]:
+    """What is wrong, and where."""
+    return [(finding.fault, finding.path) for finding in verify(dataset).findings]
+
+
+def replace_file(dataset: Dataset, role: FileRole, content: bytes) -> None:
+    """Put another file in place, and have the manifest vouch for it."""
+    path = manifest_path(JOB)
+    manifest = Manifest.model_validate_json(dataset.storage.read(path))
+    record = FileRecord(path=file_path(JOB, role), bytes=len(content), sha256=hashlib.sha256(content).hexdigest())
+    forged = manifest.model_copy(update={"files": {**manifest.files, role: record}})
+    dataset.storage.write(file_path(JOB, role), content)
+    dataset.storage.write(path, forged.model_dump_json().encode())
+
+
+def test_clean(made: Dataset) -> None:
+    """A finished dataset has nothing wrong."""
+    verdict = verify(made)
+    assert verdict.clean
+    assert verdict.images == verdict.quota == 4
+
+
+def test_unmade(dataset: Dataset) -> None:
+    """Of a job that was not made, the manifest is missed."""
+    assert [fault for fault, _ in found(dataset)] == [Fault.MISSING] * 4
+
+
+@pytest.mark.parametrize("path", [IMAGE, MASK, INSTANCES, manifest_path(JOB)])
+def test_missing(made: Dataset, path: str) -> None:
+    """A file that was removed is missing."""
+    made.storage.remove(path)
+    assert found(made) == [(Fault.MISSING, path)]
+
+
+@pytest.mark.parametrize("path", [IMAGE, MASK, INSTANCES])
+@pytest.mark.parametrize("size", [0, 20])
+def test_truncated(made: Dataset, path: str, size: int) -> None:
+    """A file that is shorter than its manifest tells is truncated."""
+    os.truncate(Path(made.storage.location) / path, size)
+    assert found(made) == [(Fault.TRUNCATED, path)]
+
+
+@pytest.mark.parametrize("path", [IMAGE, MASK, INSTANCES])
+def test_altered(made: Dataset, path: str) -> None:
+    """A file of the right size with one other bit is altered."""
+    content = bytearray(made.storage.read(path))
+    content[-20] ^= 1
+    made.storage.write(path, bytes(content))
+    assert found(made) == [(Fault.ALTERED, path)]
+
+
+def test_anywhere(any_store: Callable[[str], str], header: DatasetHeader) -> None:
+    """The same faults are found in a folder and in a bucket."""
+    dataset = create_dataset(Destination(any_store("store"), "cables"), header)
+    for job in header.spec.jobs():
+        upload(StandInMaker().make(job, header), job, dataset)
+    assert found(dataset) == []
+    dataset.storage.write(MASK, dataset.storage.read(MASK)[:20])
+    dataset.storage.write(INSTANCES, dataset.storage.read(INSTANCES)[::-1])
+    dataset.storage.remove(IMAGE)
+    dataset.storage.write("stray.txt", b"")
+    assert dict(found(dataset)) == {
+        Fault.TRUNCATED: MASK,
+        Fault.ALTERED: INSTANCES,
+        Fault.MISSING: IMAGE,
+        Fault.EXTRA: "stray.txt",
+    }
+
+
+@pytest.mark.swift
+def test_unfinished_upload_to_a_bucket(bucket: str, object_store: ObjectStore, header: DatasetHeader) -> None:
+    """Parts of an object that its killed writer never completed count for nothing."""
+    dataset = create_dataset(Destination(bucket, "cables"), header)
+    for job in header.spec.jobs():
+        upload(StandInMaker().make(job, header), job, dataset)
+    name, prefix = bucket.removeprefix("s3://").split("/", 1)
+    client = object_store.client()
+    for path in (IMAGE, "far/images/far-000009.png"):
+        where = {"Bucket": name, "Key": f"{prefix}/cables/{path}"}
+        begun = client.call_s3("create_multipart_upload", **where)
+        client.call_s3("upload_part", **where, UploadId=begun["UploadId"], PartNumber=1, Body=bytes(5 * 1024 * 1024))
+    assert found(dataset) == []
+
+
+class GrowingStorage(LocalStorage):
+    """Another process acts at the first look at one file."""
+
+    def __init__(self, root: Path, watched: str, act: Callable[[], None]) -> None:
+        super().__init__(root)
+        self._watched = watched
+        self._act: Callable[[], None] | None = act
+
+    def read(self, path: str) -> bytes:
+        """See `Storage.read`."""
+        if path == self._watched and self._act is not None:
+            act, self._act = self._act, None
+            act()
+        return super().read(path)
+
+
+def test_job_that_is_made_meanwhile(dataset: Dataset, made: Dataset) -> None:
+    """A picture that is made between the listing and the look at its manifest is neither missing nor an error."""
+    kept = {path: made.storage.read(path) for path in made.storage.files() if JOB.id in path}
+    for path in kept:
+        made.storage.remove(path)
+
+    def make() -> None:
+        for path, content in kept.items():
+            dataset.storage.write(path, content)
+
+    storage = GrowingStorage(Path(made.storage.location), manifest_path(JOB), make)
+    assert verify(replace(made, storage=storage)).clean
+
+
+def test_job_that_is_made_anew_meanwhile(made: Dataset) -> None:
+    """A file that vanishes during the look is looked for again, and then reported, not raised."""
+    content = made.storage.read(IMAGE)
+    made.storage.remove(IMAGE)
+    back = GrowingStorage(Path(made.storage.location), MASK, lambda: made.storage.write(IMAGE, content))
+    assert verify(replace(made, storage=back)).clean
+    gone = GrowingStorage(Path(made.storage.location), MASK, lambda: made.storage.remove(MASK))
+    assert found(replace(made, storage=gone)) == [(Fault.MISSING, MASK)]
+
+
+def test_longer(made: Dataset) -> None:
+    """A file with something after its end is altered."""
+    made.storage.write(MASK, made.storage.read(MASK) + b"\0")
+    assert found(made) == [(Fault.ALTERED, MASK)]
+
+
+@pytest.mark.parametrize("content", [b"", b"{}", b"{", b"\xff"])
+def test_damaged_manifest(made: Dataset, content: bytes) -> None:
+    """A manifest that can't be read is altered."""
+    made.storage.write(manifest_path(JOB), content)
+    assert found(made) == [(Fault.ALTERED, manifest_path(JOB))]
+
+
+def test_manifest_of_another_job(made: Dataset) -> None:
+    """A manifest under another job's name is altered."""
+    made.storage.write(manifest_path(JOB), made.storage.read(manifest_path(Job.from_id("far-000000"))))
+    assert found(made) == [(Fault.ALTERED, manifest_path(JOB))]
+
+
+@pytest.mark.parametrize("path", ["stray.txt", "far/images/far-000002.png", "far/images/far-000001.jpg", "far/a/b"])
+def test_extra(made: Dataset, path: str) -> None:
+    """A file of no job of the dataset is extra."""
+    made.storage.write(path, b"")
+    assert found(made) == [(Fault.EXTRA, path)]
+
+
+def test_young_temporary_file(made: Dataset) -> None:
+    """A file still being written is nobody's fault."""
+    made.storage.write("far/images/.tmp-far-000001.png.host.1", b"")
+    assert found(made) == []
+
+
+def test_old_temporary_file(made: Dataset) -> None:
+    """One that no living writer can own is extra."""
+    path = "far/images/.tmp-far-000001.png.host.1"
+    made.storage.write(path, b"")
+    os.utime(Path(made.storage.location) / path, (0, 0))
+    assert found(made) == [(Fault.EXTRA, path)]
+
+
+def test_no_png(made: Dataset) -> None:
+    """What is no PNG is found even where the manifest vouches for it."""
+    replace_file(made, FileRole.IMAGE, b"no picture")
+    assert found(made) == [(Fault.ALTERED, IMAGE)]
+
+
+@pytest.mark.parametrize("shape", [(16, 16), (32, 32, 3)])
+def test_wrong_shape(made: Dataset, shape: tuple[int, ...]) -> None:
+    """A mask of another size or with colours is found."""
+    replace_file(made, FileRole.MASK, encode_png(np.zeros(shape, np.uint8)))
+    assert found(made) == [(Fault.ALTERED, MASK)]
+
+
+def test_grey_mask(made: Dataset) -> None:
+    """A mask with values between is found."""
+    replace_file(made, FileRole.MASK, encode_png(np.full((32, 32), 7, np.uint8)))
+    assert found(made) == [(Fault.ALTERED, MASK)]
+
+
+def test_instances_that_do_not_agree(made: Dataset) -> None:
+    """Instances that cover other pixels than the mask are found."""
+    replace_file(made, FileRole.INSTANCES, encode_png(np.full((32, 32), 3, np.uint16)))
+    assert found(made) == [(Fault.ALTERED, INSTANCES)]
+
+
+def test_tells_how_far_it_is(made: Dataset) -> None:
+    """Each job is counted as it is checked."""
+    counts: list[int] = []
+    verify(made, counts.append)
+    assert counts == [1, 2, 3, 4]

@@ -1,0 +1,139 @@
+"""Filling a run's queue, and noticing what got lost on the way."""
+
+import pytest
+
+from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.run.feeder import Feeder
+from farm.run.ledger.owner import this_process
+from farm.spec.job_set import JobSet
+from tests.doubles.run import Bench
+from tests.stand_in import stand_in_header
+
+WINDOW = 10
+
+
+@pytest.fixture
+def bench(tmp_path_factory: pytest.TempPathFactory) -> Bench:
+    """A hundred jobs, none queued."""
+    place = Destination(str(tmp_path_factory.mktemp("store")), "cables")
+    return Bench(create_dataset(place, stand_in_header(far=100)))
+
+
+def undone(dataset: Dataset) -> JobSet:
+    """All jobs."""
+    return JobSet(dataset.header.spec.quotas).others()
+
+
+def feeder(bench: Bench, lost_after_s: float = 0.0) -> Feeder:
+    """One with a small window."""
+    return Feeder(bench.dataset, bench.hints, window=WINDOW, lost_after_s=lost_after_s)
+
+
+def test_fills_the_window(bench: Bench) -> None:
+    """The first jobs of the plan are queued, as many as the window takes, and the number is told."""
+    told: list[int] = []
+    full = feeder(bench)
+    assert full.feed(undone(bench.dataset), told.append) == WINDOW
+    assert bench.queued() == [f"far-{index:06d}" for index in range(WINDOW)]
+    assert told[-1] == WINDOW
+    assert full.left_out(undone(bench.dataset)) == 90
+
+
+def test_tops_up_when_half_empty(bench: Bench) -> None:
+    """Nothing is added until half of the window was taken; then it is filled, without doubling what was taken."""
+    full = feeder(bench)
+    full.feed(undone(bench.dataset))
+    for _ in range(WINDOW // 2 - 1):
+        bench.queue.messages.popleft()
+    assert full.top_up(undone(bench.dataset)) == 0
+    bench.queue.messages.popleft()
+    assert full.top_up(undone(bench.dataset)) == WINDOW // 2
+    assert bench.queued() == [f"far-{index:06d}" for index in range(5, 15)]
+
+
+def test_a_submission_fills_the_window(bench: Bench) -> None:
+    """What one call queues does not wait for the queue to drain: a job that is put back, say."""
+    full = feeder(bench)
+    full.feed(undone(bench.dataset))
+    bench.queue.messages.popleft()
+    assert full.feed(undone(bench.dataset)) == 1
+
+
+def test_survey_finds_what_is_on_its_way(bench: Bench) -> None:
+    """Jobs that wait, that a process holds, or that wait for a retry are not queued by another feeder."""
+    first = feeder(bench)
+    first.feed(undone(bench.dataset))
+    for _ in range(WINDOW):
+        bench.queue.messages.popleft()
+    first.feed(undone(bench.dataset))  # 10 to 19
+    while len(bench.queue.messages) > 3:
+        bench.queue.messages.pop()
+    bench.ledger.claim("far-000050", this_process())
+    bench.ledger.claim("far-000051", this_process())
+    bench.ledger.postpone("far-000051", this_process(), 60)
+    bench.ledger.claim("not a job", "elsewhere:1")
+    second = feeder(bench)
+    second.survey()
+    assert second.left_out(undone(bench.dataset)) == 95  # three wait, two are held
+    assert second.feed(undone(bench.dataset)) == WINDOW - 3
+    assert bench.queued()[:4] == ["far-000000", "far-000001", "far-000002", "far-000003"]
+
+
+def test_lost_messages_are_queued_again(bench: Bench) -> None:
+    """What is neither done, held nor queued counts as lost, and only that."""
+    mending = feeder(bench)
+    mending.feed(undone(bench.dataset))
+    messages = [bench.queue.messages.popleft() for _ in range(7)]
+    bench.ledger.claim(messages[0].job_id, this_process())
+    jobs = undone(bench.dataset)
+    jobs.discard(messages[1].job)
+    before = mending.left_out(jobs)
+    mending.mend(jobs)
+    assert mending.left_out(jobs) == before + 5
+    mending.feed(jobs)
+    waiting = bench.queued()
+    assert {message.job_id for message in messages[2:]} <= set(waiting)
+    assert not {message.job_id for message in messages[:2]} & set(waiting)
+    assert len(set(waiting)) == len(waiting) == WINDOW
+
+
+def test_suspicion_takes_its_time(bench: Bench) -> None:
+    """A message that is in nobody's hands for an instant is not queued again."""
+    patient = feeder(bench, lost_after_s=3600)
+    patient.feed(undone(bench.dataset))
+    bench.queue.messages.clear()
+    before = patient.left_out(undone(bench.dataset))
+    for _ in range(3):
+        patient.mend(undone(bench.dataset))
+    assert patient.left_out(undone(bench.dataset)) == before
+
+
+def test_jobs_of_a_dead_process_are_lost(bench: Bench) -> None:
+    """A claim of a process of this machine that has ended holds no job back."""
+    mending = feeder(bench)
+    mending.feed(undone(bench.dataset))
+    gone = bench.queue.messages.popleft()
+    bench.ledger.claim(gone.job_id, f"{this_process().rpartition(':')[0]}:{2**22 + 1}")
+    before = mending.left_out(undone(bench.dataset))
+    mending.mend(undone(bench.dataset))
+    assert mending.left_out(undone(bench.dataset)) == before + 1
+
+
+def test_duplicates_hide_a_loss_for_a_while_only(bench: Bench) -> None:
+    """A loss that a message queued twice makes up for in number is found when that was taken."""
+    mending = feeder(bench)
+    mending.feed(undone(bench.dataset))
+    bench.queue.messages.popleft()
+    bench.queue.messages.appendleft(bench.queue.messages[-1])
+    before = mending.left_out(undone(bench.dataset))
+    mending.mend(undone(bench.dataset))
+    assert mending.left_out(undone(bench.dataset)) == before
+    bench.queue.messages.popleft()
+    mending.mend(undone(bench.dataset))
+    assert mending.left_out(undone(bench.dataset)) == before + 1
+
+
+def test_nothing_to_feed(bench: Bench) -> None:
+    """Where nothing is undone, nothing is queued."""
+    assert feeder(bench).feed(JobSet(bench.dataset.header.spec.quotas)) == 0
+    assert bench.queued() == []

@@ -1,0 +1,91 @@
+"""Descriptions, quotas and plans."""
+
+import itertools
+from collections import Counter
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from farm.errors import SpecError
+from farm.spec.category import Category
+from farm.spec.dataset_spec import DatasetSpec
+from farm.spec.parse import parse_spec
+from farm.spec.quotas import PUBLISHED_WEIGHTS, split_total
+
+TOTALS = st.integers(0, 10**7)
+WEIGHTS = st.dictionaries(st.sampled_from(Category), st.integers(0, 1000)).filter(lambda found: sum(found.values()) > 0)
+QUOTAS = st.fixed_dictionaries({str(category): st.integers(0, 30) for category in Category}).filter(
+    lambda quotas: sum(quotas.values()) > 0
+)
+
+
+def test_published_quotas() -> None:
+    """25,000 images are split as published."""
+    assert list(split_total(25_000).values()) == [5000, 5000, 2500, 2500, 5000, 5000]
+
+
+@given(TOTALS, WEIGHTS)
+def test_split_adds_up(total: int, weights: dict[Category, int]) -> None:
+    """Every image goes to one category, and to none without weight."""
+    quotas = split_total(total, weights)
+    assert sum(quotas.values()) == total
+    assert all(not quotas[category] for category in Category if not weights.get(category))
+
+
+@given(TOTALS, WEIGHTS)
+def test_split_is_within_one(total: int, weights: dict[Category, int]) -> None:
+    """No quota is off its exact share by a whole image (the quota rule, which largest remainders keep)."""
+    quotas, sum_of_weights = split_total(total, weights), sum(weights.values())
+    for category in Category:
+        assert abs(quotas[category] * sum_of_weights - total * weights.get(category, 0)) < sum_of_weights
+
+
+@given(st.integers(max_value=-1))
+def test_negative_total(total: int) -> None:
+    """A negative total is refused."""
+    with pytest.raises(ValueError, match="negative"):
+        split_total(total, PUBLISHED_WEIGHTS)
+
+
+@given(QUOTAS)
+def test_plan_has_the_quotas(quotas: dict[str, int]) -> None:
+    """A plan has each job of each category once, numbered from 0."""
+    spec = parse_spec({"quotas": quotas}, source="test")
+    jobs = list(spec.jobs())
+    assert len({job.id for job in jobs}) == len(jobs) == spec.total
+    counts = Counter(str(job.category) for job in jobs)
+    assert all(counts[category] == quota for category, quota in quotas.items())
+    assert all(job.index < quotas[job.category] for job in jobs)
+
+
+def test_plan_is_lazy() -> None:
+    """The first jobs of ten million come without the others."""
+    spec = parse_spec({"quotas": {"far": 10**7}}, source="test")
+    assert [job.index for job in itertools.islice(spec.jobs(), 3)] == [0, 1, 2]
+
+
+@given(QUOTAS, st.integers(0, 2**64 - 1), st.integers(32, 8192))
+def test_description_survives_the_disk(quotas: dict[str, int], seed: int, resolution: int) -> None:
+    """A description written as JSON is read back the same."""
+    spec = parse_spec({"quotas": quotas, "seed": seed, "resolution": resolution}, source="test")
+    assert DatasetSpec.model_validate_json(spec.model_dump_json()) == spec
+
+
+@given(st.dictionaries(st.text(), st.integers() | st.text() | st.floats() | st.lists(st.integers())))
+def test_any_mapping_is_read_or_refused(data: dict[str, object]) -> None:
+    """Whatever a file holds, the answer is a description or one line that names the file."""
+    refusal = ""
+    try:
+        parse_spec(data, source="cables.toml")
+    except SpecError as error:
+        refusal = str(error)
+    assert refusal.startswith("cables.toml: ") or not refusal
+    assert len(refusal.splitlines()) <= 1
+
+
+@pytest.mark.parametrize("seed", [-1, 2**64, 1.0, True, "1"])
+def test_seeds(seed: object) -> None:
+    """A seed is a whole number that fits 64 bits."""
+    with pytest.raises(SpecError, match="seed"):
+        parse_spec({"images": 1, "seed": seed}, source="test")

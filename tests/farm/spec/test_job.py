@@ -1,0 +1,120 @@
+"""Job ids and messages: what they accept, and that nothing else gets through."""
+
+import json
+from contextlib import suppress
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.errors import MessageError
+from farm.spec.category import Category
+from farm.spec.job import MAX_INDEX, Job, JobMessage
+
+JOBS = st.builds(Job, category=st.sampled_from(Category), index=st.integers(0, MAX_INDEX))
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(), inner, max_size=5),
+)
+GOOD = {"version": 1, "dataset": "cables", "spec_sha256": "0" * 64, "job_id": "far-000001"}
+
+
+def assert_decoded_or_refused(payload: object) -> None:
+    """The payload decodes to what it says, or is refused in one line."""
+    refusal = ""
+    try:
+        assert JobMessage.decode(payload).encode() == payload
+    except MessageError as error:
+        refusal = str(error)
+    assert len(refusal.splitlines()) <= 1
+
+
+@given(JOBS)
+def test_id_is_read_back(job: Job) -> None:
+    """Every job's id gives the job."""
+    assert Job.from_id(job.id) == job
+
+
+@given(JOBS, JOBS)
+def test_ids_are_unique(one: Job, other: Job) -> None:
+    """Different jobs have different ids, and so different files."""
+    assert (one.id == other.id) == (one == other)
+    assert (manifest_path(one) == manifest_path(other)) == (one == other)
+
+
+@given(st.text())
+def test_no_other_text_is_an_id(text: str) -> None:
+    """A text that is read as an id is exactly that job's id."""
+    with suppress(MessageError):
+        assert Job.from_id(text).id == text
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "far",
+        "far-1",
+        "far-0000001",
+        "far-000001\n",
+        " far-000001",
+        "near-000001",
+        "FAR-000001",
+        "far-00000\uff11",
+        "../far-000001",
+        "far-000001/..",
+        "far--00001",
+        "far-0000000000001",
+    ],
+)
+def test_malformed_ids(text: str) -> None:
+    """Ids with paths, other digits, padding or unknown categories are refused."""
+    with pytest.raises(MessageError):
+        Job.from_id(text)
+
+
+@given(JOBS)
+def test_files_stay_in_the_category(job: Job) -> None:
+    """Every path of a job is three plain parts, the category first."""
+    for path in [manifest_path(job), *(file_path(job, role) for role in FileRole)]:
+        parts = path.split("/")
+        assert len(parts) == 3
+        assert parts[0] == job.category
+        assert ".." not in parts
+
+
+@given(JOBS)
+def test_message_survives_the_wire(job: Job) -> None:
+    """What was encoded as JSON decodes to the same message and job."""
+    message = JobMessage(dataset="cables", spec_sha256="0" * 64, job_id=job.id)
+    decoded = JobMessage.decode(json.loads(json.dumps(message.encode())))
+    assert decoded == message
+    assert decoded.job == job
+
+
+@given(JSON)
+def test_any_json_is_decoded_or_refused(payload: object) -> None:
+    """Whatever comes off the wire, the answer is a message or one line."""
+    assert_decoded_or_refused(payload)
+
+
+@given(st.sampled_from(sorted(GOOD)), JSON)
+def test_any_value_in_a_good_message(key: str, value: object) -> None:
+    """A message with one value replaced is decoded unchanged or refused in one line."""
+    payload = GOOD | {key: value}
+    assert_decoded_or_refused(payload)
+
+
+@given(st.text(min_size=1).filter(lambda key: key not in GOOD), JSON)
+def test_unknown_keys_are_refused(key: str, value: object) -> None:
+    """A message with one more key is refused."""
+    with pytest.raises(MessageError):
+        JobMessage.decode(GOOD | {key: value})
+
+
+@pytest.mark.parametrize("name", ["", ".", "..", "a/b", "/a", "a\\b", ".a", "-a", "a\n", "a" * 101, "a\0", "ä"])
+def test_dataset_names_hold_no_path(name: str) -> None:
+    """A dataset's name can't climb, hide or end in a line break."""
+    with pytest.raises(MessageError):
+        JobMessage.decode(GOOD | {"dataset": name})

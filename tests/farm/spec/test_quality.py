@@ -1,0 +1,106 @@
+"""Quality as an error budget."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from farm.spec.category import Background, Category
+from farm.spec.quality import (
+    REFERENCE,
+    Budget,
+    CalibratedSettings,
+    Preset,
+    budget_of,
+    calibration,
+    cheapest,
+    read_quality,
+    settings_for,
+)
+from farm.spec.rendering import CyclesSettings, PictureSettings
+
+PRESETS = (Preset.DRAFT, Preset.STANDARD)
+
+ROWS = st.lists(
+    st.builds(
+        CalibratedSettings,
+        settings=st.just(PictureSettings(cycles=CyclesSettings(samples=4))),
+        seconds=st.floats(0.1, 10),
+        flip=st.floats(0, 0.2),
+        psnr_db=st.floats(20, 50),
+    ),
+    max_size=8,
+).map(tuple)
+
+
+@given(rows=ROWS, flip=st.floats(0, 0.2), psnr=st.floats(20, 50))
+def test_the_cheapest_within_the_budget_is_chosen(
+    rows: tuple[CalibratedSettings, ...], flip: float, psnr: float
+) -> None:
+    """It keeps to the budget, nothing cheaper does, and nothing is chosen only if nothing does."""
+    within = [row for row in rows if row.flip <= flip and row.psnr_db >= psnr]
+    chosen = cheapest(rows, Budget(flip=flip, psnr_db=psnr))
+    assert (chosen is None) == (not within)
+    if chosen is not None:
+        assert chosen in within
+        assert chosen.seconds == min(row.seconds for row in within)
+
+
+@pytest.mark.parametrize("category", Category)
+@pytest.mark.parametrize("preset", PRESETS)
+def test_every_preset_keeps_to_its_budget(preset: Preset, category: Category) -> None:
+    """In every category, by the calibration that comes with the farm."""
+    chosen = settings_for(preset, category)
+    assert chosen.expected_flip is not None
+    assert chosen.expected_flip <= budget_of(preset, category).flip
+
+
+@pytest.mark.parametrize("category", Category)
+def test_draft_is_faster_than_standard(category: Category) -> None:
+    """Or as fast, where the cheapest settings are good enough."""
+    rows = {row.settings: row.seconds for row in calibration().categories[category]}
+    assert rows[settings_for(Preset.DRAFT, category).settings] <= rows[settings_for(Preset.STANDARD, category).settings]
+
+
+@pytest.mark.parametrize("category", Category)
+def test_standard_takes_enough_samples_for_smooth_edges(category: Category) -> None:
+    """Far pictures would do with two by their mean error, and cables are smeared then."""
+    least = 4 if category.traits.background is Background.HDRI else 6
+    assert settings_for(Preset.STANDARD, category).settings.cycles.samples >= least
+
+
+def test_the_reference_leaves_nothing_out() -> None:
+    """And has no expected error, being what errors are measured against."""
+    chosen = settings_for(Preset.REFERENCE, Category.FAR)
+    assert chosen.settings is REFERENCE
+    assert chosen.expected_flip is None
+
+
+def test_a_number_is_a_budget_in_every_category() -> None:
+    """The chosen settings' expected error is within it."""
+    for category in Category:
+        expected = settings_for(0.08, category).expected_flip
+        assert expected is not None
+        assert expected <= 0.08
+
+
+def test_a_budget_that_nothing_keeps_names_the_least() -> None:
+    """So that a user knows what can be asked for."""
+    with pytest.raises(ValueError, match=r"the least FLIP is 0\.\d+; for less ask for 'reference'"):
+        settings_for(1e-9, Category.FAR)
+
+
+def test_calibrated_settings_are_worth_having() -> None:
+    """None is both slower and worse than another of its category."""
+    for rows in calibration().categories.values():
+        for row in rows:
+            assert not [
+                other
+                for other in rows
+                if other.seconds < row.seconds and other.flip <= row.flip and other.psnr_db >= row.psnr_db
+            ]
+
+
+@pytest.mark.parametrize(("text", "quality"), [("draft", "draft"), ("0.02", 0.02), ("1e-2", 0.01), ("best", "best")])
+def test_a_flag_is_a_name_or_a_number(text: str, quality: str | float) -> None:
+    """Whether there is such a preset, the spec says."""
+    assert read_quality(text) == quality
