@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from assets.files import read_bounded, sha256
-from assets.hdris import Checksum
+from assets.scan.hdris import Checksum
 from farm.errors import AssetError
 
 FOLDER_NAME = "environments"

@@ -128,7 +128,7 @@ def _device(options: argparse.Namespace) -> int:
     with _output_in(options.logs / "check.log"):
         try:
             # It loads Blender, as above.
-            from worker.devices import choose_device  # noqa: PLC0415
+            from blend.devices import choose_device  # noqa: PLC0415
         except ImportError as error:
             raise EnvironmentMissingError(f"Blender does not load: {error}; try farm doctor") from error
         choose_device(options.device)
@@ -141,7 +141,7 @@ def _environments(options: argparse.Namespace) -> int:
     with _output_in(options.logs / "environments.log") as screen:
         try:
             # It loads Blender, as above.
-            from worker.environments import render_environments  # noqa: PLC0415
+            from blend.environments.render import render_environments  # noqa: PLC0415
         except ImportError as error:
             raise EnvironmentMissingError(f"Blender does not load: {error}; try farm doctor") from error
         for name in render_environments(

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from assets.hdris import LUMINANCE
+from assets.scan.hdris import LUMINANCE
 
 REC709_LUMINANCE: Final = LUMINANCE
 """Of red, green and blue, ITU-R BT.709."""

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from assets.surfaces import (
+from assets.surfaces.families import (
     brick,
     concrete,
     electronics,

@@ -1,13 +1,14 @@
 """What a surface is called, what it is made of, how big it is and how to draw it."""
 
+import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
-from assets.surfaces.grid import Grid
-from assets.surfaces.maps import SurfaceMaps
+from assets.surfaces.kit.grid import Grid
+from assets.surfaces.kit.maps import SurfaceMaps
 
 
 class SurfaceFamily(StrEnum):
@@ -56,3 +57,8 @@ class SurfaceRecipe:
             The maps; the same generator state and size give the same bytes.
         """
         return self.draw(rng, Grid(pixels=pixels, size_mm=self.size_m * 1000.0))
+
+
+def recipe_generator(recipe: SurfaceRecipe) -> np.random.Generator:
+    """The random generator that a recipe is baked with: it follows from the name and version alone."""
+    return np.random.default_rng([zlib.crc32(recipe.name.encode()), recipe.version])

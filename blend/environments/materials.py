@@ -10,8 +10,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from assets.bake import recipe_generator
 from assets.surfaces.catalogue import SURFACES
+from assets.surfaces.recipe import recipe_generator
 from blend.environments.shader import Shader
 
 SURFACE_PREFIX = "surface:"

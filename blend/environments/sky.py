@@ -4,8 +4,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from assets.surfaces.grid import Grid
-from assets.surfaces.noise import fractal
+from assets.surfaces.kit.grid import Grid
+from assets.surfaces.kit.noise import fractal
 
 WIDTH_PX = 2048
 

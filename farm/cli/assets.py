@@ -6,10 +6,10 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from assets.baked import load_baked, surface_directory
 from assets.environments import DEFAULT_WIDTH, ENVIRONMENTS, LARGEST_WIDTH, SMALLEST_WIDTH, missing_environments
-from assets.hdris import registry
-from assets.plates import scan_plates
+from assets.scan.hdris import registry
+from assets.scan.photographs import scan_plates
+from assets.surfaces.baked import load_baked, surface_directory
 from assets.surfaces.catalogue import SURFACES
 from farm.cli.baking import bake, render_environments
 from farm.cli.display import console

@@ -6,9 +6,9 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import Progress
 
-from assets.bake import BakedSet, bake_surfaces
-from assets.baked import surface_directory
 from assets.environments import DEFAULT_WIDTH, FOLDER_NAME, missing_environments
+from assets.surfaces.bake import BakedSet, bake_surfaces
+from assets.surfaces.baked import surface_directory
 from farm.cli.options import log_folder
 from farm.cli.worker_program import ask_worker, require_blender
 from farm.spec.category import Background, Light

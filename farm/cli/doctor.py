@@ -13,7 +13,7 @@ import typer
 from pydantic_core import to_json
 from rich.markup import escape
 
-from assets.baked import load_baked, surface_directory
+from assets.surfaces.baked import load_baked, surface_directory
 from assets.surfaces.catalogue import SURFACES
 from farm.cli.display import console
 from farm.cli.options import AsJson

@@ -6,8 +6,8 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from assets.fetch import Fetcher, is_whole
-from assets.fetchable import Asset, Kind, Registry, own_registry, read_registry
+from assets.fetch.fetch import Fetcher, is_whole
+from assets.fetch.registry import Asset, Kind, Registry, own_registry, read_registry
 from farm.cli.display import console
 from farm.errors import AssetError
 from farm.machine import cache_folder

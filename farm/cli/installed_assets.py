@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from assets.environments import ENVIRONMENTS
-from assets.hdris import registry, scan_hdris
-from assets.plates import scan_plates
+from assets.scan.hdris import registry, scan_hdris
+from assets.scan.photographs import scan_plates
+from assets.scan.texture_names import TextureRole
+from assets.scan.textures import TextureSet, scan_textures
 from assets.surfaces.catalogue import FLOORS, LIGHT, SURFACES
-from assets.texture_names import TextureRole
-from assets.textures import TextureSet, scan_textures
 from farm.spec.header import BuiltinSurfaceRef, FileRef, FolderSurfaceRef, HdriRef, PlateRef
 from farm.spec.styles import Style
 

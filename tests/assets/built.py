@@ -5,9 +5,9 @@ from functools import cache
 import numpy as np
 import numpy.typing as npt
 
-from assets.bake import recipe_generator
 from assets.surfaces.catalogue import SURFACES
-from assets.surfaces.maps import SurfaceMaps
+from assets.surfaces.kit.maps import SurfaceMaps
+from assets.surfaces.recipe import recipe_generator
 
 PIXELS = 768
 """Joints half a millimetre wide show, and those of 2, 3 or 4 tiles across fall alike on the texels."""

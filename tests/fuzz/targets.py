@@ -15,10 +15,10 @@ import cv2
 import numpy as np
 from PIL import Image
 
-from assets.exr import check_exr
-from assets.fetchable import OWN_REGISTRY, read_registry
-from assets.plates import decode_plate
-from assets.radiance import check_radiance
+from assets.fetch.registry import OWN_REGISTRY, read_registry
+from assets.scan.exr import check_exr
+from assets.scan.photographs import decode_plate
+from assets.scan.radiance import check_radiance
 from farm.dataset.completion import job_of_manifest, parse_manifest
 from farm.dataset.dataset import Dataset, Destination, create_dataset, open_dataset, parse_destination
 from farm.dataset.paths import HEADER_FILE, FileRole, file_path, manifest_path

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from assets.hdris import LUMINANCE
+from assets.scan.hdris import LUMINANCE
 from farm.scene.backdrop import Plate
 from worker.backdrop.panorama import disc
 

@@ -5,10 +5,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from assets.baked import BakedSurface, load_surface, surface_directory
 from assets.environments import Environment, load_environment
 from assets.files import open_regular
-from assets.hdris import Hdri, builtin_hdris
+from assets.scan.hdris import Hdri, builtin_hdris
+from assets.surfaces.baked import BakedSurface, load_surface, surface_directory
 from farm.errors import AssetError
 from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, FileRef, FolderSurfaceRef
 
@@ -20,7 +20,7 @@ class SurfaceFiles:
     Attributes:
         size_m: edge of the square that the texture covers.
         metallic: a map, or one value for all of the surface.
-        joints: where pieces meet (`assets.surfaces.maps.joint_levels`); None where none do, or nobody knows.
+        joints: where pieces meet (`assets.surfaces.kit.maps.joint_levels`); None where none do, or nobody knows.
         flip_green: the normal map is in DirectX convention.
         gloss: the roughness map holds glossiness.
     """

@@ -1,6 +1,6 @@
 """A scene made real in the open template: cables, floor, light, world and camera. Sets everything, every time."""
 
-from assets.hdris import LUMINANCE
+from assets.scan.hdris import LUMINANCE
 from farm.scene.backdrop import HdriWorld
 from farm.scene.scene import Scene
 from farm.spec.category import Background, CategoryTraits

@@ -5,7 +5,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from assets.surfaces.maps import joint_distance_mm
+from assets.surfaces.kit.maps import joint_distance_mm
 from blend import names
 from farm.scene.floor import Floor, Wear
 from worker.blender.asset_files import SurfaceFiles

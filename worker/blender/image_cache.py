@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assets.files import read_bounded
-from assets.plates import decode_plate
+from assets.scan.photographs import decode_plate
 from farm.errors import AssetError
 from worker.colour import Texels
 from worker.floor.window import TextureWindow

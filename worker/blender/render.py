@@ -66,7 +66,7 @@ def configure_cycles(scene: Any, settings: PictureSettings, device: str, seed: i
     Args:
         scene: the picture's.
         settings: are all set, every time.
-        device: as chosen by `worker.devices.choose_device`.
+        device: as chosen by `blend.devices.choose_device`.
         seed: of the sampling pattern.
     """
     scene.render.engine = "CYCLES"

@@ -12,6 +12,7 @@ import numpy as np
 
 from blend.build import TEMPLATE
 from blend.contract import open_template
+from blend.devices import choose_device
 from farm.dataset.manifest import RejectedAttempt, RenderSettings, SettleFigures
 from farm.errors import SceneError, SpecError
 from farm.scene.scene import Scene
@@ -27,7 +28,6 @@ from worker.blender.asset_files import AssetLibrary, checked
 from worker.blender.build_scene import realize
 from worker.blender.image_cache import ImageShelf
 from worker.blender.render import configure_cycles, configure_eevee, configure_picture, render_scene
-from worker.devices import choose_device
 from worker.label.label import label_scene
 from worker.sample.scene import draw_scene
 from worker.service.picture import MadeImage
@@ -42,7 +42,7 @@ def open_studio(header: DatasetHeader, *, device: str, threads: int, assets: Pat
 
     Args:
         header: names the template and the assets.
-        device: one of `worker.devices.CHOICES`.
+        device: one of `blend.devices.CHOICES`.
         threads: of the renderer on the CPU; 0 takes all cores.
         assets: folder of the baked surfaces; None for the usual place.
 

@@ -4,10 +4,9 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from assets.bake import recipe_generator
 from assets.surfaces.catalogue import FLOORS, SURFACES, WORKPLACE
 from assets.surfaces.catalogue import LIGHT as BRIGHT
-from assets.surfaces.recipe import SurfaceFamily
+from assets.surfaces.recipe import SurfaceFamily, recipe_generator
 from tests.assets.built import PIXELS, built, steps
 
 NAMES = list(SURFACES)

@@ -10,7 +10,7 @@ from farm.spec.category import Category
 
 pytest.importorskip("bpy")
 
-from assets.bake import bake_surfaces  # after importorskip
+from assets.surfaces.bake import bake_surfaces  # after importorskip
 from benchmarks.skips import command
 from benchmarks.skips.savings import Saving
 

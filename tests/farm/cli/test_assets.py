@@ -8,8 +8,8 @@ import pytest
 from PIL import Image
 from rich.console import Console
 
-from assets.bake import BakedSet
 from assets.environments import ENVIRONMENTS
+from assets.surfaces.bake import BakedSet
 from farm.cli import baking
 from farm.errors import AssetError, SpecError
 from farm.spec.header import HdriRef

@@ -7,7 +7,7 @@ import pytest
 
 from assets.files import sha256
 from farm.errors import AssetError
-from tests.assets.shelf_server import ShelfServer, panorama, shelf_server
+from tests.assets.fetch.download_server import ShelfServer, panorama, shelf_server
 from tests.farm.cli.result import Farm, assert_refused
 
 

@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
-from assets.baked import load_surface
+from assets.surfaces.baked import load_surface
 from farm.dataset.completion import is_done, parse_manifest
 from farm.dataset.dataset import Dataset, parse_destination
 from farm.dataset.paths import FileRole, file_path, manifest_path

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PIL import Image
 
-from assets.hdris import LUMINANCE
+from assets.scan.hdris import LUMINANCE
 from farm.scene.backdrop import Plate
 from worker.backdrop.panorama import disc
 from worker.backdrop.photograph import DARKEST, plate_backdrop

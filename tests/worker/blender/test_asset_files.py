@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from assets.bake import bake_surfaces
 from assets.environments import EnvironmentKind, EnvironmentRecord, environment_directory
 from assets.files import sha256
+from assets.surfaces.bake import bake_surfaces
 from farm.errors import AssetError
 from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, PlateRef
 from worker.blender.asset_files import AssetLibrary

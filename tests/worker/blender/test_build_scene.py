@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 bpy = pytest.importorskip("bpy")
 
-from assets.bake import bake_surfaces  # noqa: E402  # after importorskip
+from assets.surfaces.bake import bake_surfaces  # noqa: E402  # after importorskip
 from blend import names  # noqa: E402
 from blend.build import TEMPLATE  # noqa: E402
 from blend.contract import open_template  # noqa: E402

@@ -9,7 +9,7 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from assets.bake import bake_surfaces  # noqa: E402  # after importorskip
+from assets.surfaces.bake import bake_surfaces  # noqa: E402  # after importorskip
 from farm.cli.installed_assets import InstalledAssets  # noqa: E402
 from farm.scene.camera import Camera, Development  # noqa: E402
 from farm.scene.light import GreyWorld, StudioLamp  # noqa: E402

@@ -9,7 +9,7 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from assets.bake import bake_surfaces  # noqa: E402  # after importorskip
+from assets.surfaces.bake import bake_surfaces  # noqa: E402  # after importorskip
 from benchmarks.masks.agreement import compare  # noqa: E402
 from benchmarks.masks.reference import render_coverage  # noqa: E402
 from benchmarks.pictures.drawn_coverage import drawn_coverage  # noqa: E402

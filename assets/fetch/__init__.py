@@ -1,0 +1,1 @@
+"""Downloads: a registry of CC0 files, each with its checksum."""

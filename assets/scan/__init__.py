@@ -1,0 +1,1 @@
+"""Scanners of the user's own files: panoramas, textures, photographs."""

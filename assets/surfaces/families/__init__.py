@@ -1,0 +1,1 @@
+"""Recipes of floor surfaces, a module a family."""

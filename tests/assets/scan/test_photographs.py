@@ -1,0 +1,183 @@
+"""The user's own photographs."""
+
+import struct
+import zlib
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from PIL import Image
+
+from assets.files import sha256
+from assets.scan.photographs import decode_plate, read_plate, scan_plates
+from farm.errors import AssetError
+
+ORIENTATION = 0x0112
+
+
+def pixels(width: int = 320, height: int = 260) -> NDArray[np.uint8]:
+    """A smooth picture whose four corners differ, so that JPEG keeps it and turns show."""
+    across, down = np.meshgrid(np.linspace(0, 200, width), np.linspace(0, 200, height))
+    levels: NDArray[np.uint8] = np.stack([across, down, np.full_like(across, 40)], axis=-1).astype(np.uint8)
+    return levels
+
+
+def encoded(format_: str, image: Image.Image | None = None, **options: object) -> bytes:
+    """An image's file."""
+    buffer = BytesIO()
+    (image or Image.fromarray(pixels())).save(buffer, format_, **options)
+    return buffer.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("suffix", "format_"), [(".jpg", "JPEG"), (".JPEG", "JPEG"), (".png", "PNG"), (".webp", "WEBP"), (".tif", "TIFF")]
+)
+def test_a_folder_of_photographs_is_read(tmp_path: Path, suffix: str, format_: str) -> None:
+    """Every format; other files, hidden ones and subfolders are passed over."""
+    data = encoded(format_)
+    (tmp_path / f"lab{suffix}").write_bytes(data)
+    (tmp_path / f".hidden{suffix}").write_bytes(b"")
+    (tmp_path / "notes.txt").write_text("mine")
+    (tmp_path / f"sub{suffix}").mkdir()
+    (found,) = scan_plates(tmp_path)
+    assert (found.name, found.path, found.sha256) == ("lab", tmp_path / f"lab{suffix}", sha256(data))
+    assert (found.width, found.height) == (320, 260)
+
+
+def test_photographs_are_sorted_by_name(tmp_path: Path) -> None:
+    """Whatever order the disk has."""
+    for name in ("c.png", "a.jpg", "b.png"):
+        Image.fromarray(pixels()).save(tmp_path / name)
+    assert [plate.name for plate in scan_plates(tmp_path)] == ["a", "b", "c"]
+
+
+def test_pixels_come_as_they_are() -> None:
+    """Lossless formats keep every level; grey becomes three equal channels."""
+    assert (decode_plate(Path("a.png"), encoded("PNG")) == pixels()).all()
+    grey = decode_plate(Path("a.png"), encoded("PNG", Image.fromarray(pixels()[..., 0])))
+    assert (grey == pixels()[..., :1]).all()
+
+
+@pytest.mark.parametrize("format_", ["JPEG", "PNG", "WEBP", "TIFF"])
+@pytest.mark.parametrize("orientation", range(1, 9))
+def test_photographs_stand_upright(format_: str, orientation: int) -> None:
+    """A camera held sideways notes how: the eight turns of EXIF 2.32, 4.6.4, row 0 and column 0 as it names them."""
+    upright = pixels()
+    stored = {
+        1: upright,
+        2: upright[:, ::-1],
+        3: upright[::-1, ::-1],
+        4: upright[::-1],
+        5: upright.transpose(1, 0, 2),
+        6: upright.transpose(1, 0, 2)[::-1],
+        7: upright.transpose(1, 0, 2)[::-1, ::-1],
+        8: upright.transpose(1, 0, 2)[:, ::-1],
+    }[orientation]
+    note = Image.Exif()
+    note[ORIENTATION] = orientation
+    data = encoded(format_, Image.fromarray(np.ascontiguousarray(stored)), exif=note)
+    seen = decode_plate(Path("a"), data)
+    assert seen.shape == upright.shape
+    assert np.abs(seen.astype(int) - upright).max() < 16  # what JPEG and WebP lose
+
+
+def test_the_size_is_that_of_the_upright_picture(tmp_path: Path) -> None:
+    """A portrait stored as a landscape is a portrait."""
+    note = Image.Exif()
+    note[ORIENTATION] = 6
+    (tmp_path / "a.jpg").write_bytes(encoded("JPEG", exif=note))
+    found = read_plate(tmp_path / "a.jpg")
+    assert (found.width, found.height) == (260, 320)
+
+
+@pytest.mark.parametrize("format_", ["JPEG", "PNG", "WEBP", "TIFF"])
+@pytest.mark.parametrize("share", [0.0, 0.01, 0.3, 0.6, 0.9])
+def test_a_file_cut_short_is_refused(format_: str, share: float) -> None:
+    """Wherever it was cut."""
+    noise = np.random.default_rng(0).integers(0, 256, (260, 320, 3), np.uint8)
+    data = encoded(format_, Image.fromarray(noise))
+    with pytest.raises(AssetError, match=r"^lab: isn't a sound photograph \(.*save it again"):
+        decode_plate(Path("lab"), data[: int(share * len(data))])
+
+
+@settings(max_examples=80)
+@given(
+    format_=st.sampled_from(["JPEG", "PNG", "WEBP", "TIFF"]),
+    damage=st.lists(st.tuples(st.floats(0, 0.9999), st.integers(0, 255)), min_size=1, max_size=8),
+)
+def test_damage_is_an_asset_error_or_harmless(format_: str, damage: list[tuple[float, int]]) -> None:
+    """Whatever bytes change, orientation notes included, nothing but an AssetError is raised."""
+    note = Image.Exif()
+    note[ORIENTATION] = 8
+    data = bytearray(encoded(format_, exif=note))
+    for place, value in damage:
+        data[int(place * len(data))] = value
+    try:
+        shape = decode_plate(Path("lab"), bytes(data)).shape
+    except AssetError:
+        return
+    assert shape[2] == 3
+    assert min(shape[:2]) >= 256
+
+
+@pytest.mark.parametrize(
+    ("mode", "format_"), [("RGBA", "PNG"), ("LA", "PNG"), ("P", "PNG"), ("1", "PNG"), ("I;16", "PNG"), ("CMYK", "JPEG")]
+)
+def test_other_kinds_of_pixels_are_refused(mode: str, format_: str) -> None:
+    """Transparency, palettes, 16 bit and inks: what to save instead is told."""
+    with pytest.raises(AssetError, match=f"is of mode {mode}; save it as 8 bit RGB or grey"):
+        decode_plate(Path("lab"), encoded(format_, Image.new(mode, (300, 300))))
+
+
+@pytest.mark.parametrize(("size", "fits"), [((255, 4000), False), ((4000, 255), False), ((256, 256), True)])
+def test_small_photographs_are_refused(size: tuple[int, int], fits: bool) -> None:
+    """By their short side."""
+    data = encoded("PNG", Image.new("L", size))
+    if fits:
+        assert decode_plate(Path("lab"), data).shape == (256, 256, 3)
+    else:
+        with pytest.raises(AssetError, match=f"{size[0]} x {size[1]} is less than 256 pixels"):
+            decode_plate(Path("lab"), data)
+
+
+@pytest.mark.parametrize("size", [(8192, 8193), (100_000, 100_000)])
+def test_claims_of_too_many_pixels_are_refused(size: tuple[int, int]) -> None:
+    """By the header, before anything is decoded."""
+
+    def chunk(kind: bytes, body: bytes) -> bytes:
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    header = chunk(b"IHDR", struct.pack(">IIBBBBB", *size, 8, 2, 0, 0, 0))
+    data = b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", zlib.compress(bytes(9))) + chunk(b"IEND", b"")
+    with pytest.raises(AssetError, match=r"more than 64 Mi pixels|too many pixels"):
+        decode_plate(Path("lab"), data)
+
+
+def test_what_only_its_name_calls_a_photograph(tmp_path: Path) -> None:
+    """A GIF in disguise, which Pillow could read, and text."""
+    for data in (encoded("GIF"), b"<svg/>"):
+        (tmp_path / "lab.jpg").write_bytes(data)
+        with pytest.raises(AssetError, match=r"lab\.jpg: isn't a sound photograph"):
+            scan_plates(tmp_path)
+
+
+def test_two_photographs_of_one_name(tmp_path: Path) -> None:
+    """Names tell them apart in scenes."""
+    Image.fromarray(pixels()).save(tmp_path / "lab.jpg")
+    Image.fromarray(pixels()).save(tmp_path / "lab.png")
+    with pytest.raises(AssetError, match=r"lab\.png: has the same name as lab\.jpg"):
+        scan_plates(tmp_path)
+
+
+@pytest.mark.parametrize("made", [True, False])
+def test_an_empty_or_missing_folder(tmp_path: Path, made: bool) -> None:
+    """Nothing to read is an error."""
+    folder = tmp_path / "photos"
+    if made:
+        folder.mkdir()
+    with pytest.raises(AssetError, match="holds no photograph" if made else "isn't a folder"):
+        scan_plates(folder)

@@ -1,0 +1,161 @@
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from PIL import Image
+
+from assets.files import sha256
+from assets.scan.texture_names import TextureRole
+from assets.scan.textures import read_map, scan_textures
+from farm.errors import AssetError
+
+
+def picture(path: Path, size: tuple[int, int] = (32, 32)) -> Path:
+    """Write a small picture in the format of its suffix."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    noise = np.random.default_rng(0).integers(0, 255, (size[1], size[0], 3), np.uint8)
+    Image.fromarray(noise).save(path)
+    return path
+
+
+def test_files_are_grouped_by_texture(tmp_path: Path) -> None:
+    """Two textures in one folder come apart, each with its maps in order, sizes and checksums."""
+    for name in ("oak_diff_2k.jpg", "oak_nor_gl_2k.png", "oak_rough_2k.jpg", "slate_color.png"):
+        picture(tmp_path / name)
+    oak, slate = scan_textures(tmp_path)
+    assert (oak.name, slate.name) == ("oak", "slate")
+    roles = [found.role for found in oak.maps]
+    assert roles == [TextureRole.COLOUR, TextureRole.NORMAL, TextureRole.ROUGHNESS]
+    first = oak.maps[0]
+    assert (first.width, first.height) == (32, 32)
+    assert first.sha256 == sha256((tmp_path / "oak_diff_2k.jpg").read_bytes())
+    assert not oak.flip_green
+    assert slate.find(TextureRole.NORMAL) is None
+
+
+@pytest.mark.parametrize("suffix", [".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp", ".bmp", ".PNG"])
+def test_usual_formats_are_read(tmp_path: Path, suffix: str) -> None:
+    """Each format is decoded."""
+    picture(tmp_path / f"oak_color{suffix}")
+    assert len(scan_textures(tmp_path)) == 1
+
+
+def test_exr_maps_are_read(tmp_path: Path) -> None:
+    """A height map may be an EXR file."""
+    picture(tmp_path / "oak_color.png")
+    cv2.imwrite(str(tmp_path / "oak_disp.exr"), np.full((32, 48), 0.5, np.float32))
+    found = scan_textures(tmp_path)[0].find(TextureRole.HEIGHT)
+    assert found is not None
+    assert (found.width, found.height) == (48, 32)
+
+
+def test_subfolders_name_their_textures(tmp_path: Path) -> None:
+    """Files named after the maps alone take the subfolder's name."""
+    picture(tmp_path / "bricks" / "color.png")
+    picture(tmp_path / "bricks" / "normal.png")
+    picture(tmp_path / "woods" / "oak_color.png")
+    assert [found.name for found in scan_textures(tmp_path)] == ["bricks", "woods/oak"]
+
+
+def test_deeper_folders_are_not_read(tmp_path: Path) -> None:
+    """One level of subfolders is enough."""
+    picture(tmp_path / "oak_color.png")
+    picture(tmp_path / "a" / "b" / "pine_color.png")
+    assert [found.name for found in scan_textures(tmp_path)] == ["oak"]
+
+
+def test_directx_normals_are_flagged(tmp_path: Path) -> None:
+    """Their green has to be inverted."""
+    picture(tmp_path / "oak_color.png")
+    picture(tmp_path / "oak_NormalDX.png")
+    assert scan_textures(tmp_path)[0].flip_green
+
+
+def test_gloss_is_flagged(tmp_path: Path) -> None:
+    """Gloss is the opposite of roughness."""
+    picture(tmp_path / "oak_color.png")
+    picture(tmp_path / "oak_gloss.png")
+    assert scan_textures(tmp_path)[0].invert_roughness
+
+
+def test_maps_that_need_no_conversion_are_preferred(tmp_path: Path) -> None:
+    """Of OpenGL and DirectX normals, and of roughness and gloss, the first of each is taken."""
+    for name in ("oak_color.png", "oak_nor_dx.png", "oak_nor_gl.png", "oak_gloss.png", "oak_rough.png"):
+        picture(tmp_path / name)
+    found = scan_textures(tmp_path)[0]
+    assert not found.flip_green
+    assert not found.invert_roughness
+    assert [entry.path.name for entry in found.maps] == ["oak_color.png", "oak_nor_gl.png", "oak_rough.png"]
+
+
+def test_previews_and_packed_maps_are_left_out(tmp_path: Path) -> None:
+    """A picture named like the texture, and maps of known other purposes, are no error."""
+    for name in ("Oak_Color.png", "Oak.png", "Oak_ARM.png", "Oak_Opacity.png"):
+        picture(tmp_path / name)
+    assert [entry.role for entry in scan_textures(tmp_path)[0].maps] == [TextureRole.COLOUR]
+
+
+def test_a_name_that_says_nothing_is_refused(tmp_path: Path) -> None:
+    """A lone picture is named, with advice how to call it."""
+    picture(tmp_path / "floor.png")
+    with pytest.raises(AssetError, match=r"floor\.png: its name doesn't say what it is for; end it in '_color'"):
+        scan_textures(tmp_path)
+
+
+def test_two_files_for_one_map_are_refused(tmp_path: Path) -> None:
+    """Both are named."""
+    picture(tmp_path / "oak_color_1k.png")
+    picture(tmp_path / "oak_color_2k.png")
+    with pytest.raises(AssetError, match=r"oak_color_2k\.png: oak_color_1k\.png is the colour map .* keep one"):
+        scan_textures(tmp_path)
+
+
+def test_a_texture_without_colour_is_refused(tmp_path: Path) -> None:
+    """Normals alone are no texture."""
+    picture(tmp_path / "oak_normal.png")
+    with pytest.raises(AssetError, match="'oak' has no colour map"):
+        scan_textures(tmp_path)
+
+
+@pytest.mark.parametrize("made", [True, False])
+def test_an_empty_or_missing_folder_is_refused(tmp_path: Path, made: bool) -> None:
+    """Nothing to read is an error."""
+    folder = tmp_path / "textures"
+    if made:
+        folder.mkdir()
+    with pytest.raises(AssetError, match=r"holds no textures|isn't a folder"):
+        scan_textures(folder)
+
+
+@pytest.mark.parametrize("suffix", [".png", ".jpg", ".tif", ".webp", ".bmp"])
+@pytest.mark.parametrize("share", [0.02, 0.5, 0.9])
+def test_a_truncated_image_is_refused(tmp_path: Path, suffix: str, share: float) -> None:
+    """Decoding goes to the end, so a cut file is found, wherever it was cut."""
+    path = picture(tmp_path / f"oak_color{suffix}", (64, 64))
+    data = path.read_bytes()
+    path.write_bytes(data[: int(share * len(data))])
+    with pytest.raises(AssetError, match=f"oak_color{suffix}: isn't a sound image"):
+        scan_textures(tmp_path)
+
+
+def test_text_is_no_image(tmp_path: Path) -> None:
+    """A file whose name lies is refused."""
+    (tmp_path / "oak_color.png").write_text("<html>not found</html>")
+    with pytest.raises(AssetError, match="isn't a sound image"):
+        scan_textures(tmp_path)
+
+
+@pytest.mark.parametrize("size", [(15, 64), (64, 15), (16385, 16)])
+def test_sizes_out_of_bounds_are_refused(tmp_path: Path, size: tuple[int, int]) -> None:
+    """Under 16 or over 16384 pixels an edge."""
+    with pytest.raises(AssetError, match="is outside 16 to 16384 an edge"):
+        read_map(TextureRole.COLOUR, picture(tmp_path / "oak_color.png", size))
+
+
+def test_a_decompression_bomb_is_refused(tmp_path: Path) -> None:
+    """A small file that unpacks to a quarter of a gigapixel isn't unpacked."""
+    path = tmp_path / "oak_color.png"
+    Image.new("1", (16000, 16000)).save(path)
+    with pytest.raises(AssetError, match="too many pixels"):
+        read_map(TextureRole.COLOUR, path)

@@ -1,0 +1,30 @@
+"""Devices that Cycles may render on."""
+
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("bpy")
+
+from blend.devices import CHOICES, choose_device
+from farm.cli.options import DeviceChoice  # after importorskip
+
+pytestmark = pytest.mark.blender
+
+
+def test_the_command_line_offers_what_the_worker_knows() -> None:
+    """The two lists agree, though the command line does not import the worker."""
+    assert {str(choice) for choice in DeviceChoice} == set(CHOICES)
+
+
+def test_the_cpu_can_always_be_chosen() -> None:
+    """Whatever the machine has."""
+    assert choose_device("cpu") == "cpu"
+
+
+@pytest.mark.skipif(
+    any([*Path("/dev").glob("nvidia[0-9]"), *Path("/dev").glob("kfd")]), reason="needs a machine without a GPU"
+)
+def test_auto_falls_back_to_the_cpu() -> None:
+    """On a machine without a GPU."""
+    assert choose_device("auto") == "cpu"
