@@ -233,7 +233,7 @@ def running(destination: Destination, how: LocalRun, worker_command: list[str]) 
     program = Path(__file__).with_name("stand_in_run.py")
     process = subprocess.Popen(
         [sys.executable, "-P", str(program), destination.location, str(how.logs), worker_command[-1]],
-        env={**os.environ, "STAND_IN_DELAY_S": "30", "PYTHONPATH": str(Path(__file__).parents[2])},
+        env={**os.environ, "STAND_IN_DELAY_S": "30", "PYTHONPATH": str(Path(__file__).parents[3])},
         stderr=subprocess.PIPE,
     )
     try:

@@ -30,7 +30,7 @@ CRASHING = "close_concentrated_light-000001"
 @pytest.fixture(scope="module")
 def farm(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveFarm]:
     """Two workers that take a twentieth of a second for an image, on a Redis of their own."""
-    command = [sys.executable, "-P", str(Path(__file__).parents[1] / "stand_in.py")]
+    command = [sys.executable, "-P", str(Path(__file__).parents[2] / "stand_in.py")]
     with private_redis() as url, live_farm(tmp_path_factory.mktemp("farm"), url, command) as farm:
         for name in ("one", "two"):
             farm.start(name, STAND_IN_DELAY_S="0.05", STAND_IN_FAILS=f"{CRASHING}=crash")

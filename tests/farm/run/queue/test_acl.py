@@ -22,7 +22,7 @@ from tests.farm.run.queue.servers import redis_server as run_redis
 
 pytestmark = pytest.mark.redis
 
-ACL = Path(__file__).parents[3] / "docker" / "redis-users.acl"
+ACL = Path(__file__).parents[4] / "docker" / "redis-users.acl"
 WORD = "hush"
 
 

@@ -82,7 +82,7 @@ def bench(tmp_path_factory: pytest.TempPathFactory, stale: list[str]) -> Iterato
         options = WorkerOptions(
             store=str(folder / "store"), broker_url=url, device="cpu", threads=1, assets=None, logs=folder / "logs"
         )
-        command = [sys.executable, "-P", str(Path(__file__).parents[2] / "stand_in.py")]
+        command = [sys.executable, "-P", str(Path(__file__).parents[3] / "stand_in.py")]
         with LocalWorkers(1, options, command) as workers:
             yield Bench(client, make_app(url), dataset, workers.log_of("local-1"))
 
