@@ -12,7 +12,7 @@ from benchmarks.soak.options import add_soak
 from benchmarks.training.options import add_training, training_plan_of
 from benchmarks.whole.options import add_whole, plan_of
 from farm.errors import FarmError
-from worker.service.exit import leave
+from worker.service.exit import end_process
 
 
 def main(arguments: list[str]) -> int:
@@ -142,4 +142,4 @@ def _run_looks(options: argparse.Namespace) -> int:
 
 
 if __name__ == "__main__":
-    leave(main(sys.argv[1:]))
+    end_process(main(sys.argv[1:]))

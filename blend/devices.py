@@ -4,7 +4,7 @@ from typing import Any
 
 import bpy
 
-from farm.errors import EnvironmentMissingError
+from farm.errors import MachineError
 
 GPU_BACKENDS = ("OPTIX", "CUDA", "HIP", "ONEAPI")
 """In the order in which `auto` tries them."""
@@ -22,10 +22,10 @@ def choose_device(wanted: str) -> str:
         The choice made, "cpu" or a backend in lower case.
 
     Raises:
-        EnvironmentMissingError: if the choice is unknown or this machine has no such device.
+        MachineError: if the choice is unknown or this machine has no such device.
     """
     if wanted not in CHOICES:
-        raise EnvironmentMissingError(f"--device {wanted}: unknown; choose one of {', '.join(CHOICES)}")
+        raise MachineError(f"--device {wanted}: unknown; choose one of {', '.join(CHOICES)}")
     if wanted == "cpu":
         return "cpu"
     backends = GPU_BACKENDS if wanted == "auto" else (wanted.upper(),)
@@ -34,7 +34,7 @@ def choose_device(wanted: str) -> str:
             return backend.lower()
     if wanted == "auto":
         return "cpu"
-    raise EnvironmentMissingError(f"--device {wanted}: Cycles finds no such device here; use --device cpu or auto")
+    raise MachineError(f"--device {wanted}: Cycles finds no such device here; use --device cpu or auto")
 
 
 def _enable(backend: str) -> bool:

@@ -99,7 +99,7 @@ class RenderError(RetryableError):
     exit_code = 13
 
 
-class EnvironmentMissingError(PermanentError):
+class MachineError(PermanentError):
     """This machine lacks a program or library that the command needs."""
 
     exit_code = 14
@@ -130,7 +130,7 @@ class UnfitWorkerError(FarmError):
 
     def as_fault(self) -> FarmError:
         """What was wrong, as the error that it was."""
-        return error_of(self.code, str(self)) or EnvironmentMissingError(str(self))
+        return error_of(self.code, str(self)) or MachineError(str(self))
 
 
 def error_of(exit_code: int, text: str) -> FarmError | None:

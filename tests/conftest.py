@@ -15,7 +15,7 @@ from farm.run.queue.broker import connect
 from farm.spec.header import DatasetHeader
 from tests.object_store import ObjectStore, has_object_store, private_object_store
 from tests.stand_in import stand_in_header
-from worker.service.exit import leave
+from worker.service.exit import end_process
 
 BUCKET = "farm-tests"
 
@@ -30,7 +30,7 @@ def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
 def pytest_unconfigure(config: pytest.Config) -> None:
     """After the summary, leave without Blender's own exit, which may hang."""
     if "bpy" in sys.modules and exit_status in config.stash:
-        leave(config.stash[exit_status])
+        end_process(config.stash[exit_status])
 
 
 @pytest.fixture(scope="session")

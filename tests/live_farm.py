@@ -13,11 +13,11 @@ from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset, Destination, create_dataset
 from farm.local.processes import stop
 from farm.run.coordinator import Coordinator
-from farm.run.handle import redis_hints
-from farm.run.progress import Hints
+from farm.run.handle import open_handle
+from farm.run.progress import RunHandle
 from farm.run.queue.broker import connect
 from farm.run.registry.port import Priority, RunState, WorkerReport, WorkerState
-from farm.run.registry.redis import RedisBoard
+from farm.run.registry.redis import RedisRegistry
 from tests.stand_in import stand_in_header
 
 PATIENCE_S = 120.0
@@ -85,38 +85,38 @@ class LiveFarm:
         """A dataset in the store, with nothing made yet."""
         return create_dataset(Destination(str(self.store), name), stand_in_header(**quotas))
 
-    def hints(self, dataset: Dataset, priority: Priority = Priority.NORMAL) -> Hints:
+    def handle(self, dataset: Dataset, priority: Priority = Priority.NORMAL) -> RunHandle:
         """A dataset's run."""
-        return redis_hints(dataset, self.url, self.client, priority)
+        return open_handle(dataset, self.url, self.client, priority)
 
     def workers(self, state: WorkerState) -> list[WorkerReport]:
         """The reports of the workers that are in a state."""
-        return [report for report in RedisBoard(self.client).workers() if report.state is state]
+        return [report for report in RedisRegistry(self.client).workers() if report.state is state]
 
-    def submit(self, dataset: Dataset, priority: Priority = Priority.NORMAL) -> Hints:
+    def submit(self, dataset: Dataset, priority: Priority = Priority.NORMAL) -> RunHandle:
         """Put a dataset's run on the board, and what is missing into its queue."""
-        hints = self.hints(dataset, priority)
-        hints.board.replace(hints.run)
-        Coordinator(dataset, hints).submit_missing()
-        return hints
+        handle = self.handle(dataset, priority)
+        handle.registry.replace(handle.run)
+        Coordinator(dataset, handle).submit_missing()
+        return handle
 
-    def submit_without_look(self, dataset: Dataset) -> Hints:
+    def submit_without_look(self, dataset: Dataset) -> RunHandle:
         """The same of a dataset whose folder can't be looked at."""
-        hints = self.hints(dataset)
-        hints.board.replace(hints.run)
-        hints.queue.submit(hints.run, [dataset.message(job) for job in dataset.header.spec.jobs()])
-        return hints
+        handle = self.handle(dataset)
+        handle.registry.replace(handle.run)
+        handle.queue.submit(handle.run, [dataset.message(job) for job in dataset.header.spec.jobs()])
+        return handle
 
     @staticmethod
-    def want(hints: Hints, state: RunState) -> None:
+    def want(handle: RunHandle, state: RunState) -> None:
         """Say what a person wants of a run."""
-        hints.board.replace(hints.run.model_copy(update={"state": state}))
+        handle.registry.replace(handle.run.model_copy(update={"state": state}))
 
-    def cancel(self, hints: Hints) -> None:
+    def cancel(self, handle: RunHandle) -> None:
         """Cancel a run, and wait until nobody works for it."""
-        self.want(hints, RunState.CANCELLED)
-        hints.queue.clear(hints.run)
-        wait_for(lambda: not hints.ledger.claims())
+        self.want(handle, RunState.CANCELLED)
+        handle.queue.clear(handle.run)
+        wait_for(lambda: not handle.ledger.claims())
 
     def starts(self, since: int = 0) -> list[str]:
         """Every start of a job so far, in order, but for the first ones."""

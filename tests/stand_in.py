@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from farm import __version__
 from farm.dataset.manifest import RejectedAttempt, RenderSettings, SettleFigures
-from farm.errors import AssetError, EnvironmentMissingError, RenderError, SceneError
+from farm.errors import AssetError, MachineError, RenderError, SceneError
 from farm.scene.backdrop import HdriWorld
 from farm.scene.cable import Cable, CableMaterial
 from farm.scene.camera import Camera
@@ -34,7 +34,7 @@ from farm.spec.job import Job
 from farm.spec.parse import parse_spec
 from worker.cli import main
 from worker.sample.seeds import Stage, generator
-from worker.service.picture import ImageMaker, MadeImage
+from worker.service.picture import Picture, Renderer
 
 SHA = "0" * 64
 
@@ -111,10 +111,10 @@ def stand_in_pixels(job: Job, header: DatasetHeader) -> tuple[NDArray[np.uint8],
     return draw.integers(0, 256, (size, size, 3), dtype=np.uint8), instances
 
 
-class StandInMaker:
-    """Implements `worker.service.picture.ImageMaker`."""
+class StandInRenderer:
+    """Implements `worker.service.picture.Renderer`."""
 
-    def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+    def make(self, job: Job, header: DatasetHeader) -> Picture:
         """Draw noise, with one cable across."""
         _note_start(job)
         time.sleep(float(os.environ.get("STAND_IN_DELAY_S", "0")))
@@ -122,7 +122,7 @@ class StandInMaker:
         size = header.spec.resolution
         image, instances = stand_in_pixels(job, header)
         print("noise of Blender, which belongs in the log")
-        return MadeImage(
+        return Picture(
             image=image,
             mask=np.where(instances > 0, 255, 0).astype(np.uint8),
             instances=instances,
@@ -167,16 +167,16 @@ def _fail_if_told(job: Job) -> None:
         os.kill(os.getpid(), signal.SIGKILL)
 
 
-def open_stand_in(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> ImageMaker:
+def open_stand_in(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> Renderer:
     """Takes what the real one takes, and needs none of it.
 
     Raises:
-        EnvironmentMissingError: if told to.
+        MachineError: if told to.
     """
     del header, device, threads, assets
     if reason := os.environ.get("STAND_IN_UNFIT"):
-        raise EnvironmentMissingError(reason)
-    return StandInMaker()
+        raise MachineError(reason)
+    return StandInRenderer()
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ import sys
 import traceback
 
 from worker.cli import main
-from worker.service.exit import leave
+from worker.service.exit import end_process
 
 if __name__ == "__main__":
     try:
@@ -12,4 +12,4 @@ if __name__ == "__main__":
     except Exception:
         traceback.print_exc()
         exit_code = 1
-    leave(exit_code)
+    end_process(exit_code)

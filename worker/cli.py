@@ -12,23 +12,23 @@ from typing import Protocol
 from pydantic import ValidationError
 
 from assets.environments import DEFAULT_WIDTH
-from farm.errors import EnvironmentMissingError, FarmError, MessageError
+from farm.errors import FarmError, MachineError, MessageError
 from farm.run.queue.broker import broker_url
 from farm.run.queue.settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.storage import LocalStorage
-from worker.service.cores import only_so_many_seen
-from worker.service.picture import ImageMaker
+from worker.service.cores import limit_visible_cores
+from worker.service.picture import Renderer
 from worker.service.process import WorkerSettings, prepare_log, send_output_to, serve
-from worker.service.runner import MakerFactory
+from worker.service.runner import OpenRenderer
 from worker.service.upload import encode_png
 
 
-class OpenStudio(Protocol):
+class OpenBlender(Protocol):
     """Opens what makes a dataset's pictures."""
 
-    def __call__(self, header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> ImageMaker:
+    def __call__(self, header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> Renderer:
         """Open it in the calling process.
 
         Raises:
@@ -37,12 +37,12 @@ class OpenStudio(Protocol):
         ...
 
 
-def _open_blender(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> ImageMaker:
-    with only_so_many_seen(threads):
+def _open_blender(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> Renderer:
+    with limit_visible_cores(threads):
         # Importing it loads Blender, which must not be in a process that forks.
-        from worker.blender.renderer import open_studio  # noqa: PLC0415
+        from worker.blender.renderer import open_renderer  # noqa: PLC0415
 
-    return open_studio(header, device=device, threads=threads, assets=assets)
+    return open_renderer(header, device=device, threads=threads, assets=assets)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -79,27 +79,27 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def main(arguments: list[str], open_studio: OpenStudio = _open_blender) -> int:
+def main(arguments: list[str], open_renderer: OpenBlender = _open_blender) -> int:
     """Run a worker's command.
 
     Args:
         arguments: as on the command line.
-        open_studio: opens the maker; tests of the queue give a stand-in.
+        open_renderer: opens the maker; tests of the queue give a stand-in.
 
     Returns:
         The exit code.
     """
     options = _parser().parse_args(arguments)
-    open_maker = partial(open_studio, device=options.device, threads=options.threads, assets=options.assets)
+    open_renderer = partial(open_renderer, device=options.device, threads=options.threads, assets=options.assets)
     try:
         if options.command == "check":
-            return _check(options, open_maker)
+            return _check(options, open_renderer)
         if options.command == "device":
             return _device(options)
         if options.command == "environments":
             return _environments(options)
         if options.command == "preview":
-            return _preview(options, open_maker)
+            return _preview(options, open_renderer)
         settings = WorkerSettings(
             store=options.store,
             # The address may hold a password, so it comes by the environment: arguments are public.
@@ -112,15 +112,15 @@ def main(arguments: list[str], open_studio: OpenStudio = _open_blender) -> int:
             time_limit_s=options.time_limit_s,
             min_free_bytes=options.min_free_mib * 2**20,
         )
-        return serve(settings, open_maker)
+        return serve(settings, open_renderer)
     except FarmError as error:
         sys.stderr.write(f"{error}\n")
         return error.exit_code
 
 
-def _check(options: argparse.Namespace, open_maker: MakerFactory) -> int:
+def _check(options: argparse.Namespace, open_renderer: OpenRenderer) -> int:
     with _output_in(options.logs / "check.log"):
-        open_maker(_read_header())
+        open_renderer(_read_header())
     return 0
 
 
@@ -130,7 +130,7 @@ def _device(options: argparse.Namespace) -> int:
             # It loads Blender, as above.
             from blend.devices import choose_device  # noqa: PLC0415
         except ImportError as error:
-            raise EnvironmentMissingError(f"Blender does not load: {error}; try farm doctor") from error
+            raise MachineError(f"Blender does not load: {error}; try farm doctor") from error
         choose_device(options.device)
     return 0
 
@@ -143,7 +143,7 @@ def _environments(options: argparse.Namespace) -> int:
             # It loads Blender, as above.
             from blend.environments.render import render_environments  # noqa: PLC0415
         except ImportError as error:
-            raise EnvironmentMissingError(f"Blender does not load: {error}; try farm doctor") from error
+            raise MachineError(f"Blender does not load: {error}; try farm doctor") from error
         for name in render_environments(
             options.out, pixels=options.pixels, names=names, device=options.device, threads=options.threads
         ):
@@ -151,10 +151,10 @@ def _environments(options: argparse.Namespace) -> int:
     return 0
 
 
-def _preview(options: argparse.Namespace, open_maker: MakerFactory) -> int:
+def _preview(options: argparse.Namespace, open_renderer: OpenRenderer) -> int:
     header, job = _read_header(), Job.from_id(options.job)
     with _output_in(options.logs / "preview.log"):
-        made = open_maker(header).make(job, header)
+        made = open_renderer(header).make(job, header)
     # Both are encoded before the first is written, so that a failure leaves nothing.
     contents = [(options.out, encode_png(made.image))]
     if options.mask is not None:

@@ -11,7 +11,7 @@ from benchmarks.examples.groups import GROUPS, Example
 from benchmarks.examples.sheet import draw_sheet, examples_a_row
 from benchmarks.terminal import bench_console, blender_writes_to
 from farm.spec.job import Job
-from worker.blender.renderer import open_studio
+from worker.blender.renderer import open_renderer
 
 DEFAULT_EACH = 4
 
@@ -55,6 +55,6 @@ def _pictures(example: Example, each: int) -> Iterator[NDArray[np.uint8]]:
     header = example.header.model_copy(
         update={"spec": example.header.spec.model_copy(update={"resolution": RESOLUTION})}
     )
-    studio = open_studio(header, device="cpu", threads=0, assets=None)
+    renderer = open_renderer(header, device="cpu", threads=0, assets=None)
     for index in range(each):
-        yield studio.make(Job(category=example.category, index=index), header).image
+        yield renderer.make(Job(category=example.category, index=index), header).image

@@ -16,11 +16,11 @@ from farm.errors import VerificationError
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.header import DatasetHeader
-from worker.blender.renderer import open_studio
+from worker.blender.renderer import open_renderer
 from worker.camera.view import View
 from worker.label.label import label_scene
-from worker.service.picture import MadeImage
-from worker.simulate.simulate import let_fall
+from worker.service.picture import Picture
+from worker.simulate.simulate import simulate
 
 DEFAULT_IMAGES = 2
 REPEATS = 5
@@ -39,10 +39,10 @@ def run(out: Path, *, images: int | None, seed: int) -> int:
     console = bench_console()
     log_file = out / "masks.log"
     with blender_writes_to(log_file):
-        studio = open_studio(header, device="cpu", threads=0, assets=None)
+        renderer = open_renderer(header, device="cpu", threads=0, assets=None)
     for job in track(bench_jobs(count), "images", console=console, transient=True):
         with blender_writes_to(log_file):
-            made = studio.make(job, header)
+            made = renderer.make(job, header)
             agreement = compare(made.instances, render_coverage(made.scene.camera))
             label_ms = _label_again(made, job.category, header)
         width_px = _thinnest_px(made.scene, header.spec.resolution)
@@ -55,13 +55,13 @@ def run(out: Path, *, images: int | None, seed: int) -> int:
     return 0
 
 
-def _label_again(made: MadeImage, category: Category, header: DatasetHeader) -> float:
+def _label_again(made: Picture, category: Category, header: DatasetHeader) -> float:
     """Label a picture's scene again: milliseconds of CPU, the least of `REPEATS`, as other processes only ever add.
 
     Raises:
         VerificationError: if the labels are not the same.
     """
-    shapes = let_fall(made.scene, header.spec.simulator, header.spec.fall)
+    shapes = simulate(made.scene, header.spec.simulator, header.spec.fall)
     detail = header.rendering[category].settings.detail
     taken_s = []
     for _ in range(REPEATS):

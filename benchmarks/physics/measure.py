@@ -12,7 +12,7 @@ from farm.scene.scene import Scene
 from farm.spec.simulation import Simulator
 from worker.simulate.checks.measure import measure
 from worker.simulate.shapes import CableShapes
-from worker.simulate.simulate import let_fall
+from worker.simulate.simulate import simulate
 
 
 def play(setting: Setting, scenes: Sequence[Scene]) -> tuple[Played, ...]:
@@ -30,7 +30,7 @@ def warm_up(settings: Sequence[Setting], scene: Scene) -> None:
 def _play(setting: Setting, scene: Scene) -> Played:
     start = time.process_time()
     try:
-        shapes = let_fall(scene, setting.simulator, setting.fall)
+        shapes = simulate(scene, setting.simulator, setting.fall)
     except SceneError as error:
         return Played(time.process_time() - start, 0.0, 0, None, str(error))
     cpu_s = time.process_time() - start

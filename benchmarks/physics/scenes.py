@@ -10,7 +10,7 @@ from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, Template
 from farm.spec.job import Job
 from farm.spec.parse import parse_spec
 from farm.spec.styles import merge_tables
-from worker.sample.scene import draw_scene
+from worker.sample.scene import sample_scene
 
 CATEGORIES = (Category.FAR, Category.FAR_ALIGNED)
 DRAWN_CABLES = 8
@@ -50,12 +50,12 @@ def crowd(header: DatasetHeader, category: Category, index: int, cables: int) ->
         index: of the scene.
         cables: of the scene.
     """
-    scene = draw_scene(header, Job(category=category, index=index), 0)
+    scene = sample_scene(header, Job(category=category, index=index), 0)
     drawn: list[Cable] = list(scene.cables)
     further = index
     while len(drawn) < cables:
         further += _JOBS_APART
-        drawn += draw_scene(header, Job(category=category, index=further), 0).cables
+        drawn += sample_scene(header, Job(category=category, index=further), 0).cables
     lowest = drawn[0].start_height_m
     stacked = [
         cable if level < DRAWN_CABLES else cable.model_copy(update={"start_height_m": lowest + SPACING_M * level})

@@ -13,7 +13,7 @@ from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.spec.rendering import CableDetail
 from worker.label.label import label_scene
-from worker.sample.scene import draw_scene
+from worker.sample.scene import sample_scene
 from worker.simulate.rod.fall import drop_cables
 
 
@@ -29,7 +29,7 @@ def drawn_coverage(header: DatasetHeader, category: Category, scenes: int) -> It
         SceneError: if a fall diverges.
     """
     for index in range(scenes):
-        scene = draw_scene(header, Job(category=category, index=index), 0)
+        scene = sample_scene(header, Job(category=category, index=index), 0)
         shapes = drop_cables(scene, header.spec.fall.rod)
         labels = label_scene(scene, shapes, CableDetail(), header.spec.resolution)
         yield float(np.mean(labels.mask > 0))

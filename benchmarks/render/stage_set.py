@@ -16,12 +16,12 @@ from farm.spec.job import Job
 from farm.spec.rendering import PictureSettings
 from worker.backdrop.matte import Backdrop
 from worker.blender.asset_files import AssetLibrary
-from worker.blender.build_scene import realize
-from worker.blender.image_cache import ImageShelf
+from worker.blender.build_scene import build_scene
+from worker.blender.image_cache import ImageCache
 from worker.blender.render import configure_cycles, configure_picture, render_scene
-from worker.sample.scene import draw_scene
+from worker.sample.scene import sample_scene
 from worker.simulate.shapes import CableShapes
-from worker.simulate.simulate import let_fall
+from worker.simulate.simulate import simulate
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +38,8 @@ def settle(header: DatasetHeader, categories: tuple[Category, ...], count: int) 
     for index in range(count):
         for category in categories:
             job = Job(category=category, index=index)
-            scene = draw_scene(header, job, 0)
-            yield SettledScene(job, scene, let_fall(scene, header.spec.simulator, header.spec.fall))
+            scene = sample_scene(header, job, 0)
+            yield SettledScene(job, scene, simulate(scene, header.spec.simulator, header.spec.fall))
 
 
 class Stage:
@@ -49,7 +49,7 @@ class Stage:
         """Open it in this process."""
         open_template(TEMPLATE)
         self._library = AssetLibrary(header, None)
-        self._shelf = ImageShelf()
+        self._image_cache = ImageCache()
         self._resolution = resolution
         self._behind: Backdrop | None = None
         self._scene: Scene | None = None
@@ -76,11 +76,11 @@ class Stage:
         """
         resolution = resolution or self._resolution
         self._scene = settled.scene
-        self._behind = realize(
+        self._behind = build_scene(
             settled.scene,
             settled.shapes,
             self._library,
-            self._shelf,
+            self._image_cache,
             traits=settled.job.category.traits,
             resolution=resolution,
             detail=settings.detail,

@@ -18,12 +18,12 @@ from farm.spec.job import Job
 from farm.spec.rendering import Economy, PictureSettings
 from worker.blender.asset_files import AssetLibrary
 from worker.blender.floor import set_floor
-from worker.blender.image_cache import ImageShelf
-from worker.sample.scene import draw_scene
+from worker.blender.image_cache import ImageCache
+from worker.sample.scene import sample_scene
 from worker.service.upload import encode_png
 from worker.simulate.rod.fall import rods_of, surroundings_of
 from worker.simulate.rod.simulation import RodSimulation
-from worker.simulate.simulate import let_fall
+from worker.simulate.simulate import simulate
 
 Action = Callable[[], NDArray[np.uint8] | None]
 """What is timed; it returns the picture, where it makes one."""
@@ -80,7 +80,7 @@ class Skips:
 
     def __init__(self, stage: Stage, header: DatasetHeader, crowded: DatasetHeader) -> None:
         self._stage, self._header, self._crowded = stage, header, crowded
-        self._library, self._shelf = AssetLibrary(header, None), ImageShelf()
+        self._library, self._image_cache = AssetLibrary(header, None), ImageCache()
 
     def all(self) -> Iterator[Skip]:
         """Them, in the order of a picture's stages."""
@@ -121,7 +121,7 @@ class Skips:
 
     def _fall(self, scene: Scene) -> Action:
         def play() -> None:
-            let_fall(scene, self._header.spec.simulator, self._header.spec.fall)
+            simulate(scene, self._header.spec.simulator, self._header.spec.fall)
 
         return play
 
@@ -135,12 +135,12 @@ class Skips:
 
     def _floor(self, settled: SettledScene, skipped: bool) -> Action:
         job = Job(category=FLOORS[0], index=settled.job.index)
-        floor = draw_scene(self._header, job, 0).floor
+        floor = sample_scene(self._header, job, 0).floor
 
         def make() -> NDArray[np.uint8]:
             self._stage.set(settled, self._settings(settled))
             if not skipped and floor is not None:
-                set_floor(floor, self._library.surface(floor.texture), self._shelf, None)
+                set_floor(floor, self._library.surface(floor.texture), self._image_cache, None)
                 bpy.data.objects[names.FLOOR].visible_camera = False
             return self._stage.render()
 
@@ -152,8 +152,8 @@ class Skips:
         def make() -> NDArray[np.uint8]:
             self._stage.set(settled, self._settings(settled))
             if not skipped:
-                self._shelf.forget()
-                image = self._shelf.panorama(self._library.hdri(hdri))
+                self._image_cache.forget()
+                image = self._image_cache.panorama(self._library.hdri(hdri))
                 bpy.data.worlds[names.WORLD].node_tree.nodes[names.WORLD_IMAGE].image = image
             return self._stage.render()
 

@@ -16,7 +16,7 @@ from farm.errors import VerificationError
 from farm.local.redis_server import PrivateRedis
 from farm.local.workers import LocalWorkers, WorkerOptions
 from farm.run.coordinator import Coordinator
-from farm.run.handle import redis_hints
+from farm.run.handle import open_handle
 from farm.run.progress import Progress
 from farm.run.queue.broker import connect
 from farm.spec.make_header import Inputs, make_header
@@ -54,7 +54,7 @@ def run(out: Path, *, seed: int, images: int, quality: str, resolution: int) -> 
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="cable-farm-")))
         server = stack.enter_context(PrivateRedis())
         dataset = create_dataset(Destination(str(folder), "soak"), header)
-        coordinator = Coordinator(dataset, redis_hints(dataset, server.url, connect(server.url)))
+        coordinator = Coordinator(dataset, open_handle(dataset, server.url, connect(server.url)))
         coordinator.submit_missing()
         workers = [
             stack.enter_context(LocalWorkers(1, _options(name, after, folder, out, server.url), name=name))

@@ -28,14 +28,14 @@ def main(spawned_s: float, result: str) -> None:
     header, job = watch.read_task(sys.stdin.read())
     pause_s = time.perf_counter() - marks[-1]
     with watch.asset_checks() as assets:
-        studio = worker.blender.renderer.open_studio(header, device="auto", threads=0, assets=None)
+        renderer = worker.blender.renderer.open_renderer(header, device="auto", threads=0, assets=None)
         marks.append(time.perf_counter())
-        pictures = [watch.make(studio, job, header, assets) for _ in range(2)]
+        pictures = [watch.make(renderer, job, header, assets) for _ in range(2)]
     watch.write(result, marks, pause_s, pictures)
 
 
 if __name__ == "__main__":
     main(float(sys.argv[1]), sys.argv[2])
-    from worker.service.exit import leave
+    from worker.service.exit import end_process
 
-    leave(0)
+    end_process(0)

@@ -14,7 +14,7 @@ from numba.core.dispatcher import Dispatcher
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from worker.blender.asset_files import AssetLibrary, SurfaceFiles
-from worker.service.picture import ImageMaker
+from worker.service.picture import Renderer
 
 Seconds = dict[str, float]
 
@@ -51,11 +51,11 @@ def asset_checks() -> Iterator[Seconds]:
         yield seconds
 
 
-def make(maker: ImageMaker, job: Job, header: DatasetHeader, assets: Seconds) -> Mapping[str, object]:
+def make(renderer: Renderer, job: Job, header: DatasetHeader, assets: Seconds) -> Mapping[str, object]:
     """Make a picture; its seconds by stage, `all` of them together, and a checksum of what was made."""
     assets["assets"] = 0.0
     start = time.perf_counter()
-    made = maker.make(job, header)
+    made = renderer.make(job, header)
     all_s = time.perf_counter() - start
     stages = {stage: seconds for stage, seconds in made.timings_s.items() if stage != "open"}
     stages["realize"] -= assets["assets"]
@@ -74,10 +74,10 @@ def write(result: str, marks: Sequence[float], pause_s: float, pictures: Sequenc
         pause_s: of the time between the last two, what the measurement itself took.
         pictures: as made.
     """
-    spawned, begun, farm, studio, opened = marks
+    spawned, begun, farm, renderer, opened = marks
     content = {
-        "steps": {"interpreter": begun - spawned, "main": farm - begun, "child": studio - farm},
-        "open_s": opened - studio - pause_s,
+        "steps": {"interpreter": begun - spawned, "main": farm - begun, "child": renderer - farm},
+        "open_s": opened - renderer - pause_s,
         "pictures": pictures,
         "compiled": _compiled_now(),
     }

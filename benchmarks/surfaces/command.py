@@ -112,18 +112,18 @@ def _measure(stage: Stage, settled: Sequence[SettledScene], name: str, plain: st
     cost, settings = SurfaceCost(name, (), (), (), ()), settings_for(Preset.STANDARD, CATEGORY).settings
     for scene in settled:
         render: dict[str, list[float]] = {name: [], plain: []}
-        realize: dict[str, list[float]] = {name: [], plain: []}
+        build_scene: dict[str, list[float]] = {name: [], plain: []}
         for _ in range(repeats):
             for texture in (name, plain):
                 shown = _with_floor(scene, texture=texture)
-                realize[texture].append(_cpu_s(partial(stage.set, shown, settings)))
+                build_scene[texture].append(_cpu_s(partial(stage.set, shown, settings)))
                 render[texture].append(_cpu_s(stage.render))
         cost = replace(
             cost,
             render_s=(*cost.render_s, min(render[name])),
             plain_render_s=(*cost.plain_render_s, min(render[plain])),
-            realize_s=(*cost.realize_s, min(realize[name])),
-            plain_realize_s=(*cost.plain_realize_s, min(realize[plain])),
+            realize_s=(*cost.realize_s, min(build_scene[name])),
+            plain_realize_s=(*cost.plain_realize_s, min(build_scene[plain])),
         )
     return cost
 

@@ -15,7 +15,7 @@ from benchmarks.training.outcome import Lesson
 from benchmarks.training.plan import Plan, read_sets
 from benchmarks.training.plot import write_plot
 from benchmarks.training.report import lessons_table, write_json
-from farm.errors import EnvironmentMissingError
+from farm.errors import MachineError
 
 _WEIGHTS_STREAM, _ORDER_STREAM = 0, 1
 """Of the seed: the initial weights, and the order of the pictures with their augmentation."""
@@ -30,12 +30,12 @@ def run(out: Path, plan: Plan) -> int:
 
     Raises:
         SpecError: if the plan can't be carried out.
-        EnvironmentMissingError: if PyTorch is missing.
+        MachineError: if PyTorch is missing.
         FarmError: if a dataset can't be made or read.
     """
     plan.check()
     if find_spec("torch") is None:
-        raise EnvironmentMissingError("PyTorch is missing; pip install 'cable-farm[train]', or make bench-training")
+        raise MachineError("PyTorch is missing; pip install 'cable-farm[train]', or make bench-training")
     console = bench_console()
     with console.status("pictures") as status:
         train_sets, test_sets = read_sets(plan, out / "pictures", status.update)

@@ -19,9 +19,9 @@ from farm.spec.category import Category
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from worker.label.label import label_scene
-from worker.sample.scene import draw_scene
+from worker.sample.scene import sample_scene
 from worker.simulate.checks.measure import measure
-from worker.simulate.simulate import let_fall
+from worker.simulate.simulate import simulate
 
 
 class Axis(StrEnum):
@@ -101,9 +101,9 @@ def points(plan: Plan) -> Iterator[tuple[Axis, int]]:
 
 def _settle(header: DatasetHeader, job: Job, cables: int | None, watch: Stopwatch) -> SettledScene:
     with watch.stage("randomize"):
-        scene = draw_scene(header, job, 0) if cables is None else crowd(header, job.category, job.index, cables)
+        scene = sample_scene(header, job, 0) if cables is None else crowd(header, job.category, job.index, cables)
     with watch.stage("simulate"):
-        shapes = let_fall(scene, header.spec.simulator, header.spec.fall)
+        shapes = simulate(scene, header.spec.simulator, header.spec.fall)
     with watch.stage("check"):
         measure(shapes)
     return SettledScene(job, scene, shapes)

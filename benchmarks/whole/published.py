@@ -19,8 +19,8 @@ from farm.spec.job import Job
 from farm.spec.simulation import Simulator
 from worker.blender.render import render_picture
 from worker.label.label import label_scene
-from worker.sample.scene import draw_scene
-from worker.simulate.simulate import let_fall
+from worker.sample.scene import sample_scene
+from worker.simulate.simulate import simulate
 
 LEAST_AGREEMENT = 0.9
 """Share of the pixels, of the rendered mask and of the cables' insides, that must be in the other within two pixels."""
@@ -61,10 +61,10 @@ def _settle(header: DatasetHeader, job: Job, watch: Stopwatch) -> SettledScene:
     fault = ""
     for attempt in range(header.spec.fall.max_attempts):
         with watch.stage("randomize"):
-            scene = draw_scene(header, job, attempt)
+            scene = sample_scene(header, job, attempt)
         try:
             with watch.stage("simulate"):
-                return SettledScene(job, scene, let_fall(scene, Simulator.CLOTH_PUBLISHED, header.spec.fall))
+                return SettledScene(job, scene, simulate(scene, Simulator.CLOTH_PUBLISHED, header.spec.fall))
         except SceneError as error:
             fault = str(error)
     raise SceneError(f"{job.id}: the published set-up diverged in every drawn scene; the last: {fault}")

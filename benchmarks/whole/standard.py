@@ -19,9 +19,9 @@ from farm.dataset.paths import FileRole, file_path, manifest_path
 from farm.dataset.verify import verify
 from farm.errors import VerificationError
 from farm.spec.job import Job
-from worker.blender.renderer import open_studio
+from worker.blender.renderer import open_renderer
 from worker.service.upload import upload
-from worker.simulate.simulate import let_fall
+from worker.simulate.simulate import simulate
 
 _BYTES_PER_UNIT = 1 if sys.platform == "darwin" else 1024
 """Of the kernel's peak memory."""
@@ -55,12 +55,12 @@ def make_standard(dataset: Dataset, jobs: Sequence[Job], on_image: Callable[[], 
         FarmError: if an image can't be made.
     """
     start = time.perf_counter()
-    studio = open_studio(dataset.header, device="cpu", threads=0, assets=None)
+    renderer = open_renderer(dataset.header, device="cpu", threads=0, assets=None)
     open_s = time.perf_counter() - start
-    studio.make(Job(category=jobs[0].category, index=_WARM_UP), dataset.header)
+    renderer.make(Job(category=jobs[0].category, index=_WARM_UP), dataset.header)
     shots = []
     for job in jobs:
-        timings = upload(studio.make(job, dataset.header), job, dataset).timings_s
+        timings = upload(renderer.make(job, dataset.header), job, dataset).timings_s
         shots.append(Shot(job, {stage: timings.get(stage, 0.0) for stage in STAGES}))
         on_image()
     peak_mib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * _BYTES_PER_UNIT / 2**20
@@ -80,7 +80,7 @@ def settled_again(dataset: Dataset, job: Job) -> SettledScene:
     if manifest is None:
         raise VerificationError(f"{job.id}: its manifest is not readable")
     spec = dataset.header.spec
-    return SettledScene(job, manifest.scene, let_fall(manifest.scene, spec.simulator, spec.fall))
+    return SettledScene(job, manifest.scene, simulate(manifest.scene, spec.simulator, spec.fall))
 
 
 def written_picture(dataset: Dataset, job: Job) -> NDArray[np.uint8]:

@@ -65,7 +65,7 @@ def render_environments(
 
     Raises:
         AssetError: A name is unknown, `pixels` is out of range, or the folder can't be written.
-        EnvironmentMissingError: There is no such device.
+        MachineError: There is no such device.
         RenderError: Blender gives no picture, or one that can't be used.
     """
     if not SMALLEST_WIDTH <= pixels <= LARGEST_WIDTH or pixels % 2:
@@ -84,7 +84,7 @@ def render_panorama(recipe: EnvironmentRecipe, pixels: int, device: str, threads
         (pixels / 2, pixels, 3) linear light, red first, the zenith first; its scale is arbitrary.
 
     Raises:
-        EnvironmentMissingError: There is no such device.
+        MachineError: There is no such device.
         RenderError: Blender gives no picture.
     """
     scene = build_environment(recipe).scene

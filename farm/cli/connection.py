@@ -2,30 +2,30 @@
 
 from farm.dataset.dataset import Dataset
 from farm.errors import BrokerError
-from farm.run.handle import redis_hints
-from farm.run.progress import Hints
+from farm.run.handle import open_handle
+from farm.run.progress import RunHandle
 from farm.run.queue.broker import broker_url, connect
 from farm.run.registry.port import Priority
 
 
-def hints_of(dataset: Dataset, broker: str | None, priority: Priority | None = None) -> Hints:
+def handle_of(dataset: Dataset, broker: str | None, priority: Priority | None = None) -> RunHandle:
     """The dataset's run.
 
     Raises:
         BrokerError: if Redis is not there.
     """
     url = broker_url(broker)
-    return redis_hints(dataset, url, connect(url), priority)
+    return open_handle(dataset, url, connect(url), priority)
 
 
-def hints_if_reachable(dataset: Dataset, broker: str | None) -> Hints | None:
+def handle_if_reachable(dataset: Dataset, broker: str | None) -> RunHandle | None:
     """The dataset's run; None where Redis is not there and none was asked for.
 
     Raises:
         BrokerError: if the Redis that was asked for is not there.
     """
     try:
-        return hints_of(dataset, broker)
+        return handle_of(dataset, broker)
     except BrokerError:
         if broker is not None:
             raise

@@ -17,7 +17,7 @@ from assets.surfaces.baked import load_baked, surface_directory
 from assets.surfaces.catalogue import SURFACES
 from farm.cli.display import console
 from farm.cli.options import AsJson
-from farm.errors import AssetError, EnvironmentMissingError
+from farm.errors import AssetError, MachineError
 from farm.local.redis_server import find_redis_server
 from farm.machine import memory_bytes, usable_cores
 from farm.model import Model
@@ -38,7 +38,7 @@ def doctor(as_json: AsJson = False) -> None:
                 screen.print(f"         -> {escape(check.remedy)}")
     missing = [check.name for check in checks if check.needed and not check.ok]
     if missing:
-        raise EnvironmentMissingError(f"this machine can't render yet; it lacks {', '.join(missing)}")
+        raise MachineError(f"this machine can't render yet; it lacks {', '.join(missing)}")
 
 
 _MEMORY_GIB = 4.0

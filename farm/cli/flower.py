@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from farm.cli.options import Broker
-from farm.errors import EnvironmentMissingError, SpecError
+from farm.errors import MachineError, SpecError
 from farm.run.queue.broker import broker_url, connect
 
 _PASSWORD_VARIABLE = "FLOWER_BASIC_AUTH"  # noqa: S105 - a name, no password
@@ -26,7 +26,7 @@ def flower(
     """
     _check_password(address)
     if importlib.util.find_spec("flower") is None:
-        raise EnvironmentMissingError("Flower is not installed; run: pip install 'cable-farm[flower]'")
+        raise MachineError("Flower is not installed; run: pip install 'cable-farm[flower]'")
     url = broker_url(broker)
     connect(url).close()
     command = [sys.executable, "-P", "-m", "celery", "flower", f"--address={address}", f"--port={port}"]

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from farm.cli.connection import hints_if_reachable, hints_of
+from farm.cli.connection import handle_if_reachable, handle_of
 from farm.cli.options import Broker, DatasetPlace
 from farm.dataset.dataset import Dataset, open_dataset, parse_destination
 from farm.dataset.paths import manifest_path
@@ -13,7 +13,7 @@ from farm.dataset.quarantine import Quarantine
 from farm.dataset.verify import damaged_jobs
 from farm.errors import SpecError
 from farm.run.coordinator import Coordinator
-from farm.run.progress import Hints
+from farm.run.progress import RunHandle
 from farm.run.registry.port import RunState
 from farm.spec.job import Job
 
@@ -27,12 +27,12 @@ def repair(
 ) -> None:
     """Compare folder and queue once, and queue every image that is neither done nor on its way."""
     dataset = open_dataset(parse_destination(place))
-    hints = hints_of(dataset, broker)
+    handle = handle_of(dataset, broker)
     damaged = list(damaged_jobs(dataset)) if checksums else []
     for job in damaged:
         dataset.storage.remove(manifest_path(job))
-    count = Coordinator(dataset, hints).submit_missing()
-    _tell_if_paused(hints)
+    count = Coordinator(dataset, handle).submit_missing()
+    _tell_if_paused(handle)
     found = f", {len(damaged)} of them damaged" if damaged else ""
     typer.echo(f"{count} of {dataset.header.spec.total} images queued for {place}{found}")
 
@@ -44,23 +44,23 @@ def retry(
 ) -> None:
     """Put images that were given up back: into the queue if Redis is there, else for the next farm run."""
     dataset = open_dataset(parse_destination(place))
-    hints = hints_if_reachable(dataset, broker)
+    handle = handle_if_reachable(dataset, broker)
     quarantine = Quarantine(dataset)
     released = _chosen(dataset, quarantine.look(), jobs or [])
-    if hints is not None:
+    if handle is not None:
         # First, or a job whose attempts are used up would be given up again at once.
-        hints.ledger.forgive(released)
+        handle.ledger.forgive(released)
     quarantine.release(released)
-    if hints is None:
+    if handle is None:
         typer.echo(f"{len(released)} images put back; farm run or farm submit makes them")
         return
-    count = Coordinator(dataset, hints).submit_missing()
+    count = Coordinator(dataset, handle).submit_missing()
     typer.echo(f"{len(released)} images put back; {count} queued for {place}")
-    _tell_if_paused(hints)
+    _tell_if_paused(handle)
 
 
-def _tell_if_paused(hints: Hints) -> None:
-    run = hints.board.runs().get(hints.run.key)
+def _tell_if_paused(handle: RunHandle) -> None:
+    run = handle.registry.runs().get(handle.run.key)
     if run is not None and run.state is RunState.PAUSED:
         typer.echo("the run is paused; farm resume lets it go on", err=True)
 

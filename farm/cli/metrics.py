@@ -12,11 +12,11 @@ import typer
 
 from farm.cli.options import Broker
 from farm.dataset.dataset import Dataset, Destination, open_dataset, parse_destination
-from farm.errors import ConflictError, DestinationError, EnvironmentMissingError, SpecError
-from farm.run.handle import redis_hints
-from farm.run.progress import Hints
+from farm.errors import ConflictError, DestinationError, MachineError, SpecError
+from farm.run.handle import open_handle
+from farm.run.progress import RunHandle
 from farm.run.queue.broker import broker_url, connect
-from farm.run.registry.redis import RedisBoard
+from farm.run.registry.redis import RedisRegistry
 
 
 def metrics(
@@ -35,7 +35,7 @@ def metrics(
 ) -> None:
     """Serve images by category and state, seconds a stage, retries, queue and workers to Prometheus."""
     if importlib.util.find_spec("prometheus_client") is None:
-        raise EnvironmentMissingError("prometheus_client is not installed; run: pip install 'cable-farm[metrics]'")
+        raise MachineError("prometheus_client is not installed; run: pip install 'cable-farm[metrics]'")
     # Not every machine of a farm has it.
     from prometheus_client import CollectorRegistry, start_http_server  # noqa: PLC0415
 
@@ -47,7 +47,7 @@ def metrics(
     client = connect(url)
     found = _Datasets(url, client, [open_dataset(parse_destination(place)) for place in places or ()], store)
     registry = CollectorRegistry(auto_describe=False)
-    registry.register(FarmCollector(found.find, RedisBoard(client)))
+    registry.register(FarmCollector(found.find, RedisRegistry(client)))
     try:
         server, thread = start_http_server(port, address, registry)
     except OSError as error:
@@ -74,19 +74,19 @@ class _Datasets:
         self._store = store
         self._named = named
         self._lock = threading.Lock()
-        self._found: dict[str, tuple[Dataset, Hints]] = {}
+        self._found: dict[str, tuple[Dataset, RunHandle]] = {}
 
-    def find(self) -> list[tuple[Dataset, Hints]]:
+    def find(self) -> list[tuple[Dataset, RunHandle]]:
         """All of them; raises BrokerError."""
         with self._lock:  # each scrape has a thread of its own
             return self._look()
 
-    def _look(self) -> list[tuple[Dataset, Hints]]:
+    def _look(self) -> list[tuple[Dataset, RunHandle]]:
         while self._named:
             self._add(self._named[-1])
             self._named.pop()
-        known = {hints.run.key for _, hints in self._found.values()}
-        for run in RedisBoard(self._client).runs().values() if self._store is not None else ():
+        known = {handle.run.key for _, handle in self._found.values()}
+        for run in RedisRegistry(self._client).runs().values() if self._store is not None else ():
             if run.key not in known:
                 # A dataset of another store is another's to show.
                 with suppress(DestinationError, ConflictError):
@@ -96,6 +96,6 @@ class _Datasets:
         return list(self._found.values())
 
     def _add(self, dataset: Dataset) -> None:
-        hints = redis_hints(dataset, self._url, self._client)
+        handle = open_handle(dataset, self._url, self._client)
         # Another that took its place takes its name, too.
-        self._found[dataset.storage.location] = (dataset, hints)
+        self._found[dataset.storage.location] = (dataset, handle)

@@ -2,7 +2,7 @@
 
 import typer
 
-from farm.cli.connection import hints_if_reachable, hints_of
+from farm.cli.connection import handle_if_reachable, handle_of
 from farm.cli.display import ProgressDisplay, console, duration, table
 from farm.cli.options import AsJson, Broker, DatasetPlace
 from farm.dataset.completion import Completion
@@ -11,7 +11,7 @@ from farm.dataset.quarantine import Quarantine
 from farm.dataset.report import write_overview
 from farm.errors import IncompleteError
 from farm.run.coordinator import Coordinator
-from farm.run.progress import Progress, on_disk, with_hints
+from farm.run.progress import Progress, on_disk, with_handle
 from farm.run.queue.broker import broker_url, masked
 from farm.run.registry.port import RunState, WorkerReport
 
@@ -19,20 +19,20 @@ from farm.run.registry.port import RunState, WorkerReport
 def status(place: DatasetPlace, broker: Broker = None, as_json: AsJson = False) -> None:
     """Tell how far a dataset is, from its folder; with Redis also the rate, what runs, and the workers."""
     dataset = open_dataset(parse_destination(place))
-    hints = hints_if_reachable(dataset, broker)
+    handle = handle_if_reachable(dataset, broker)
     progress = on_disk(dataset, Completion(dataset).audit(), Quarantine(dataset).look())
-    if hints is not None:
-        progress = with_hints(progress, hints)
+    if handle is not None:
+        progress = with_handle(progress, handle)
         if progress.ended:
             # Nobody may have watched to the end.
-            hints.board.remove(hints.run.key)
+            handle.registry.remove(handle.run.key)
     if as_json:
         typer.echo(progress.model_dump_json(indent=1))
         return
     screen = console(results=True)
     screen.print(progress.location, markup=False)
     screen.print(table(progress))
-    for line in _lines(progress, broker_is_there=hints is not None):
+    for line in _lines(progress, broker_is_there=handle is not None):
         screen.print(line, markup=False)
 
 
@@ -60,7 +60,7 @@ def _worker(report: WorkerReport) -> str:
 def watch(place: DatasetPlace, broker: Broker = None) -> None:
     """See a dataset through until it is done: what is missing is queued, and again what is lost on the way."""
     dataset = open_dataset(parse_destination(place))
-    watch_to_the_end(dataset, Coordinator(dataset, hints_of(dataset, broker)))
+    watch_to_the_end(dataset, Coordinator(dataset, handle_of(dataset, broker)))
 
 
 def watch_to_the_end(dataset: Dataset, coordinator: Coordinator) -> None:

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from farm.cli.connection import hints_of
+from farm.cli.connection import handle_of
 from farm.cli.display import console
 from farm.cli.installed_assets import InstalledAssets
 from farm.cli.options import Broker, DatasetOptions, Logs, Out, log_folder, takes_dataset_options
@@ -36,10 +36,10 @@ def submit(
     if description.inputs.template is not None and blender_is_installed():
         ask_worker(["check"], header, log_folder(logs))
     dataset = create_dataset(destination, header)
-    hints = hints_of(dataset, broker, priority)
+    handle = handle_of(dataset, broker, priority)
     # A run that was paused or cancelled goes on when it is submitted again.
-    hints.board.replace(hints.run)
-    coordinator = Coordinator(dataset, hints)
+    handle.registry.replace(handle.run)
+    coordinator = Coordinator(dataset, handle)
     screen = console()
     with screen.status("queueing") as status:
         count = coordinator.submit_missing(lambda so_far: status.update(f"queueing: {so_far}"))

@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from farm.errors import EnvironmentMissingError, RenderError, error_of
+from farm.errors import MachineError, RenderError, error_of
 from farm.local.workers import WORKER_COMMAND
 from farm.run.queue.broker import BROKER_VARIABLE
 from farm.spec.header import DatasetHeader
@@ -24,10 +24,10 @@ def require_blender() -> None:
     """Make sure that Blender's Python module is installed.
 
     Raises:
-        EnvironmentMissingError: if it is not.
+        MachineError: if it is not.
     """
     if not blender_is_installed():
-        raise EnvironmentMissingError("Blender (bpy) is not installed; run: pip install 'cable-farm[worker]'")
+        raise MachineError("Blender (bpy) is not installed; run: pip install 'cable-farm[worker]'")
 
 
 def become_worker(arguments: Sequence[str], broker_url: str) -> None:
@@ -43,7 +43,7 @@ def check_device(device: str, logs: Path) -> None:
     """Make sure that Blender loads here and has the device; in a process of its own.
 
     Raises:
-        EnvironmentMissingError: if not.
+        MachineError: if not.
         DestinationError: if the log folder can't be written.
     """
     ask_worker(["device", "--device", device], None, logs)

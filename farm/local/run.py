@@ -10,7 +10,7 @@ from farm.local.workers import WORKER_COMMAND, LocalWorkers, WorkerOptions
 from farm.machine import memory_bytes, usable_cores
 from farm.run.coordinator import Coordinator
 from farm.run.feeder import LOST_AFTER_S
-from farm.run.handle import redis_hints
+from farm.run.handle import open_handle
 from farm.run.progress import Progress
 from farm.run.queue.broker import connect
 from farm.run.queue.settings import MIN_FREE_MIB
@@ -61,15 +61,15 @@ def run_locally(
     Raises:
         ConflictError: if the place holds something else.
         DestinationError: if it can't be written.
-        EnvironmentMissingError: if this machine lacks what is needed.
+        MachineError: if this machine lacks what is needed.
         FarmError: another fault of this machine, which its workers found.
         IncompleteError: if images were given up.
     """
     with PrivateRedis() as server:
         url = server.url
         dataset = create_dataset(destination, header)
-        hints = redis_hints(dataset, url, connect(url))
-        coordinator = Coordinator(dataset, hints, lost_after_s=how.lost_after_s, poll_s=0.5)
+        handle = open_handle(dataset, url, connect(url))
+        coordinator = Coordinator(dataset, handle, lost_after_s=how.lost_after_s, poll_s=0.5)
         if coordinator.submit_missing() == 0 and (complete := coordinator.end_if_complete(on_progress)):
             return complete
         options = WorkerOptions(

@@ -10,7 +10,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from farm.errors import BrokerError, DestinationError, EnvironmentMissingError, error_of
+from farm.errors import BrokerError, DestinationError, MachineError, error_of
 from farm.local.processes import stop
 from farm.local.tied import tied
 from farm.run.queue.broker import BROKER_VARIABLE
@@ -130,7 +130,7 @@ class LocalWorkers:
 
         Raises:
             FarmError: that with which a worker ended itself, as another would do the same on this machine.
-            EnvironmentMissingError: if a worker keeps ending soon after its start.
+            MachineError: if a worker keeps ending soon after its start.
         """
         for worker in self._running:
             code = worker.process.poll()
@@ -144,7 +144,7 @@ class LocalWorkers:
             # A signal is somebody's doing, an exit its own.
             worker.soon_deaths = worker.soon_deaths + 1 if soon and code >= 0 else 0
             if worker.soon_deaths >= _SOON_TIMES:
-                raise EnvironmentMissingError(
+                raise MachineError(
                     f"worker {worker.name} ended {_SOON_TIMES} times right after its start (exit code {code}): "
                     f"{self._last_line(worker.name)}; its log is {self.log_of(worker.name)}; try farm doctor"
                 )

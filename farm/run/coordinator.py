@@ -13,7 +13,7 @@ from farm.errors import BrokerError, DatasetMissingError, DestinationError, Inco
 from farm.run.feeder import LOST_AFTER_S, WINDOW, Feeder
 from farm.run.ledger.owner import is_gone, this_process
 from farm.run.ledger.port import MAX_ABSENCES
-from farm.run.progress import Hints, Progress, on_disk, with_hints
+from farm.run.progress import Progress, RunHandle, on_disk, with_handle
 from farm.run.registry.port import RunState
 from farm.spec.job import Job
 from farm.spec.job_set import JobSet
@@ -47,18 +47,18 @@ class Coordinator:
     def __init__(
         self,
         dataset: Dataset,
-        hints: Hints,
+        handle: RunHandle,
         *,
         poll_s: float = 1.0,
         lost_after_s: float = LOST_AFTER_S,
         window: int = WINDOW,
     ) -> None:
         self._dataset = dataset
-        self._hints = hints
+        self._handle = handle
         self._poll_s = poll_s
         self._completion = Completion(dataset)
         self._quarantine = Quarantine(dataset)
-        self._feeder = Feeder(dataset, hints, window=window, lost_after_s=lost_after_s)
+        self._feeder = Feeder(dataset, handle, window=window, lost_after_s=lost_after_s)
         self._quarantined: Mapping[str, str] = {}
         self._leads = False
         self._audited_s = float("-inf")
@@ -84,9 +84,9 @@ class Coordinator:
         undone = self._undone()
         if len(undone):
             self._follow_notice()
-            self._hints.ledger.forgive([])
+            self._handle.ledger.forgive([])
         else:
-            self._hints.board.remove(self._hints.run.key)
+            self._handle.registry.remove(self._handle.run.key)
         self._feeder.survey()
         return self._feeder.feed(undone, on_submitted)
 
@@ -147,7 +147,7 @@ class Coordinator:
                 time.sleep(max(self._poll_s, min(_LONGEST_REST_S, _REST * took_s)))
         finally:
             with suppress(BrokerError):
-                self._hints.ledger.resign(this_process())
+                self._handle.ledger.resign(this_process())
 
     def end_if_complete(self, on_progress: Callable[[Progress], None] = lambda _: None) -> Progress | None:
         """Look once, and queue nothing.
@@ -179,7 +179,7 @@ class Coordinator:
         try:
             if trouble is None and mend and not progress.ended:
                 self._tend()
-            progress = with_hints(progress, self._hints)
+            progress = with_handle(progress, self._handle)
         except BrokerError as error:
             # Redis may come back empty: then nothing that was on its way is.
             self._leads = False
@@ -195,9 +195,9 @@ class Coordinator:
 
     def _tend(self) -> None:
         self._follow_notice()
-        if self._hints.run.state is RunState.PAUSED or not self._take_the_lead():
+        if self._handle.run.state is RunState.PAUSED or not self._take_the_lead():
             return
-        if self._hints.ledger.absences() > MAX_ABSENCES:
+        if self._handle.ledger.absences() > MAX_ABSENCES:
             raise DatasetMissingError(
                 f"{self._dataset.storage.location}: {MAX_ABSENCES} workers in a row found no such dataset in their "
                 "store; give them the --store that holds it, then submit it again"
@@ -208,18 +208,18 @@ class Coordinator:
 
     def _follow_notice(self) -> None:
         """Put the run's notice up, as it was last seen: a Redis that lost its memory does not undo a pause."""
-        run = self._hints.board.register(self._hints.run)
-        self._hints = replace(self._hints, run=run)
+        run = self._handle.registry.register(self._handle.run)
+        self._handle = replace(self._handle, run=run)
         self._feeder.follow(run)
         if run.state is RunState.CANCELLED:
             # What a coordinator was about to queue when it was cancelled goes, too.
-            self._hints.queue.clear(run)
+            self._handle.queue.clear(run)
             raise RunCancelledError(
                 f"{self._dataset.storage.location}: cancelled by farm cancel; submit it again to go on"
             )
 
     def _take_the_lead(self) -> bool:
-        ledger, me = self._hints.ledger, this_process()
+        ledger, me = self._handle.ledger, this_process()
         leader = ledger.leader()
         if leader is not None and leader != me and is_gone(leader):
             ledger.resign(leader)
@@ -241,8 +241,8 @@ class Coordinator:
 
     def _end(self, progress: Progress) -> Progress:
         with suppress(BrokerError):
-            self._hints.board.remove(self._hints.run.key)
-            self._hints.queue.clear(self._hints.run)
+            self._handle.registry.remove(self._handle.run.key)
+            self._handle.queue.clear(self._handle.run)
         if progress.quarantined:
             raise IncompleteError(_reasons(progress))
         return progress

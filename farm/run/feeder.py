@@ -8,7 +8,7 @@ from dataclasses import replace
 from farm.dataset.dataset import Dataset
 from farm.errors import MessageError
 from farm.run.ledger.owner import live_claims
-from farm.run.progress import Hints
+from farm.run.progress import RunHandle
 from farm.run.registry.port import Run
 from farm.spec.job import Job
 from farm.spec.job_set import JobSet
@@ -32,10 +32,10 @@ class Feeder:
     """
 
     def __init__(
-        self, dataset: Dataset, hints: Hints, *, window: int = WINDOW, lost_after_s: float = LOST_AFTER_S
+        self, dataset: Dataset, handle: RunHandle, *, window: int = WINDOW, lost_after_s: float = LOST_AFTER_S
     ) -> None:
         self._dataset = dataset
-        self._hints = hints
+        self._handle = handle
         self._window = window
         self._lost_after_s = lost_after_s
         self._on_the_way = self._none()
@@ -56,13 +56,13 @@ class Feeder:
 
     def _waiting(self) -> JobSet:
         found = self._none()
-        for job in self._hints.queue.queued(self._hints.run):
+        for job in self._handle.queue.queued(self._handle.run):
             found.add(job)
         return found
 
     def _claimed(self) -> JobSet:
         found = self._none()
-        for job_id in live_claims(self._hints.ledger):
+        for job_id in live_claims(self._handle.ledger):
             # What is no job's id was not written by this farm.
             try:
                 found.add(Job.from_id(job_id))
@@ -72,11 +72,11 @@ class Feeder:
 
     def follow(self, run: Run) -> None:
         """Take up a changed notice: a new priority, for what is queued from now on."""
-        self._hints = replace(self._hints, run=run)
+        self._handle = replace(self._handle, run=run)
 
     def top_up(self, undone: JobSet) -> int:
         """As `feed`, once the queue is half empty: a full one is not measured out at every look."""
-        if self._hints.queue.length(self._hints.run) > self._window // 2:
+        if self._handle.queue.length(self._handle.run) > self._window // 2:
             return 0
         return self.feed(undone)
 
@@ -93,10 +93,10 @@ class Feeder:
         Raises:
             BrokerError: if Redis goes away; what was queued before is counted as not on its way.
         """
-        waiting = self._hints.queue.length(self._hints.run)
+        waiting = self._handle.queue.length(self._handle.run)
         jobs = list(itertools.islice(undone - self._on_the_way, max(0, self._window - waiting)))
         messages = (self._dataset.message(job) for job in _counted(jobs, on_submitted))
-        count = self._hints.queue.submit(self._hints.run, messages) if jobs else 0
+        count = self._handle.queue.submit(self._handle.run, messages) if jobs else 0
         for job in jobs:
             self._on_the_way.add(job)
         return count
@@ -124,7 +124,7 @@ class Feeder:
         outstanding = undone & self._on_the_way
         # A queue at least as long as what is expected in it is not searched: duplicates hide a loss only until they
         # are taken. What is claimed is expected elsewhere.
-        waiting = self._hints.queue.length(self._hints.run)
+        waiting = self._handle.queue.length(self._handle.run)
         if len(outstanding - self._claimed()) <= waiting:
             return self._none()
         return outstanding - self._waiting() - self._claimed()

@@ -4,11 +4,11 @@ import redis
 
 from farm.dataset.dataset import Dataset
 from farm.run.ledger.redis import RedisLedger
-from farm.run.progress import Hints
+from farm.run.progress import RunHandle
 from farm.run.queue.celery import CeleryQueue
 from farm.run.queue.settings import make_app
 from farm.run.registry.port import Priority, Run
-from farm.run.registry.redis import RedisBoard
+from farm.run.registry.redis import RedisRegistry
 
 
 def run_of(dataset: Dataset, priority: Priority = Priority.NORMAL) -> Run:
@@ -16,7 +16,7 @@ def run_of(dataset: Dataset, priority: Priority = Priority.NORMAL) -> Run:
     return Run(dataset=dataset.name, spec_sha256=dataset.header.spec_sha256, priority=priority)
 
 
-def redis_hints(dataset: Dataset, url: str, client: "redis.Redis", priority: Priority | None = None) -> Hints:
+def open_handle(dataset: Dataset, url: str, client: "redis.Redis", priority: Priority | None = None) -> RunHandle:
     """What Redis tells of a dataset.
 
     Args:
@@ -28,10 +28,10 @@ def redis_hints(dataset: Dataset, url: str, client: "redis.Redis", priority: Pri
     Raises:
         BrokerError: if Redis can't be read.
     """
-    board = RedisBoard(client)
+    registry = RedisRegistry(client)
     run = run_of(dataset, priority or Priority.NORMAL)
-    present = board.runs().get(run.key)
+    present = registry.runs().get(run.key)
     if priority is None and present is not None:
         run = run.model_copy(update={"priority": present.priority})
     ledger = RedisLedger(client, dataset.name, dataset.header.spec_sha256)
-    return Hints(run=run, ledger=ledger, queue=CeleryQueue(make_app(url), client), board=board)
+    return RunHandle(run=run, ledger=ledger, queue=CeleryQueue(make_app(url), client), registry=registry)

@@ -18,8 +18,8 @@ from farm.dataset.quarantine import Quarantine
 from farm.errors import BrokerError, DestinationError
 from farm.run.ledger.owner import live_claims
 from farm.run.ledger.port import RETRY_OWNER
-from farm.run.progress import Hints
-from farm.run.registry.port import Board, RunState, WorkerState
+from farm.run.progress import RunHandle
+from farm.run.registry.port import RunRegistry, RunState, WorkerState
 from farm.spec.job import Job
 from farm.spec.job_set import JobSet
 
@@ -35,7 +35,7 @@ class _Folder:
     looked_s: float = float("-inf")
 
 
-Found = tuple[Dataset, Hints]
+Found = tuple[Dataset, RunHandle]
 
 
 class FarmCollector(Collector):
@@ -48,10 +48,10 @@ class FarmCollector(Collector):
     """
 
     def __init__(
-        self, find: Callable[[], Sequence[Found]], board: Board, clock: Callable[[], float] = time.monotonic
+        self, find: Callable[[], Sequence[Found]], registry: RunRegistry, clock: Callable[[], float] = time.monotonic
     ) -> None:
         self._find = find
-        self._board = board
+        self._registry = registry
         self._clock = clock
         self._known: Sequence[Found] = ()
         self._folders: dict[str, _Folder] = {}
@@ -99,16 +99,16 @@ class FarmCollector(Collector):
         retrying = GaugeMetricFamily("farm_jobs_postponed", "Jobs that wait for their next try.", labels=["dataset"])
         active = GaugeMetricFamily("farm_run_active", "Whether the run may be worked on.", labels=["dataset"])
         totals = _Totals()
-        for dataset, hints in self._known:
-            owners = list(live_claims(hints.ledger).values())
-            run = hints.board.runs().get(hints.run.key)
-            waiting.add_metric([dataset.name], hints.queue.length(hints.run))
+        for dataset, handle in self._known:
+            owners = list(live_claims(handle.ledger).values())
+            run = handle.registry.runs().get(handle.run.key)
+            waiting.add_metric([dataset.name], handle.queue.length(handle.run))
             running.add_metric([dataset.name], sum(owner != RETRY_OWNER for owner in owners))
             retrying.add_metric([dataset.name], sum(owner == RETRY_OWNER for owner in owners))
             active.add_metric([dataset.name], float(run is not None and run.state is RunState.ACTIVE))
-            totals.add(dataset.name, hints.ledger.figures())
+            totals.add(dataset.name, handle.ledger.figures())
         yield from (waiting, running, retrying, active, *totals.families())
-        yield from _workers(self._board)
+        yield from _workers(self._registry)
 
 
 class _Totals:
@@ -151,13 +151,13 @@ def _folder(dataset: Dataset) -> _Folder:
     return _Folder(Completion(dataset), Quarantine(dataset), JobSet(dataset.header.spec.quotas))
 
 
-def _workers(board: Board) -> Iterator[Metric]:
+def _workers(registry: RunRegistry) -> Iterator[Metric]:
     states = GaugeMetricFamily("farm_workers", "Workers by state.", labels=["state"])
     done = CounterMetricFamily("farm_worker_jobs", "Jobs a worker finished since it started.", labels=["worker"])
     memory = GaugeMetricFamily(
         "farm_worker_resident_memory_bytes", "Resident memory of a worker's renderers.", labels=["worker"]
     )
-    reports = board.workers()
+    reports = registry.workers()
     for state in WorkerState:
         states.add_metric([str(state)], sum(report.state is state for report in reports))
     for report in reports:

@@ -8,7 +8,7 @@ from farm.model import Model
 from farm.run.ledger.owner import live_claims
 from farm.run.ledger.port import RETRY_OWNER, Ledger
 from farm.run.queue.port import JobQueue
-from farm.run.registry.port import Board, Run, RunState, WorkerReport
+from farm.run.registry.port import Run, RunRegistry, RunState, WorkerReport
 from farm.spec.category import Category
 from farm.spec.job import Job
 from farm.spec.job_set import JobSet
@@ -67,13 +67,13 @@ class Progress(Model):
 
 
 @dataclass(frozen=True, slots=True)
-class Hints:
+class RunHandle:
     """What Redis tells of a dataset's run."""
 
     run: Run
     ledger: Ledger
     queue: JobQueue
-    board: Board
+    registry: RunRegistry
 
 
 def on_disk(dataset: Dataset, done: JobSet, quarantined: Mapping[str, str]) -> Progress:
@@ -96,23 +96,23 @@ def on_disk(dataset: Dataset, done: JobSet, quarantined: Mapping[str, str]) -> P
     )
 
 
-def with_hints(progress: Progress, hints: Hints) -> Progress:
+def with_handle(progress: Progress, handle: RunHandle) -> Progress:
     """The same with what Redis tells.
 
     Raises:
         BrokerError: if Redis can't be read.
     """
-    activity = hints.ledger.activity()
+    activity = handle.ledger.activity()
     left = progress.quota - progress.done - len(progress.quarantined)
     rate = activity.images_per_hour
-    claims = live_claims(hints.ledger)
-    run = hints.board.runs().get(hints.run.key)
+    claims = live_claims(handle.ledger)
+    run = handle.registry.runs().get(handle.run.key)
     return progress.model_copy(
         update={
             "state": None if run is None else run.state,
-            "waiting": hints.queue.length(hints.run),
+            "waiting": handle.queue.length(handle.run),
             "running": tuple(sorted(job_id for job_id, owner in claims.items() if owner != RETRY_OWNER)),
-            "workers": hints.board.workers(),
+            "workers": handle.registry.workers(),
             "images_per_hour": rate,
             "seconds_left": left / rate * 3600.0 if rate and left else None,
             "last_picture": activity.last_picture,

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from farm.errors import DestinationError, EnvironmentMissingError
+from farm.errors import DestinationError, MachineError
 from farm.storage.connection import is_s3
 from farm.storage.faults import as_destination_error
 from farm.storage.local import LocalStorage
@@ -18,7 +18,7 @@ def open_storage(location: str) -> Storage:
     """The storage at a folder's path or URL; nothing is read or written yet.
 
     Raises:
-        EnvironmentMissingError: if the URL's filesystem needs a package that is not installed.
+        MachineError: if the URL's filesystem needs a package that is not installed.
         DestinationError: if the URL's protocol is unknown or refuses, or the URL holds credentials.
     """
     if "://" not in location:
@@ -32,7 +32,7 @@ def open_storage(location: str) -> Storage:
             return ObjectStorage(location)
         except ImportError as error:
             advice = "; run: pip install 'cable-farm[s3]'" if is_s3(location) else ""
-            raise EnvironmentMissingError(f"{protocol}://: {error}{advice}") from error
+            raise MachineError(f"{protocol}://: {error}{advice}") from error
         except ValueError as error:
             raise DestinationError(f"{protocol}://: no such kind of storage; see fsspec's list of protocols") from error
 

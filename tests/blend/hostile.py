@@ -13,7 +13,7 @@ import bpy
 
 from blend import names
 from blend.build import TEMPLATE
-from worker.service.exit import leave
+from worker.service.exit import end_process
 
 
 def _touch(marker: str) -> str:
@@ -126,4 +126,4 @@ def main(arguments: list[str]) -> None:
 
 if __name__ == "__main__":
     main(sys.argv[1:])
-    leave(0)
+    end_process(0)

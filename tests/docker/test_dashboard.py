@@ -8,11 +8,11 @@ from prometheus_client import CollectorRegistry, generate_latest
 
 from farm.dataset.dataset import Dataset
 from farm.run.metrics import FarmCollector
-from farm.run.progress import Hints
+from farm.run.progress import RunHandle
 from farm.run.registry.port import Run
 from tests.doubles.ledger import MemoryLedger
 from tests.doubles.queue import MemoryQueue
-from tests.doubles.registry import MemoryBoard
+from tests.doubles.registry import MemoryRegistry
 
 _DASHBOARD = Path(__file__).parents[2] / "docker/grafana/cable-farm.json"
 
@@ -20,9 +20,9 @@ _DASHBOARD = Path(__file__).parents[2] / "docker/grafana/cable-farm.json"
 def test_every_metric_of_the_dashboard_is_served(dataset: Dataset) -> None:
     """Each name in a panel's query is one that the collector names."""
     run = Run(dataset=dataset.name, spec_sha256=dataset.header.spec_sha256)
-    hints = Hints(run=run, ledger=MemoryLedger(), queue=MemoryQueue(), board=MemoryBoard())
+    handle = RunHandle(run=run, ledger=MemoryLedger(), queue=MemoryQueue(), registry=MemoryRegistry())
     registry = CollectorRegistry(auto_describe=False)
-    registry.register(FarmCollector(lambda: [(dataset, hints)], hints.board))
+    registry.register(FarmCollector(lambda: [(dataset, handle)], handle.registry))
     served = set(re.findall(r"^# TYPE (\w+)", generate_latest(registry).decode(), re.MULTILINE))
     panels = json.loads(_DASHBOARD.read_text())["panels"]
     asked = {

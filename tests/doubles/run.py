@@ -7,12 +7,12 @@ from farm.errors import PermanentError
 from farm.run.coordinator import Coordinator
 from farm.run.feeder import WINDOW
 from farm.run.handle import run_of
-from farm.run.progress import Hints, Progress
+from farm.run.progress import Progress, RunHandle
 from farm.run.registry.port import RunState
 from tests.doubles.ledger import MemoryLedger
 from tests.doubles.queue import MemoryQueue
-from tests.doubles.registry import MemoryBoard
-from tests.stand_in import StandInMaker
+from tests.doubles.registry import MemoryRegistry
+from tests.stand_in import StandInRenderer
 from worker.service.runner import JobRunner
 
 
@@ -41,11 +41,11 @@ class Bench:
         self.dataset = dataset
         self.ledger = ledger or MemoryLedger()
         self.queue = queue or MemoryQueue()
-        self.board = MemoryBoard()
-        self.hints = Hints(run=run_of(dataset), ledger=self.ledger, queue=self.queue, board=self.board)
+        self.registry = MemoryRegistry()
+        self.handle = RunHandle(run=run_of(dataset), ledger=self.ledger, queue=self.queue, registry=self.registry)
         store = store or str(Path(dataset.storage.location).parent)
-        self.runner = JobRunner(store, lambda _: StandInMaker(), lambda *_: self.ledger)
-        self.coordinator = Coordinator(dataset, self.hints, poll_s=0.0, lost_after_s=lost_after_s, window=window)
+        self.runner = JobRunner(store, lambda _: StandInRenderer(), lambda *_: self.ledger)
+        self.coordinator = Coordinator(dataset, self.handle, poll_s=0.0, lost_after_s=lost_after_s, window=window)
         self.runs: list[str] = []
 
     def work(self, count: int = 1) -> None:
@@ -67,14 +67,14 @@ class Bench:
 
     def want(self, state: RunState) -> None:
         """Say what a person wants of the run."""
-        self.board.replace(self.hints.run.model_copy(update={"state": state}))
+        self.registry.replace(self.handle.run.model_copy(update={"state": state}))
 
     def queued(self) -> list[str]:
         """The jobs that wait."""
-        return sorted(job.id for job in self.queue.queued(self.hints.run))
+        return sorted(job.id for job in self.queue.queued(self.handle.run))
 
     def empty_redis(self) -> None:
         """Forget all that is not in the folder."""
         self.queue.messages.clear()
         vars(self.ledger).update(vars(MemoryLedger()))
-        vars(self.board).update(vars(MemoryBoard()))
+        vars(self.registry).update(vars(MemoryRegistry()))

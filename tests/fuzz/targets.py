@@ -28,7 +28,7 @@ from farm.run.queue.wire import ENVELOPE_BYTES, checked_envelope, decode_json
 from farm.spec.job import Job, JobMessage
 from farm.spec.parse import describe, parse_quotas
 from farm.spec.quality import read_quality
-from tests.stand_in import StandInMaker, stand_in_header
+from tests.stand_in import StandInRenderer, stand_in_header
 from worker.service.upload import upload
 
 JOB = Job.from_id("far-000000")
@@ -66,7 +66,7 @@ def _folder() -> Path:
 @cache
 def _dataset() -> Dataset:
     dataset = create_dataset(Destination(str(_folder() / "store"), "cables"), stand_in_header())
-    upload(StandInMaker().make(JOB, dataset.header), JOB, dataset)
+    upload(StandInRenderer().make(JOB, dataset.header), JOB, dataset)
     return dataset
 
 

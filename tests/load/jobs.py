@@ -17,11 +17,11 @@ from farm.local.processes import stop
 from farm.local.redis_server import PrivateRedis
 from farm.local.tied import tied
 from farm.run.coordinator import Coordinator
-from farm.run.handle import redis_hints
-from farm.run.progress import Hints
+from farm.run.handle import open_handle
+from farm.run.progress import RunHandle
 from farm.run.queue.broker import BROKER_VARIABLE, connect
 from tests.load.processor_time import processor_s
-from tests.stand_in import StandInMaker, stand_in_header
+from tests.stand_in import StandInRenderer, stand_in_header
 
 _STAND_IN = Path(__file__).parents[1] / "stand_in.py"
 _PATIENCE_S = 60.0
@@ -69,10 +69,10 @@ def measure_jobs(workers: int, jobs: int, seed: int) -> JobCost:
     with PrivateRedis() as server, tempfile.TemporaryDirectory(prefix="cable-farm-") as folder:
         client = connect(server.url)
         dataset = create_dataset(Destination(folder, "cables"), stand_in_header(seed=seed, far=jobs))
-        hints = redis_hints(dataset, server.url, client)
-        coordinator = Coordinator(dataset, hints, poll_s=0.2)
+        handle = open_handle(dataset, server.url, client)
+        coordinator = Coordinator(dataset, handle, poll_s=0.2)
         redis_process = int(client.info("server")["process_id"])
-        with _stand_ins(workers, folder, server.url, hints) as processes:
+        with _stand_ins(workers, folder, server.url, handle) as processes:
             idle_redis_s = _idle(redis_process)
             making_s = jobs * _stand_in_s(dataset)
             before = processor_s(processes), processor_s([redis_process]), time.process_time()
@@ -96,13 +96,13 @@ def _idle(redis_process: int) -> float:
 
 def _stand_in_s(dataset: Dataset, times: int = 200) -> float:
     """Processor seconds that the stand-in takes for one picture, which are not the farm's."""
-    maker, jobs = StandInMaker(), list(dataset.header.spec.jobs())
+    renderer, jobs = StandInRenderer(), list(dataset.header.spec.jobs())
     standard_output = os.dup(1)
     with Path(os.devnull).open("w") as nowhere:
         os.dup2(nowhere.fileno(), 1)
         start_s = time.process_time()
         for number in range(times):
-            maker.make(jobs[number % len(jobs)], dataset.header)
+            renderer.make(jobs[number % len(jobs)], dataset.header)
         taken_s = time.process_time() - start_s
         sys.stdout.flush()
         os.dup2(standard_output, 1)
@@ -111,7 +111,7 @@ def _stand_in_s(dataset: Dataset, times: int = 200) -> float:
 
 
 @contextmanager
-def _stand_ins(count: int, store: str, url: str, hints: Hints) -> Iterator[list[int]]:
+def _stand_ins(count: int, store: str, url: str, handle: RunHandle) -> Iterator[list[int]]:
     environment = {**os.environ, BROKER_VARIABLE: url, "PYTHONPATH": str(_STAND_IN.parents[1])}
     started = []
     try:
@@ -128,7 +128,7 @@ def _stand_ins(count: int, store: str, url: str, hints: Hints) -> Iterator[list[
                 )
             )
         give_up_s = time.monotonic() + _PATIENCE_S
-        while len(hints.board.workers()) < count and time.monotonic() < give_up_s:
+        while len(handle.registry.workers()) < count and time.monotonic() < give_up_s:
             time.sleep(0.1)
         yield [process.pid for process in started]
     finally:

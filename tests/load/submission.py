@@ -12,7 +12,7 @@ from farm.dataset.dataset import open_dataset, parse_destination
 from farm.errors import VerificationError
 from farm.local.redis_server import PrivateRedis
 from farm.run.feeder import WINDOW
-from farm.run.handle import redis_hints
+from farm.run.handle import open_handle
 from farm.run.queue.broker import connect
 
 
@@ -52,8 +52,8 @@ def measure_submission(images: int, seed: int) -> SubmissionCost:
             raise VerificationError(f"farm submit of {images} images ended with {process.returncode}")
         client = connect(server.url)
         dataset = open_dataset(parse_destination(place))
-        hints = redis_hints(dataset, server.url, client)
-        waiting = [job.id for job in hints.queue.queued(hints.run)]
+        handle = open_handle(dataset, server.url, client)
+        waiting = [job.id for job in handle.queue.queued(handle.run)]
         if len(waiting) != min(images, WINDOW) or len(set(waiting)) != len(waiting):
             raise VerificationError(f"{len(waiting)} jobs wait after a submission of {images}")
         return SubmissionCost(

@@ -8,7 +8,7 @@ from farm.spec.job import Job
 from farm.spec.parse import parse_spec
 from worker.cable.piece import Tubular
 from worker.curves import Points
-from worker.sample.scene import draw_scene
+from worker.sample.scene import sample_scene
 
 SHA = "0" * 64
 
@@ -32,7 +32,7 @@ def make_header(**keys: object) -> DatasetHeader:
 
 def make_scene(category: Category = Category.FAR, index: int = 0, attempt: int = 0, **keys: object) -> Scene:
     """The scene of one attempt at one job."""
-    return draw_scene(make_header(**keys), Job(category=category, index=index), attempt)
+    return sample_scene(make_header(**keys), Job(category=category, index=index), attempt)
 
 
 def make_skin(**keys: object) -> Skin:

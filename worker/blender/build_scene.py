@@ -13,7 +13,7 @@ from worker.blender.cables import add_cables, remove_cables, shadow_slope
 from worker.blender.camera import has_round_aperture, set_camera
 from worker.blender.clutter import add_clutter
 from worker.blender.floor import set_floor, set_unseen_floor
-from worker.blender.image_cache import ImageShelf
+from worker.blender.image_cache import ImageCache
 from worker.blender.world import backdrop_of, set_grey_world, set_hdri_world, set_lamps
 from worker.cable.pieces import pieces_of
 from worker.camera.view import View
@@ -24,11 +24,11 @@ PLATE_LUMINANCE = 0.3
 """Mean luminance of a photograph behind the cables, where the surroundings that light them tell none."""
 
 
-def realize(
+def build_scene(
     scene: Scene,
     shapes: CableShapes,
     library: AssetLibrary,
-    shelf: ImageShelf,
+    image_cache: ImageCache,
     *,
     traits: CategoryTraits,
     resolution: int,
@@ -41,7 +41,7 @@ def realize(
         scene: what was drawn.
         shapes: its cables and sticks, settled.
         library: where the textures and HDRIs are.
-        shelf: the images that this process holds.
+        image_cache: the images that this process holds.
         traits: of the scene's category.
         resolution: pixels along an edge of the picture.
         detail: how finely cables are modelled.
@@ -53,45 +53,45 @@ def realize(
     Raises:
         AssetError: if a texture or HDRI can't be had.
     """
-    shelf.begin_picture()
+    image_cache.begin_picture()
     if not economy.keep_loaded:
-        shelf.forget()
+        image_cache.forget()
     remove_cables()
     view = View.of(scene.camera, resolution).undistorted()
     curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
     pieces = pieces_of(scene, curves, shapes.sticks_m)
     slope = shadow_slope(scene.lamps)
-    add_cables(pieces, detail.sides, view, shelf, slope=slope, whole=not economy.cables_in_view)
+    add_cables(pieces, detail.sides, view, image_cache, slope=slope, whole=not economy.cables_in_view)
     if scene.floor is None:
-        set_unseen_floor(shelf)
+        set_unseen_floor(image_cache)
     else:
         # Wear is drawn on what is seen, so it needs a view whatever is left out.
         seen = view if economy.texture_window or scene.floor.wear is not None else None
-        set_floor(scene.floor, library.surface(scene.floor.texture), shelf, seen)
-    add_clutter(scene, shapes.sticks_m, curves, shelf)
+        set_floor(scene.floor, library.surface(scene.floor.texture), image_cache, seen)
+    add_clutter(scene, shapes.sticks_m, curves, image_cache)
     set_lamps(scene.lamps)
     set_camera(scene.camera)
     if scene.hdri_world is None:
         set_grey_world(scene.grey_world)
         return None
-    light = _behind(scene, scene.hdri_world, library, shelf, resolution, economy)
+    light = _behind(scene, scene.hdri_world, library, image_cache, resolution, economy)
     is_seen = traits.background is Background.HDRI and light is None
-    set_hdri_world(scene.hdri_world, library, shelf, only_lights=economy.upper_world and not is_seen)
+    set_hdri_world(scene.hdri_world, library, image_cache, only_lights=economy.upper_world and not is_seen)
     if light is None:
         return None
     return Backdrop(light, covered_by(pieces, view, lens_radius_m(scene.camera), detail.sides))
 
 
 def _behind(
-    scene: Scene, world: HdriWorld, library: AssetLibrary, shelf: ImageShelf, resolution: int, economy: Economy
+    scene: Scene, world: HdriWorld, library: AssetLibrary, image_cache: ImageCache, resolution: int, economy: Economy
 ) -> Panorama | None:
     """The view behind cables without a floor, where it is looked up: a photograph always is."""
     if scene.floor is not None or (scene.plate is None and not (economy.backdrop and has_round_aperture())):
         return None
-    seen = backdrop_of(world, scene.camera, resolution, library, shelf)
+    seen = backdrop_of(world, scene.camera, resolution, library, image_cache)
     if scene.plate is None:
         return seen
     # As bright as what would be seen of the surroundings that light the cables.
     luminance = PLATE_LUMINANCE if seen is None else float((seen @ LUMINANCE).mean())
-    photograph = shelf.photograph(library.plate(scene.plate.name))
+    photograph = image_cache.photograph(library.plate(scene.plate.name))
     return plate_backdrop(photograph, scene.plate, resolution, scene.plate.blur_px, luminance)

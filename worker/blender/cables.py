@@ -11,7 +11,7 @@ from blend import names
 from farm.model import Rgb
 from farm.scene.cable import CableMaterial
 from farm.scene.light import Lamp, StudioLamp
-from worker.blender.image_cache import ImageShelf
+from worker.blender.image_cache import ImageCache
 from worker.cable.piece import Convex, Piece, Plain, Tubular
 from worker.cable.plain import draw_plain
 from worker.cable.skin import SkinImages, draw_skin
@@ -41,7 +41,7 @@ def shadow_slope(lamps: Sequence[Lamp]) -> float:
 
 
 def add_cables(
-    pieces: Sequence[Piece], sides: int, view: View, shelf: ImageShelf, *, slope: float, whole: bool
+    pieces: Sequence[Piece], sides: int, view: View, image_cache: ImageCache, *, slope: float, whole: bool
 ) -> None:
     """Add a settled scene's cables; of those that leave the view, what is seen or may throw a shadow into it.
 
@@ -49,7 +49,7 @@ def add_cables(
         pieces: of the cables.
         sides: corners of a tube's cross-section.
         view: the camera.
-        shelf: takes the images of skins.
+        image_cache: takes the images of skins.
         slope: how far shadows reach, in the height of what throws them.
         whole: whether to add them wholly, wherever they go.
     """
@@ -61,7 +61,7 @@ def add_cables(
             continue
         key = _identity(piece)
         if key not in materials:
-            materials[key] = _material(name, piece, view, shelf)
+            materials[key] = _material(name, piece, view, image_cache)
         for place, tube in made:
             _add_mesh(f"{name}.{place}", tube, materials[key], smooth=isinstance(piece, Tubular))
 
@@ -112,15 +112,15 @@ def _add_mesh(name: str, tube: Tube, material: Any, *, smooth: bool) -> None:
     bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
 
 
-def _material(name: str, piece: Piece, view: View, shelf: ImageShelf) -> Any:
+def _material(name: str, piece: Piece, view: View, image_cache: ImageCache) -> Any:
     if isinstance(piece, Convex):
-        return _drawn(name, draw_plain(piece.surface), shelf)
+        return _drawn(name, draw_plain(piece.surface), image_cache)
     if isinstance(piece.surface, Plain):
-        return _drawn(name, draw_plain(piece.surface), shelf)
+        return _drawn(name, draw_plain(piece.surface), image_cache)
     if isinstance(piece.surface, CableMaterial):
         return _published(name, piece.surface)
     diameter_m = 2 * float(np.max(piece.radius_m))
-    return _drawn(name, draw_skin(piece.surface, piece.whole_m, diameter_m, 1.0 / view.pixels_per_m), shelf)
+    return _drawn(name, draw_skin(piece.surface, piece.whole_m, diameter_m, 1.0 / view.pixels_per_m), image_cache)
 
 
 def _published(name: str, wanted: CableMaterial) -> Any:
@@ -138,19 +138,19 @@ def _published(name: str, wanted: CableMaterial) -> Any:
     return material
 
 
-def _drawn(name: str, images: SkinImages, shelf: ImageShelf) -> Any:
+def _drawn(name: str, images: SkinImages, image_cache: ImageCache) -> Any:
     material = bpy.data.materials[names.SKIN].copy()
     material.name = name
     tree = material.node_tree
-    tree.nodes[names.SKIN_COLOUR].image = shelf.made(f"{name} colour", images.colour, colour=True)
-    tree.nodes[names.SKIN_ROUGHNESS].image = shelf.made(f"{name} roughness", images.roughness, colour=False)
+    tree.nodes[names.SKIN_COLOUR].image = image_cache.made(f"{name} colour", images.colour, colour=True)
+    tree.nodes[names.SKIN_ROUGHNESS].image = image_cache.made(f"{name} roughness", images.roughness, colour=False)
     surface = tree.nodes[names.SKIN_SURFACE]
     if images.normal is None:
         # Tangents are worked out for every mesh whose material asks for them.
         for way in list(surface.inputs["Normal"].links):
             tree.links.remove(way)
     else:
-        tree.nodes[names.SKIN_NORMAL].image = shelf.made(f"{name} normal", images.normal, colour=False)
+        tree.nodes[names.SKIN_NORMAL].image = image_cache.made(f"{name} normal", images.normal, colour=False)
     surface.inputs["Metallic"].default_value = images.metallic
     surface.inputs["Coat Weight"].default_value = images.coat
     surface.inputs["Coat Roughness"].default_value = images.coat_roughness

@@ -10,7 +10,7 @@ from blend.nodes import add_node, link
 from farm.model import Rgb
 from farm.scene.clutter import Part, Sheet, Stick
 from farm.scene.scene import Scene
-from worker.blender.image_cache import ImageShelf
+from worker.blender.image_cache import ImageCache
 from worker.camera.view import View
 from worker.clutter.fit import parts_that_fit
 from worker.clutter.parts import part_solid
@@ -28,7 +28,7 @@ SHEET_STEP_M = 10e-6
 """Sheets lie so high, each above those before: far less than a pixel, yet enough for rays to tell them apart."""
 
 
-def add_clutter(scene: Scene, sticks_m: tuple[Points, ...], curves: list[Points], shelf: ImageShelf) -> None:
+def add_clutter(scene: Scene, sticks_m: tuple[Points, ...], curves: list[Points], image_cache: ImageCache) -> None:
     """Add what lies about on the floor.
 
     A scene without a visible floor gets none.
@@ -37,13 +37,13 @@ def add_clutter(scene: Scene, sticks_m: tuple[Points, ...], curves: list[Points]
         scene: what was drawn.
         sticks_m: nodes (N, 3) of the settled sticks' axes; none where the simulator has none.
         curves: the cables' settled centrelines (N, 3), which parts must not touch.
-        shelf: keeps the sheets' images until the next picture.
+        image_cache: keeps the sheets' images until the next picture.
     """
     remove_clutter()
     if scene.floor is None:
         return
     for number, sheet in enumerate(scene.sheets):
-        _add_sheet(f"{PREFIX}.sheet.{number}", sheet, LOWEST_SHEET_M + number * SHEET_STEP_M, shelf)
+        _add_sheet(f"{PREFIX}.sheet.{number}", sheet, LOWEST_SHEET_M + number * SHEET_STEP_M, image_cache)
     sticks = scene.sticks[: len(sticks_m)]
     for number, (stick, nodes) in enumerate(zip(sticks, sticks_m, strict=True)):
         _add_stick(f"{PREFIX}.stick.{number}", stick, nodes)
@@ -133,17 +133,17 @@ def _solid_material(name: str, finish: Finish, seed: int) -> Any:
     return material
 
 
-def _add_sheet(name: str, sheet: Sheet, height_m: float, shelf: ImageShelf) -> None:
+def _add_sheet(name: str, sheet: Sheet, height_m: float, image_cache: ImageCache) -> None:
     drawn = print_sheet(sheet)
     mesh = bpy.data.meshes.new(name)
     corners = sheet_corners(sheet, drawn.margin_m)
     mesh.from_pydata([(float(x), float(y), height_m) for x, y in corners], [], [(0, 1, 2, 3)])
     mesh.uv_layers.new(name="print").uv.foreach_set("vector", np.array([0, 0, 1, 0, 1, 1, 0, 1], np.float32))
-    mesh.materials.append(_sheet_material(name, drawn, shelf))
+    mesh.materials.append(_sheet_material(name, drawn, image_cache))
     bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
 
 
-def _sheet_material(name: str, drawn: Print, shelf: ImageShelf) -> Any:
+def _sheet_material(name: str, drawn: Print, image_cache: ImageCache) -> Any:
     material = bpy.data.materials.new(name)
     material.use_nodes = True
     tree = material.node_tree
@@ -153,20 +153,20 @@ def _sheet_material(name: str, drawn: Print, shelf: ImageShelf) -> Any:
     surface.inputs["Metallic"].default_value = drawn.metallic
     surface.inputs["Specular IOR Level"].default_value = drawn.specular
     colour = add_node(tree, "ShaderNodeTexImage", "colour", (-600, 300), extension="EXTEND")
-    colour.image = shelf.drawn(f"{name}.colour", drawn.colour, colour=True)
+    colour.image = image_cache.drawn(f"{name}.colour", drawn.colour, colour=True)
     link(tree, colour, "Color", surface, "Base Color")
     roughness = add_node(tree, "ShaderNodeTexImage", "roughness", (-600, 0), extension="EXTEND")
-    roughness.image = shelf.drawn(f"{name}.roughness", drawn.roughness, colour=False)
+    roughness.image = image_cache.drawn(f"{name}.roughness", drawn.roughness, colour=False)
     link(tree, roughness, "Color", surface, "Roughness")
     if drawn.normal is not None:
         relief = add_node(tree, "ShaderNodeTexImage", "relief", (-600, -300), extension="EXTEND")
-        relief.image = shelf.drawn(f"{name}.normal", drawn.normal, colour=False)
+        relief.image = image_cache.drawn(f"{name}.normal", drawn.normal, colour=False)
         bump = add_node(tree, "ShaderNodeNormalMap", "normal map", (-300, -300))
         link(tree, relief, "Color", bump, "Color")
         link(tree, bump, "Normal", surface, "Normal")
     if drawn.alpha is not None:
         alpha = add_node(tree, "ShaderNodeTexImage", "alpha", (-600, -600), extension="EXTEND")
-        alpha.image = shelf.drawn(f"{name}.alpha", drawn.alpha, colour=False)
+        alpha.image = image_cache.drawn(f"{name}.alpha", drawn.alpha, colour=False)
         link(tree, alpha, "Color", surface, "Alpha")
     link(tree, surface, "BSDF", output, "Surface")
     return material

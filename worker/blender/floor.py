@@ -9,7 +9,7 @@ from assets.surfaces.kit.maps import joint_distance_mm
 from blend import names
 from farm.scene.floor import Floor, Wear
 from worker.blender.asset_files import SurfaceFiles
-from worker.blender.image_cache import ImageShelf, TextureFile
+from worker.blender.image_cache import ImageCache, TextureFile
 from worker.camera.view import View
 from worker.colour import Texels
 from worker.floor.marks import marks_on, sized
@@ -27,20 +27,20 @@ MOST_WORN_TILES = 4.0
 _UNTEXTURED = Floor(texture="", offset_x=0.0, offset_y=0.0, rotation_deg=0.0, scale=1.0)
 
 
-def set_unseen_floor(shelf: ImageShelf) -> None:
+def set_unseen_floor(image_cache: ImageCache) -> None:
     """Make the floor plain and hide it from the camera alone."""
     floor = bpy.data.objects[names.FLOOR]
     floor.visible_camera = False
     nodes = bpy.data.materials[names.FLOOR].node_tree.nodes
-    nodes[names.FLOOR_COLOUR].image = shelf.constant(UNSEEN_FLOOR, colour=True)
-    nodes[names.FLOOR_ROUGHNESS].image = shelf.constant(UNSEEN_FLOOR)
-    nodes[names.FLOOR_METALLIC].image = shelf.constant(0.0)
-    nodes[names.FLOOR_NORMAL].image = shelf.flat_normal()
+    nodes[names.FLOOR_COLOUR].image = image_cache.constant(UNSEEN_FLOOR, colour=True)
+    nodes[names.FLOOR_ROUGHNESS].image = image_cache.constant(UNSEEN_FLOOR)
+    nodes[names.FLOOR_METALLIC].image = image_cache.constant(0.0)
+    nodes[names.FLOOR_NORMAL].image = image_cache.flat_normal()
     # The map's tangents reach the last bit of the light that the floor throws back, so none may be left over.
     _place_texture(floor.data, _UNTEXTURED, 1.0, TextureWindow.whole())
 
 
-def set_floor(floor: Floor, files: SurfaceFiles, shelf: ImageShelf, view: View | None) -> None:
+def set_floor(floor: Floor, files: SurfaceFiles, image_cache: ImageCache, view: View | None) -> None:
     """Show a surface.
 
     What a floor has been through is drawn on the texels that are seen. A surface with a map in
@@ -49,7 +49,7 @@ def set_floor(floor: Floor, files: SurfaceFiles, shelf: ImageShelf, view: View |
     Args:
         floor: how its texture lies.
         files: its maps.
-        shelf: the images that this process holds.
+        image_cache: the images that this process holds.
         view: of the camera, beyond which no texel is needed; None for all of them.
 
     Raises:
@@ -65,7 +65,7 @@ def set_floor(floor: Floor, files: SurfaceFiles, shelf: ImageShelf, view: View |
     }
     given = {node: file for node, file in maps.items() if file is not None}
     is_worn = floor.wear is not None
-    texels = {node: shelf.texels(file, reduced=is_worn) for node, file in given.items()} if view else {}
+    texels = {node: image_cache.texels(file, reduced=is_worn) for node, file in given.items()} if view else {}
     decoded = {node: pixels for node, pixels in texels.items() if pixels is not None}
     window = TextureWindow.whole()
     if view is not None and len(decoded) == len(given):
@@ -73,24 +73,24 @@ def set_floor(floor: Floor, files: SurfaceFiles, shelf: ImageShelf, view: View |
         window = window_on(floor, files.size_m, view, sizes, MOST_WORN_TILES if is_worn else 1.0)
     metallic = files.metallic if isinstance(files.metallic, float) else 0.0
     plain = {
-        names.FLOOR_ROUGHNESS: shelf.constant(UNKNOWN_ROUGHNESS),
-        names.FLOOR_NORMAL: shelf.flat_normal(),
-        names.FLOOR_METALLIC: shelf.constant(metallic),
+        names.FLOOR_ROUGHNESS: image_cache.constant(UNKNOWN_ROUGHNESS),
+        names.FLOOR_NORMAL: image_cache.flat_normal(),
+        names.FLOOR_METALLIC: image_cache.constant(metallic),
     }
     worn: dict[str, Texels] = {}
     if floor.wear is not None and len(decoded) == len(given):
-        joints = shelf.texels(TextureFile(files.joints)) if files.joints and floor.wear.joints else None
+        joints = image_cache.texels(TextureFile(files.joints)) if files.joints and floor.wear.joints else None
         worn = _worn(floor, floor.wear, files.size_m, decoded, joints, window)
     nodes = bpy.data.materials[names.FLOOR].node_tree.nodes
     for node, file in maps.items():
         if node in worn:
-            nodes[node].image = shelf.drawn(f"worn {node}", worn[node], colour=node == names.FLOOR_COLOUR)
+            nodes[node].image = image_cache.drawn(f"worn {node}", worn[node], colour=node == names.FLOOR_COLOUR)
         elif file is None:
             nodes[node].image = plain[node]
         elif node in decoded:
-            nodes[node].image = shelf.window(file, decoded[node], window)
+            nodes[node].image = image_cache.window(file, decoded[node], window)
         else:
-            nodes[node].image = shelf.whole(file)
+            nodes[node].image = image_cache.whole(file)
     _place_texture(floor_object.data, floor, files.size_m, window)
 
 

@@ -40,7 +40,7 @@ class TextureFile:
     flip_green: bool = False
 
 
-class ImageShelf:
+class ImageCache:
     """Images by file, up to a number of bytes in all.
 
     Args:

@@ -25,19 +25,19 @@ from farm.spec.rendering import PictureSettings
 from worker.backdrop.matte import Backdrop
 from worker.blender import eevee
 from worker.blender.asset_files import AssetLibrary, checked
-from worker.blender.build_scene import realize
-from worker.blender.image_cache import ImageShelf
+from worker.blender.build_scene import build_scene
+from worker.blender.image_cache import ImageCache
 from worker.blender.render import configure_cycles, configure_eevee, configure_picture, render_scene
 from worker.label.label import label_scene
-from worker.sample.scene import draw_scene
-from worker.service.picture import MadeImage
+from worker.sample.scene import sample_scene
+from worker.service.picture import Picture
 from worker.simulate.checks.accept import find_fault
 from worker.simulate.checks.measure import measure
 from worker.simulate.shapes import CableShapes
-from worker.simulate.simulate import let_fall
+from worker.simulate.simulate import simulate
 
 
-def open_studio(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> "Studio":
+def open_renderer(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> "BlenderRenderer":
     """Open the dataset's template in this process and make it ready.
 
     Args:
@@ -49,16 +49,16 @@ def open_studio(header: DatasetHeader, *, device: str, threads: int, assets: Pat
     Raises:
         TemplateError: if the template can't be opened, lacks something, or has changed since the dataset's start.
         AssetError: if the template's file can't be read.
-        EnvironmentMissingError: if there is no such device.
+        MachineError: if there is no such device.
     """
-    return Studio(header, device=device, threads=threads, assets=assets)
+    return BlenderRenderer(header, device=device, threads=threads, assets=assets)
 
 
-class Studio:
+class BlenderRenderer:
     """A Blender with the template open."""
 
     def __init__(self, header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> None:
-        """See `open_studio`."""
+        """See `open_renderer`."""
         start = time.perf_counter()
         path = header.template.path or str(TEMPLATE)
         open_template(checked(FileRef(path=path, sha256=header.template.sha256)))
@@ -69,12 +69,12 @@ class Studio:
         self._threads = threads
         cv2.setNumThreads(threads or -1)
         self._library = AssetLibrary(header, assets)
-        self._shelf = ImageShelf()
+        self._image_cache = ImageCache()
         self._fingerprint = header.spec_sha256
         self._open_s = time.perf_counter() - start
 
-    def make(self, job: Job, header: DatasetHeader) -> MadeImage:
-        """Make one picture; see `worker.service.picture.ImageMaker`.
+    def make(self, job: Job, header: DatasetHeader) -> Picture:
+        """Make one picture; see `worker.service.picture.Renderer`.
 
         Raises:
             SpecError: if the header does not say how the category is rendered.
@@ -96,7 +96,7 @@ class Studio:
             image = render_scene(scene, behind)
         with _timed(timings, "mask"):
             labels = label_scene(scene, shapes, chosen.settings.detail, spec.resolution)
-        return MadeImage(
+        return Picture(
             image=image,
             mask=labels.mask,
             instances=labels.instances,
@@ -112,11 +112,11 @@ class Studio:
         self, job: Job, spec: DatasetSpec, settings: PictureSettings, scene: Scene, shapes: CableShapes
     ) -> Backdrop | None:
         """Set the scene; returns what is behind it, if the renderer is to leave that out."""
-        return realize(
+        return build_scene(
             scene,
             shapes,
             self._library,
-            self._shelf,
+            self._image_cache,
             traits=job.category.traits,
             resolution=spec.resolution,
             detail=settings.detail,
@@ -148,10 +148,10 @@ class Studio:
         rejected: list[RejectedAttempt] = []
         for attempt in range(header.spec.fall.max_attempts):
             with _timed(timings, "randomize"):
-                scene = draw_scene(header, job, attempt)
+                scene = sample_scene(header, job, attempt)
             try:
                 with _timed(timings, "simulate"):
-                    shapes = let_fall(scene, header.spec.simulator, header.spec.fall)
+                    shapes = simulate(scene, header.spec.simulator, header.spec.fall)
             except SceneError as error:
                 rejected.append(RejectedAttempt(attempt=attempt, reason=str(error)))
                 continue

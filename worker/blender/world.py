@@ -14,7 +14,7 @@ from farm.scene.camera import Camera
 from farm.scene.light import AreaLamp, GreyWorld, Lamp, PointLamp, StudioLamp
 from worker.backdrop.panorama import Panorama, backdrop, upper_world
 from worker.blender.asset_files import AssetLibrary
-from worker.blender.image_cache import ImageShelf
+from worker.blender.image_cache import ImageCache
 from worker.blender.lamps import add_studio_lamp, remove_studio_lamps
 from worker.camera.black_body import black_body
 
@@ -66,13 +66,13 @@ def _set_grey(node: Any, grey: GreyWorld | None) -> None:
         strength.default_value = grey.radiance
 
 
-def set_hdri_world(world: HdriWorld, library: AssetLibrary, shelf: ImageShelf, *, only_lights: bool) -> None:
+def set_hdri_world(world: HdriWorld, library: AssetLibrary, image_cache: ImageCache, *, only_lights: bool) -> None:
     """Set the world to an HDRI.
 
     Args:
         world: the HDRI.
         library: where it is.
-        shelf: the images that this process holds.
+        image_cache: the images that this process holds.
         only_lights: the camera sees nothing of it, and a floor hides its lower half.
 
     Raises:
@@ -84,18 +84,18 @@ def set_hdri_world(world: HdriWorld, library: AssetLibrary, shelf: ImageShelf, *
     nodes[names.WORLD_BRIGHTNESS].inputs["Fac"].default_value = world.brightness
     image, path = nodes[names.WORLD_IMAGE], library.hdri(world.hdri)
     if only_lights and is_as_built(bpy.data.worlds[names.WORLD]):
-        image.image = shelf.light(path.name, upper_world(shelf.radiance(path), _turn(world)))
+        image.image = image_cache.light(path.name, upper_world(image_cache.radiance(path), _turn(world)))
         # The map of bright parts has a place for each texel; between texels it would be wrong.
         image.interpolation = "Closest"
         nodes[names.WORLD_MAPPING].inputs["Rotation"].default_value = (0.0, 0.0, 0.0)
     else:
-        image.image = shelf.panorama(path)
+        image.image = image_cache.panorama(path)
         image.interpolation = "Linear"
         nodes[names.WORLD_MAPPING].inputs["Rotation"].default_value = _euler(world)
 
 
 def backdrop_of(
-    world: HdriWorld, camera: Camera, resolution: int, library: AssetLibrary, shelf: ImageShelf
+    world: HdriWorld, camera: Camera, resolution: int, library: AssetLibrary, image_cache: ImageCache
 ) -> Panorama | None:
     """What the camera sees of an HDRI, (resolution, resolution, 3); None if the template shows it in its own way.
 
@@ -104,7 +104,7 @@ def backdrop_of(
     """
     if not is_as_built(bpy.data.worlds[names.WORLD]):
         return None
-    seen = backdrop(shelf.radiance(library.hdri(world.hdri)), _turn(world), camera, resolution)
+    seen = backdrop(image_cache.radiance(library.hdri(world.hdri)), _turn(world), camera, resolution)
     return seen * np.float32(1.0 + world.brightness)
 
 

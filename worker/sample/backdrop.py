@@ -11,7 +11,7 @@ OVER_FLOORS = "sunrise"
 """Of Blender's HDRIs the one under which floors are as bright, and have as much contrast, as in published examples."""
 
 
-def draw_plate(header: DatasetHeader, rng: np.random.Generator) -> Plate | None:
+def sample_plate(header: DatasetHeader, rng: np.random.Generator) -> Plate | None:
     """Draw which of the user's photographs is behind the cables, and what part of it; None where none is."""
     ranges = header.spec.ranges.plate
     if not header.plates or not chance(rng, ranges.share):
@@ -26,7 +26,7 @@ def draw_plate(header: DatasetHeader, rng: np.random.Generator) -> Plate | None:
     )
 
 
-def draw_world(header: DatasetHeader, background: Background, rng: np.random.Generator) -> HdriWorld:
+def sample_world(header: DatasetHeader, background: Background, rng: np.random.Generator) -> HdriWorld:
     """Draw the HDRI, its turn and its brightness."""
     ranges = header.spec.ranges.world
     backdrops = [hdri for hdri in header.hdris if hdri.backdrop] or list(header.hdris)

@@ -11,8 +11,8 @@ from farm.spec.category import Disposition
 from farm.spec.ranges.all import Ranges
 from farm.spec.ranges.cable import CableRanges
 from farm.spec.ranges.placement import BEND_KNOTS, SPACING_DIAMETERS, PlacementRanges
-from worker.sample.cable_curve import Course, draw_course
-from worker.sample.cable_kind import CableKind, draw_ends, draw_kinds
+from worker.sample.cable_curve import Course, sample_course
+from worker.sample.cable_kind import CableKind, sample_ends, sample_kinds
 from worker.sample.seeds import Stage, Streams
 from worker.sample.values import rgb, uniform
 
@@ -35,7 +35,7 @@ class _Placement:
     bends_per_m: tuple[float, ...]
 
 
-def draw_substances(ranges: CableRanges, count: int, rng: np.random.Generator) -> list[Substance]:
+def sample_substances(ranges: CableRanges, count: int, rng: np.random.Generator) -> list[Substance]:
     """Draw what cables are made of; Young's modulus evenly in its logarithm."""
     low, high = ranges.youngs_modulus_pa
     return [
@@ -47,7 +47,7 @@ def draw_substances(ranges: CableRanges, count: int, rng: np.random.Generator) -
     ]
 
 
-def draw_cables(
+def sample_cables(
     ranges: Ranges,
     disposition: Disposition,
     substances: list[Substance],
@@ -70,16 +70,16 @@ def draw_cables(
     """
     placements = _PLACERS[disposition](ranges.placement, len(substances), streams(Stage.PLACEMENT))
     material_rng, look_rng = streams(Stage.CABLE_MATERIAL), streams(Stage.LOOK)
-    kinds = draw_kinds(ranges.cable, len(substances), camera, look_rng)
+    kinds = sample_kinds(ranges.cable, len(substances), camera, look_rng)
     cables: list[Cable] = []
     start = lowest_m
     for placement, substance, kind in zip(placements, substances, kinds, strict=True):
-        published = _draw_material(ranges.cable, material_rng)
+        published = _sample_material(ranges.cable, material_rng)
         length = uniform(look_rng, length_m)
-        course = draw_course(ranges.placement, placement.bends_per_m, length, kind.diameter_m, look_rng)
+        course = sample_course(ranges.placement, placement.bends_per_m, length, kind.diameter_m, look_rng)
         cables.append(_cable(placement, substance, kind, published, course, length, start))
         cables[-1] = cables[-1].model_copy(
-            update={"ends": draw_ends(ranges.cable.ends, cables[-1].material, kind.diameter_m, look_rng)}
+            update={"ends": sample_ends(ranges.cable.ends, cables[-1].material, kind.diameter_m, look_rng)}
         )
         start += max(ranges.placement.spacing_m, course.rise_m + SPACING_DIAMETERS * kind.diameter_m)
     return tuple(cables)
@@ -146,7 +146,7 @@ def _bends(ranges: PlacementRanges, rng: np.random.Generator) -> tuple[float, ..
     return tuple(rng.uniform(*ranges.bend_per_m, size=BEND_KNOTS).tolist())
 
 
-def _draw_material(ranges: CableRanges, rng: np.random.Generator) -> CableMaterial:
+def _sample_material(ranges: CableRanges, rng: np.random.Generator) -> CableMaterial:
     offset = ranges.dirt_offset
     return CableMaterial(
         colour=rgb(rng, ranges.colour),

@@ -24,7 +24,7 @@ class Course:
     rise_m: float
 
 
-def draw_course(
+def sample_course(
     ranges: PlacementRanges,
     bends_per_m: tuple[float, ...],
     length_m: float,

@@ -20,7 +20,7 @@ from farm.scene.cable import (
 )
 from farm.scene.camera import Camera
 from farm.spec.ranges.cable import BundleRanges, CableRanges, EndRanges, SkinRanges
-from worker.sample.palette import draw_colours
+from worker.sample.palette import sample_colours
 from worker.sample.values import chance, level, log_uniform, pattern_seed, uniform
 
 TIED = 3.0
@@ -72,31 +72,33 @@ class _Make:
     marked: bool
 
 
-def draw_kinds(ranges: CableRanges, count: int, camera: Camera, rng: np.random.Generator) -> list[CableKind]:
+def sample_kinds(ranges: CableRanges, count: int, camera: Camera, rng: np.random.Generator) -> list[CableKind]:
     """Draw the kind of each cable of a picture."""
     seen_m = camera.seen_m
     skinned = chance(rng, ranges.skin.share)
     alike = chance(rng, ranges.skin.alike_share)
-    common = _draw_make(ranges, seen_m, rng)
+    common = _sample_make(ranges, seen_m, rng)
     kinds: list[CableKind] = []
     for _ in range(count):
-        make = common if alike else _draw_make(ranges, seen_m, rng)
+        make = common if alike else _sample_make(ranges, seen_m, rng)
         if not skinned:
             kinds.append(CableKind(make.diameter_m, None))
         elif chance(rng, ranges.bundle.share):
-            kinds.append(_draw_bundle(ranges, make, seen_m, rng))
+            kinds.append(_sample_bundle(ranges, make, seen_m, rng))
         else:
-            kinds.append(CableKind(make.diameter_m, _draw_skin(ranges.skin, make, rng)))
+            kinds.append(CableKind(make.diameter_m, _sample_skin(ranges.skin, make, rng)))
     return kinds
 
 
-def draw_ends(ranges: EndRanges, look: Look, diameter_m: float, rng: np.random.Generator) -> tuple[CableEnd, CableEnd]:
+def sample_ends(
+    ranges: EndRanges, look: Look, diameter_m: float, rng: np.random.Generator
+) -> tuple[CableEnd, CableEnd]:
     """Draw how a cable ends; a bundle and a cable of the published surface are just cut."""
-    ends = (_draw_end(ranges, diameter_m, rng), _draw_end(ranges, diameter_m, rng))
+    ends = (_sample_end(ranges, diameter_m, rng), _sample_end(ranges, diameter_m, rng))
     return ends if isinstance(look, Skin) else (CableEnd(), CableEnd())
 
 
-def _draw_end(ranges: EndRanges, diameter_m: float, rng: np.random.Generator) -> CableEnd:
+def _sample_end(ranges: EndRanges, diameter_m: float, rng: np.random.Generator) -> CableEnd:
     drawn = rng.random()
     bare = max(uniform(rng, ranges.bare_m), 2.0 * diameter_m)
     collar = _FERRULE_COLOURS[int(rng.integers(len(_FERRULE_COLOURS)))]
@@ -107,7 +109,7 @@ def _draw_end(ranges: EndRanges, diameter_m: float, rng: np.random.Generator) ->
     return CableEnd()
 
 
-def _draw_make(ranges: CableRanges, seen_m: float, rng: np.random.Generator) -> _Make:
+def _sample_make(ranges: CableRanges, seen_m: float, rng: np.random.Generator) -> _Make:
     skin = ranges.skin
     drawn = rng.random()
     sheath = Sheath.PLAIN
@@ -124,10 +126,10 @@ def _draw_make(ranges: CableRanges, seen_m: float, rng: np.random.Generator) -> 
     )
 
 
-def _draw_skin(ranges: SkinRanges, make: _Make, rng: np.random.Generator) -> Skin:
-    colour, second = draw_colours(ranges.palette, rng)
-    stripe = _draw_stripe(ranges, make, second, rng)
-    marking = _draw_marking(make, colour, rng)
+def _sample_skin(ranges: SkinRanges, make: _Make, rng: np.random.Generator) -> Skin:
+    colour, second = sample_colours(ranges.palette, rng)
+    stripe = _sample_stripe(ranges, make, second, rng)
+    marking = _sample_marking(make, colour, rng)
     dirty = not chance(rng, ranges.clean_share)
     dirt, wear = uniform(rng, ranges.dirt), uniform(rng, ranges.wear)
     plain = make.sheath is Sheath.PLAIN
@@ -143,7 +145,7 @@ def _draw_skin(ranges: SkinRanges, make: _Make, rng: np.random.Generator) -> Ski
     )
 
 
-def _draw_stripe(ranges: SkinRanges, make: _Make, colour: Rgb, rng: np.random.Generator) -> Stripe:
+def _sample_stripe(ranges: SkinRanges, make: _Make, colour: Rgb, rng: np.random.Generator) -> Stripe:
     spiral = chance(rng, ranges.spiral_share)
     pitch = uniform(rng, ranges.spiral_pitch_diameters) * make.diameter_m
     twist = log_uniform(rng, _STRAIGHT_PITCH_M)
@@ -156,7 +158,7 @@ def _draw_stripe(ranges: SkinRanges, make: _Make, colour: Rgb, rng: np.random.Ge
     )
 
 
-def _draw_marking(make: _Make, sheath: Rgb, rng: np.random.Generator) -> Marking:
+def _sample_marking(make: _Make, sheath: Rgb, rng: np.random.Generator) -> Marking:
     text = _TEXTS[int(rng.integers(len(_TEXTS)))]
     height = float(rng.uniform(0.35, 0.6))
     dark = float(np.dot(sheath, (0.2126, 0.7152, 0.0722))) < 110
@@ -166,7 +168,7 @@ def _draw_marking(make: _Make, sheath: Rgb, rng: np.random.Generator) -> Marking
     return Marking(text=text, colour=letters, height_share=height, repeat_m=words_m + float(rng.uniform(0.01, 0.06)))
 
 
-def _draw_bundle(ranges: CableRanges, make: _Make, seen_m: float, rng: np.random.Generator) -> CableKind:
+def _sample_bundle(ranges: CableRanges, make: _Make, seen_m: float, rng: np.random.Generator) -> CableKind:
     bundle: BundleRanges = ranges.bundle
     strands = level(rng, bundle.strands)
     ratio = envelope_ratio(strands)
@@ -175,10 +177,10 @@ def _draw_bundle(ranges: CableRanges, make: _Make, seen_m: float, rng: np.random
     strand = min(strand, 1.5 * ranges.widest_share * seen_m / ratio)
     diameter = ratio * strand
     lay = uniform(rng, bundle.lay_diameters) * diameter * (1.0 if chance(rng, 0.5) else -1.0)
-    ties = _draw_ties(bundle, rng)
+    ties = _sample_ties(bundle, rng)
     make = replace(make, diameter_m=strand, marked=False)
     look = Bundle(
-        strands=tuple(_draw_skin(ranges.skin, make, rng) for _ in range(strands)),
+        strands=tuple(_sample_skin(ranges.skin, make, rng) for _ in range(strands)),
         strand_diameter_m=strand,
         lay_m=lay,
         phase_deg=float(rng.uniform(0.0, 360.0)),
@@ -193,7 +195,7 @@ def _draw_bundle(ranges: CableRanges, make: _Make, seen_m: float, rng: np.random
     )
 
 
-def _draw_ties(ranges: BundleRanges, rng: np.random.Generator) -> tuple[Tie, ...]:
+def _sample_ties(ranges: BundleRanges, rng: np.random.Generator) -> tuple[Tie, ...]:
     count = level(rng, ranges.ties)
     colour = _TIE_COLOURS[int(rng.integers(len(_TIE_COLOURS)))]
     width = uniform(rng, ranges.tie_width_m)

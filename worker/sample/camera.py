@@ -10,7 +10,7 @@ NO_JPEG = 101
 """A quality above all that JPEG has: none is lost."""
 
 
-def draw_camera(ranges: CameraRanges, rng: np.random.Generator) -> Camera:
+def sample_camera(ranges: CameraRanges, rng: np.random.Generator) -> Camera:
     """Draw the camera; with another lens it stands so far away that the picture is as wide."""
     height = ranges.heights_m[int(rng.integers(len(ranges.heights_m)))]
     focal_length = ranges.focal_lengths_mm[int(rng.integers(len(ranges.focal_lengths_mm)))]
@@ -27,7 +27,7 @@ def draw_camera(ranges: CameraRanges, rng: np.random.Generator) -> Camera:
     )
 
 
-def draw_development(
+def sample_development(
     ranges: DevelopmentRanges, rng: np.random.Generator, *, over_light_floor: bool
 ) -> Development | None:
     """Draw how the sensor's light becomes a picture; None leaves it to Blender."""

@@ -35,7 +35,7 @@ _SLENDER = 9.0
 """A stick is at least so many times longer than thick."""
 
 
-def draw_sticks(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Stick, ...]:
+def sample_sticks(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Stick, ...]:
     """Draw sticks that start above each other, from the floor up.
 
     Args:
@@ -66,7 +66,7 @@ def draw_sticks(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) 
     return tuple(sticks)
 
 
-def draw_sheets(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Sheet, ...]:
+def sample_sheets(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Sheet, ...]:
     """Draw flat things, the lowest first."""
     sheets: list[Sheet] = []
     for _ in range(level(rng, ranges.sheets)):
@@ -87,7 +87,7 @@ def draw_sheets(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) 
     return tuple(sheets)
 
 
-def draw_parts(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Part, ...]:
+def sample_parts(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Part, ...]:
     """Draw small things."""
     parts: list[Part] = []
     for _ in range(level(rng, ranges.parts)):

@@ -8,7 +8,7 @@ from farm.spec.ranges.floor import FloorRanges, WearRanges
 from worker.sample.values import chance, log_uniform, pattern_seed, uniform
 
 
-def draw_floor(
+def sample_floor(
     ranges: FloorRanges, header: DatasetHeader, rng: np.random.Generator, wear_rng: np.random.Generator
 ) -> Floor:
     """Draw a surface, how it lies, and what it has been through."""
@@ -21,11 +21,11 @@ def draw_floor(
         offset_y=uniform(rng, ranges.offset_y),
         rotation_deg=uniform(rng, ranges.rotation_deg),
         scale=uniform(rng, ranges.scale),
-        wear=_draw_wear(ranges.wear, wear_rng),
+        wear=_sample_wear(ranges.wear, wear_rng),
     )
 
 
-def _draw_wear(ranges: WearRanges, rng: np.random.Generator) -> Wear | None:
+def _sample_wear(ranges: WearRanges, rng: np.random.Generator) -> Wear | None:
     if not chance(rng, ranges.share):
         return None
     stained, scratched, dusty = (
@@ -49,11 +49,11 @@ def _draw_wear(ranges: WearRanges, rng: np.random.Generator) -> Wear | None:
         pattern_seed=pattern_seed(rng),
     )
     # Drawn last, and always, so that joints move no other draw.
-    joints = _draw_joint_fill(ranges, rng)
+    joints = _sample_joint_fill(ranges, rng)
     return worn.model_copy(update={"joints": joints}) if chance(rng, ranges.refilled_share) else worn
 
 
-def _draw_joint_fill(ranges: WearRanges, rng: np.random.Generator) -> JointFill:
+def _sample_joint_fill(ranges: WearRanges, rng: np.random.Generator) -> JointFill:
     level, warmth = log_uniform(rng, ranges.joint_albedo), uniform(rng, ranges.joint_warmth_ev)
     return JointFill(
         albedo=(min(1.0, level * 2.0**warmth), level, min(1.0, level / 2.0**warmth)),

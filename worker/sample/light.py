@@ -20,17 +20,17 @@ class Lighting:
 NO_LAMPS = Lighting((), None)
 
 
-def draw_lamps(lamp: LampRanges, studio: StudioRanges, rng: np.random.Generator) -> Lighting:
+def sample_lamps(lamp: LampRanges, studio: StudioRanges, rng: np.random.Generator) -> Lighting:
     """Draw the lamps of a concentrated light and the grey world about them."""
-    published = _draw_published(lamp, rng)
+    published = _sample_published(lamp, rng)
     if not chance(rng, studio.share):
         return Lighting((published,), None)
-    lamps = tuple(_draw_studio_lamp(studio, rng) for _ in range(level(rng, studio.count)))
+    lamps = tuple(_sample_studio_lamp(studio, rng) for _ in range(level(rng, studio.count)))
     grey = GreyWorld(radiance=log_uniform(rng, studio.grey), temperature_k=uniform(rng, studio.grey_temperature_k))
     return Lighting(lamps, grey)
 
 
-def _draw_studio_lamp(ranges: StudioRanges, rng: np.random.Generator) -> StudioLamp:
+def _sample_studio_lamp(ranges: StudioRanges, rng: np.random.Generator) -> StudioLamp:
     distance = log_uniform(rng, ranges.distance_m)
     return StudioLamp(
         bearing_deg=float(rng.uniform(0.0, 360.0)),
@@ -42,7 +42,7 @@ def _draw_studio_lamp(ranges: StudioRanges, rng: np.random.Generator) -> StudioL
     )
 
 
-def _draw_published(ranges: LampRanges, rng: np.random.Generator) -> PointLamp | AreaLamp:
+def _sample_published(ranges: LampRanges, rng: np.random.Generator) -> PointLamp | AreaLamp:
     if rng.random() < ranges.area_share:
         side = -1.0 if rng.random() < 0.5 else 1.0
         return AreaLamp(x_m=side * uniform(rng, ranges.area_distance_m), power_w=uniform(rng, ranges.area_power_w))

@@ -72,7 +72,7 @@ _BATCH_LEVELS = 9.0
 """Standard deviation between batches of one colour."""
 
 
-def draw_colours(ranges: PaletteRanges, rng: np.random.Generator) -> tuple[Rgb, Rgb]:
+def sample_colours(ranges: PaletteRanges, rng: np.random.Generator) -> tuple[Rgb, Rgb]:
     """Draw a sheath's colour and the one that a stripe on it would have.
 
     Args:

@@ -9,18 +9,18 @@ from farm.spec.category import Background, Light
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.spec.ranges.cable import CableRanges
-from worker.sample.backdrop import draw_plate, draw_world
-from worker.sample.cable import draw_cables, draw_substances
-from worker.sample.camera import draw_camera, draw_development
-from worker.sample.clutter import draw_parts, draw_sheets, draw_sticks
-from worker.sample.floor import draw_floor
-from worker.sample.light import NO_LAMPS, draw_lamps
+from worker.sample.backdrop import sample_plate, sample_world
+from worker.sample.cable import sample_cables, sample_substances
+from worker.sample.camera import sample_camera, sample_development
+from worker.sample.clutter import sample_parts, sample_sheets, sample_sticks
+from worker.sample.floor import sample_floor
+from worker.sample.light import NO_LAMPS, sample_lamps
 from worker.sample.seeds import Stage, generator
 from worker.sample.values import chance, level, uniform
-from worker.sample.wind import draw_wind
+from worker.sample.wind import sample_wind
 
 
-def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
+def sample_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
     """Draw the scene of one attempt at a job.
 
     The same header, job and attempt give the same scene on every machine.
@@ -31,24 +31,24 @@ def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
 
     ranges, traits = header.spec.ranges, job.category.traits
     counts = streams(Stage.CABLES)
-    count = _draw_count(ranges.cable, counts)
+    count = _sample_count(ranges.cable, counts)
     vertex_mass = uniform(counts, ranges.cable.vertex_mass)
     friction = Friction(
         floor=uniform(counts, ranges.cable.friction_floor), cable=uniform(counts, ranges.cable.friction_cable)
     )
-    substances = draw_substances(ranges.cable, count, counts)
-    camera = draw_camera(ranges.camera, streams(Stage.CAMERA))
+    substances = sample_substances(ranges.cable, count, counts)
+    camera = sample_camera(ranges.camera, streams(Stage.CAMERA))
     is_floor = traits.background is Background.FLOOR
     clutter_rng = streams(Stage.CLUTTER)
     cluttered = chance(clutter_rng, ranges.clutter.share) and is_floor
-    sticks = draw_sticks(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else ()
+    sticks = sample_sticks(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else ()
     is_lamp = traits.light is Light.CONCENTRATED
-    lighting = draw_lamps(ranges.lamp, ranges.studio, streams(Stage.LIGHT)) if is_lamp else NO_LAMPS
-    floor = draw_floor(ranges.floor, header, streams(Stage.FLOOR), streams(Stage.WEAR)) if is_floor else None
+    lighting = sample_lamps(ranges.lamp, ranges.studio, streams(Stage.LIGHT)) if is_lamp else NO_LAMPS
+    floor = sample_floor(ranges.floor, header, streams(Stage.FLOOR), streams(Stage.WEAR)) if is_floor else None
     above = max((stick.start_height_m + 1.5 * stick.diameter_m for stick in sticks), default=0.0)
     return Scene(
         attempt=attempt,
-        cables=draw_cables(
+        cables=sample_cables(
             ranges,
             traits.disposition,
             substances,
@@ -59,17 +59,17 @@ def draw_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         ),
         vertex_mass=vertex_mass,
         friction=friction,
-        wind=draw_wind(ranges.wind, streams(Stage.WIND)),
+        wind=sample_wind(ranges.wind, streams(Stage.WIND)),
         floor=floor,
         lamps=lighting.lamps,
         grey_world=lighting.grey_world,
-        hdri_world=None if lighting.lamps else draw_world(header, traits.background, streams(Stage.WORLD)),
-        plate=None if is_floor else draw_plate(header, streams(Stage.PLATE)),
+        hdri_world=None if lighting.lamps else sample_world(header, traits.background, streams(Stage.WORLD)),
+        plate=None if is_floor else sample_plate(header, streams(Stage.PLATE)),
         sticks=sticks,
-        sheets=draw_sheets(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else (),
-        parts=draw_parts(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else (),
+        sheets=sample_sheets(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else (),
+        parts=sample_parts(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else (),
         camera=camera,
-        development=draw_development(
+        development=sample_development(
             ranges.development, streams(Stage.DEVELOPMENT), over_light_floor=_is_light(header, floor)
         ),
         render_seed=int(streams(Stage.RENDER).integers(2**31)),
@@ -80,5 +80,5 @@ def _is_light(header: DatasetHeader, floor: Floor | None) -> bool:
     return floor is not None and any(surface.light for surface in header.surfaces if surface.name == floor.texture)
 
 
-def _draw_count(ranges: CableRanges, rng: np.random.Generator) -> int:
+def _sample_count(ranges: CableRanges, rng: np.random.Generator) -> int:
     return max(level(rng, ranges.count) for _ in range(ranges.count_draws))

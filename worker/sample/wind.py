@@ -10,7 +10,7 @@ GUSTS = 3
 """Swings that are laid over the wind's mean speed."""
 
 
-def draw_wind(ranges: WindRanges, rng: np.random.Generator) -> Wind:
+def sample_wind(ranges: WindRanges, rng: np.random.Generator) -> Wind:
     """Draw the wind and its gusts."""
     strength = uniform(rng, ranges.strength)
     return Wind(
@@ -21,11 +21,11 @@ def draw_wind(ranges: WindRanges, rng: np.random.Generator) -> Wind:
         strength=strength,
         flow=strength * ranges.flow_per_strength,
         speed_m_s=strength * ranges.speed_per_strength_m_s,
-        gusts=tuple(_draw_gust(ranges, rng) for _ in range(GUSTS)),
+        gusts=tuple(_sample_gust(ranges, rng) for _ in range(GUSTS)),
     )
 
 
-def _draw_gust(ranges: WindRanges, rng: np.random.Generator) -> Gust:
+def _sample_gust(ranges: WindRanges, rng: np.random.Generator) -> Gust:
     return Gust(
         share=uniform(rng, ranges.gust_share),
         period_s=uniform(rng, ranges.gust_period_s),

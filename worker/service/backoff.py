@@ -8,7 +8,7 @@ _FIRST_S = 2.0
 _LONGEST_S = 60.0
 
 
-class Hold:
+class Backoff:
     """Holds a worker back after failures of its store, longer after each, and while its disk is low.
 
     Args:

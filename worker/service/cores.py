@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 
 @contextmanager
-def only_so_many_seen(threads: int) -> Iterator[None]:
+def limit_visible_cores(threads: int) -> Iterator[None]:
     """Show what is loaded inside `with` so many cores; afterwards this process may run on all of its own again.
 
     Blender's task scheduler (oneTBB) counts cores once, as Blender is loaded, and starts a thread for each. Threads

@@ -5,7 +5,7 @@ import sys
 from typing import NoReturn
 
 
-def leave(exit_code: int) -> NoReturn:
+def end_process(exit_code: int) -> NoReturn:
     """End this process at once, its output written.
 
     Blender 4.5 may hang in an ordinary exit: the destructor of its file cache waits for a thread that waits for it.

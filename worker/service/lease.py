@@ -18,11 +18,11 @@ from farm.run.ledger.port import CLAIM_S, Ledger
 log = logging.getLogger(__name__)
 
 
-class ClaimLostError(FarmError):
+class LeaseLostError(FarmError):
     """The job is another worker's by now, or may be."""
 
 
-class HeldClaim:
+class Lease:
     """Refreshes a claim from a thread of its own, inside `with`.
 
     Args:
@@ -60,30 +60,30 @@ class HeldClaim:
                 self.renew()
             except BrokerError as error:
                 log.warning("claim of %s not refreshed: %s", self._job_id, error)
-            except ClaimLostError:
+            except LeaseLostError:
                 return
 
     def renew(self) -> None:
         """Ask the ledger for more time.
 
         Raises:
-            ClaimLostError: if the claim is no longer held.
+            LeaseLostError: if the claim is no longer held.
             BrokerError: if the ledger can't be reached.
         """
         asked_s = self._clock()
         if not self._ledger.refresh(self._job_id, self._owner, self._ttl_s):
             self._until_s = float("-inf")
-            raise ClaimLostError(f"{self._job_id}: this worker lost its claim, so nothing of it is written")
+            raise LeaseLostError(f"{self._job_id}: this worker lost its claim, so nothing of it is written")
         self._until_s = max(self._until_s, asked_s + 0.9 * self._ttl_s)
 
     def check(self) -> None:
         """Make sure that nobody else can have the job at this moment.
 
         Raises:
-            ClaimLostError: if somebody may.
+            LeaseLostError: if somebody may.
         """
         if self._clock() >= self._until_s:
-            raise ClaimLostError(f"{self._job_id}: this worker's claim has lapsed, so nothing of it is written")
+            raise LeaseLostError(f"{self._job_id}: this worker's claim has lapsed, so nothing of it is written")
 
     def __enter__(self) -> Self:
         """Start."""

@@ -14,7 +14,7 @@ from farm.spec.job import Job
 
 
 @dataclass(frozen=True, slots=True)
-class MadeImage:
+class Picture:
     """One picture with its labels and everything its manifest tells.
 
     Attributes:
@@ -35,10 +35,10 @@ class MadeImage:
     versions: Mapping[str, str]
 
 
-class ImageMaker(Protocol):
+class Renderer(Protocol):
     """Makes the picture of a job. The real one holds an open Blender template; tests of the queue have a twin."""
 
-    def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+    def make(self, job: Job, header: DatasetHeader) -> Picture:
         """Make one picture.
 
         Raises:

@@ -21,13 +21,13 @@ from farm.run.queue.broker import connect
 from farm.run.queue.celery import CeleryQueue
 from farm.run.queue.settings import HARD_LIMIT_S, QUEUE, SOFT_LIMIT_S, make_app
 from farm.run.queue.wire import install, keep_only_task
-from farm.run.registry.port import Board, RunState, WorkerState
-from farm.run.registry.redis import RedisBoard
+from farm.run.registry.port import RunRegistry, RunState, WorkerState
+from farm.run.registry.redis import RedisRegistry
 from farm.storage import open_storage
-from worker.service.backoff import Hold
+from worker.service.backoff import Backoff
 from worker.service.job_log import JobLogs
-from worker.service.runner import JobRunner, MakerFactory
-from worker.service.supervisor import Foreman, is_stopping, kill_group
+from worker.service.runner import JobRunner, OpenRenderer
+from worker.service.supervisor import Supervisor, is_stopping, kill_group
 from worker.service.tasks import register_tasks
 from worker.service.watchdog import Signs, watch
 
@@ -62,7 +62,7 @@ class WorkerSettings:
     min_free_bytes: int
 
 
-def serve(settings: WorkerSettings, open_maker: MakerFactory) -> int:
+def serve(settings: WorkerSettings, open_renderer: OpenRenderer) -> int:
     """Work until told to stop by a signal: SIGTERM lets the running job end, a second one does not.
 
     Returns:
@@ -88,18 +88,18 @@ def serve(settings: WorkerSettings, open_maker: MakerFactory) -> int:
     name = f"{settings.name}@{os.uname().nodename}"
     job_logs = settings.log_folder / "jobs"
     shared = _RedisOfProcess(settings.broker_url)
-    foreman = Foreman(
+    supervisor = Supervisor(
         name,
-        open_board=shared.board,
+        open_registry=shared.registry,
         open_ledger=shared.ledger,
-        hold=Hold(settings.store, settings.min_free_bytes),
+        backoff=Backoff(settings.store, settings.min_free_bytes),
         logs=JobLogs(job_logs),
         memory_per_child_kib=settings.memory_per_child_kib,
     )
-    runner = JobRunner(settings.store, open_maker, _RedisOfProcess(settings.broker_url).ledger, job_logs)
-    register_tasks(app, runner, foreman)
+    runner = JobRunner(settings.store, open_renderer, _RedisOfProcess(settings.broker_url).ledger, job_logs)
+    register_tasks(app, runner, supervisor)
     keep_only_task(app)
-    app.steps["consumer"].add(foreman.step())
+    app.steps["consumer"].add(supervisor.step())
 
     main_process = os.getpid()
 
@@ -122,12 +122,12 @@ def serve(settings: WorkerSettings, open_maker: MakerFactory) -> int:
         without_gossip=True,
         without_mingle=True,
     )
-    watch(_Eyes(settings.broker_url, foreman, app).see, _kill_children)
+    watch(_Eyes(settings.broker_url, supervisor, app).see, _kill_children)
     worker.start()
     with suppress(FarmError):
-        shared.board().sign_off(name)
-    if foreman.fault is not None:
-        raise foreman.fault.as_fault()
+        shared.registry().sign_off(name)
+    if supervisor.fault is not None:
+        raise supervisor.fault.as_fault()
     return int(worker.exitcode or 0)
 
 
@@ -151,21 +151,21 @@ def _kill_children() -> None:
 class _Eyes:
     """What the watchdog sees, over a connection of its own."""
 
-    def __init__(self, broker_url: str, foreman: Foreman, app: Any) -> None:
+    def __init__(self, broker_url: str, supervisor: Supervisor, app: Any) -> None:
         self._shared = _RedisOfProcess(broker_url)
-        self._foreman = foreman
+        self._supervisor = supervisor
         self._app = app
 
     def see(self) -> Signs:
         """Look; raises BrokerError while Redis is away."""
-        runs = [run for run in self._shared.board().runs().values() if run.state is RunState.ACTIVE]
+        runs = [run for run in self._shared.registry().runs().values() if run.state is RunState.ACTIVE]
         queue = CeleryQueue(self._app, self._shared.client())
-        report = self._foreman.report()
+        report = self._supervisor.report()
         if is_stopping():
             # The loop that reports no longer runs.
-            self._shared.board().report(report)
+            self._shared.registry().report(report)
         return Signs(
-            ticked_s=self._foreman.ticked_s,
+            ticked_s=self._supervisor.ticked_s,
             busy=bool(report.jobs),
             stopping=is_stopping(),
             jobs_wait=report.state is not WorkerState.HELD and any(queue.length(run) for run in runs),
@@ -187,9 +187,9 @@ class _RedisOfProcess:
             self._client, self._process, self._ledgers = connect(self._broker_url), os.getpid(), {}
         return self._client
 
-    def board(self) -> Board:
+    def registry(self) -> RunRegistry:
         """The farm's board."""
-        return RedisBoard(self.client())
+        return RedisRegistry(self.client())
 
     def ledger(self, dataset: str, spec_sha256: str) -> Ledger:
         """A dataset's ledger."""

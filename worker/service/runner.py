@@ -19,8 +19,8 @@ from farm.errors import (
     ConflictError,
     DatasetMissingError,
     DestinationError,
-    EnvironmentMissingError,
     FarmError,
+    MachineError,
     PermanentError,
     RenderError,
     RetryableError,
@@ -33,13 +33,13 @@ from farm.run.ledger.port import CLAIM_S, MAX_ABSENCES, Ledger, LedgerFactory
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job, JobMessage
 from worker.service.job_log import JobLogs
-from worker.service.lease import ClaimLostError, HeldClaim
-from worker.service.picture import ImageMaker, MadeImage
+from worker.service.lease import Lease, LeaseLostError
+from worker.service.picture import Picture, Renderer
 from worker.service.upload import upload
 
 log = logging.getLogger(__name__)
 
-MakerFactory = Callable[[DatasetHeader], ImageMaker]
+OpenRenderer = Callable[[DatasetHeader], Renderer]
 
 MAX_TRIES = 3
 """A job that fails in a way that may pass is tried so often."""
@@ -56,7 +56,7 @@ BACKOFF_S = (5.0, 30.0)
 _MARGIN_S = 30.0
 _LOST_CLAIM_S = 2.0
 _PROBE = ".tmp-probe"
-_FAULTS_OF_THE_MACHINE = (AssetError, EnvironmentMissingError, TemplateError)
+_FAULTS_OF_THE_MACHINE = (AssetError, MachineError, TemplateError)
 
 
 class TryLaterError(RetryableError):
@@ -88,19 +88,19 @@ class JobRunner:
 
     Args:
         store: folder or URL below which the datasets lie.
-        open_maker: opens what makes a dataset's pictures; called in this process, at its first job.
+        open_renderer: opens what makes a dataset's pictures; called in this process, at its first job.
         open_ledger: opens the ledger of a dataset.
         logs: folder for what jobs print; None leaves their output alone.
     """
 
     def __init__(
-        self, store: str, open_maker: MakerFactory, open_ledger: LedgerFactory, logs: Path | None = None
+        self, store: str, open_renderer: OpenRenderer, open_ledger: LedgerFactory, logs: Path | None = None
     ) -> None:
         self._store = store
-        self._open_maker = open_maker
+        self._open_renderer = open_renderer
         self._open_ledger = open_ledger
         self._logs = None if logs is None else JobLogs(logs)
-        self._maker: tuple[str, ImageMaker] | None = None
+        self._renderer: tuple[str, Renderer] | None = None
         self._failed: dict[str, str] = {}
         self._must_probe = False
         self._found: set[str] = set()
@@ -127,7 +127,7 @@ class JobRunner:
         except StaleMessageError as error:
             # Its dataset was replaced by another of the same name; whoever replaced it has submitted that one.
             return Outcome(f"dropped: {error}")
-        except ClaimLostError as error:
+        except LeaseLostError as error:
             # Another has it, or Redis came back without its memory: whoever is next sees.
             raise TryLaterError(str(error), _LOST_CLAIM_S) from error
         except (UnfitWorkerError, DestinationError, BrokerError):
@@ -197,7 +197,7 @@ class JobRunner:
 
     def _make_and_upload(self, message: JobMessage, dataset: Dataset, ledger: Ledger) -> Manifest:
         job = message.job
-        with HeldClaim(ledger, job.id, this_process()) as claim:
+        with Lease(ledger, job.id, this_process()) as claim:
             if self._logs is None:
                 made = self._make(dataset, job)
             else:
@@ -248,10 +248,10 @@ class JobRunner:
         ledger.forgive([message.job_id])
         ledger.add_figures({"quarantined": 1})
 
-    def _make(self, dataset: Dataset, job: Job) -> MadeImage:
-        maker = self._maker_for(dataset.header)
+    def _make(self, dataset: Dataset, job: Job) -> Picture:
+        renderer = self._renderer_for(dataset.header)
         try:
-            return maker.make(job, dataset.header)
+            return renderer.make(job, dataset.header)
         except _FAULTS_OF_THE_MACHINE as error:
             # Textures and HDRIs are looked up when a scene first shows them.
             raise UnfitWorkerError(str(error), error.exit_code) from error
@@ -262,16 +262,16 @@ class JobRunner:
         except Exception as error:
             raise _defect(job, error) from error
 
-    def _maker_for(self, header: DatasetHeader) -> ImageMaker:
+    def _renderer_for(self, header: DatasetHeader) -> Renderer:
         fingerprint = header.spec_sha256
-        if self._maker is None or self._maker[0] != fingerprint:
-            self._maker = None  # two open templates at once would need twice the memory
-            self._maker = (fingerprint, self._opened(header))
-        return self._maker[1]
+        if self._renderer is None or self._renderer[0] != fingerprint:
+            self._renderer = None  # two open templates at once would need twice the memory
+            self._renderer = (fingerprint, self._opened(header))
+        return self._renderer[1]
 
-    def _opened(self, header: DatasetHeader) -> ImageMaker:
+    def _opened(self, header: DatasetHeader) -> Renderer:
         try:
-            return self._open_maker(header)
+            return self._open_renderer(header)
         except FarmError as error:
             raise UnfitWorkerError(str(error), error.exit_code) from error
         except SoftTimeLimitExceeded as error:
@@ -280,7 +280,7 @@ class JobRunner:
             # Blender's libraries, the driver, the memory: nothing of it is the job's doing.
             log.exception("nothing can be rendered here")
             reason = f"can't open Blender: {type(error).__name__}: {error}"
-            raise UnfitWorkerError(reason, EnvironmentMissingError.exit_code) from error
+            raise UnfitWorkerError(reason, MachineError.exit_code) from error
 
 
 def _claim(ledger: Ledger, job_id: str) -> int:
@@ -305,7 +305,7 @@ def _defect(job: Job, error: Exception) -> RenderError:
 def _require_claim(ledger: Ledger, job_id: str) -> None:
     """Only the holder may count a job's failures or give it up."""
     if not ledger.refresh(job_id, this_process()):
-        raise ClaimLostError(f"{job_id}: failed here, but is another worker's by now")
+        raise LeaseLostError(f"{job_id}: failed here, but is another worker's by now")
 
 
 def _nothing_to_do(dataset: Dataset, job: Job) -> str:

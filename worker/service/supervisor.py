@@ -19,9 +19,9 @@ from kombu.entity import Queue
 from farm.errors import BrokerError, DestinationError, MessageError, RenderError, UnfitWorkerError
 from farm.run.ledger.port import LedgerFactory
 from farm.run.queue.settings import QUEUE, queue_name
-from farm.run.registry.port import Board, RunState, WorkerReport, WorkerState
+from farm.run.registry.port import RunRegistry, RunState, WorkerReport, WorkerState
 from farm.spec.job import JobMessage
-from worker.service.backoff import Hold
+from worker.service.backoff import Backoff
 from worker.service.job_log import JobLogs
 from worker.service.runner import FAILED_IN_A_ROW
 
@@ -33,12 +33,12 @@ _HARD_LIMIT = 2
 """A renderer is killed in the midst of its job at so many times the memory above which it is replaced after it."""
 
 
-class Foreman:
+class Supervisor:
     """Sees to one worker.
 
     Args:
         name: `NAME@HOST`.
-        open_board: opens the board; called in the main process, when it is first needed.
+        open_registry: opens the board; called in the main process, when it is first needed.
         open_ledger: opens a dataset's ledger; likewise.
         hold: why no jobs may be taken.
         logs: of the jobs that run here.
@@ -48,16 +48,16 @@ class Foreman:
     def __init__(
         self,
         name: str,
-        open_board: Callable[[], Board],
+        open_registry: Callable[[], RunRegistry],
         open_ledger: LedgerFactory,
-        hold: Hold,
+        backoff: Backoff,
         logs: JobLogs,
         memory_per_child_kib: int,
     ) -> None:
         self._name = name
-        self._open_board = open_board
+        self._open_registry = open_registry
         self._open_ledger = open_ledger
-        self._hold = hold
+        self._backoff = backoff
         self._logs = logs
         self._most_bytes = _HARD_LIMIT * memory_per_child_kib * 1024
         self._consumer: Any = None
@@ -70,7 +70,7 @@ class Foreman:
 
     def step(self) -> type[Any]:
         """The step for Celery's consumer; it starts anew with each connection."""
-        foreman = self
+        supervisor = self
 
         class ForemanStep(bootsteps.StartStopStep):  # type: ignore[misc]  # celery is untyped
             """Calls the foreman while the consumer is connected."""
@@ -79,7 +79,7 @@ class Foreman:
 
             def start(self, consumer: Any) -> None:
                 """Begin."""
-                foreman.attach(consumer)
+                supervisor.attach(consumer)
 
         return ForemanStep
 
@@ -94,11 +94,11 @@ class Foreman:
     def tick(self) -> None:
         """Look at the board and the store, and act."""
         self.ticked_s = time.monotonic()
-        self._held_reason = self._hold.reason()
+        self._held_reason = self._backoff.reason()
         try:
-            runs = {} if self._held_reason or self.fault else self._open_board().runs()
+            runs = {} if self._held_reason or self.fault else self._open_registry().runs()
             self._join({queue_name(key) for key, run in runs.items() if run.state is RunState.ACTIVE})
-            self._open_board().report(self.report())
+            self._open_registry().report(self.report())
         except BrokerError as error:
             # Celery finds out, too, and connects again.
             log.warning("%s", error)
@@ -150,7 +150,7 @@ class Foreman:
         """A picture was made."""
         self._done += 1
         self._crashed.clear()
-        self._hold.succeed()
+        self._backoff.succeed()
 
     def note_unfit(self, fault: UnfitWorkerError) -> None:
         """This worker can do no job: it takes none after the one that is about to be given back, and ends."""
@@ -159,7 +159,7 @@ class Foreman:
 
     def note_full(self, error: DestinationError) -> None:
         """The store could not be written: take nothing for a while. Called before the message goes back."""
-        self._hold.fail(str(error))
+        self._backoff.fail(str(error))
         self._join(set())
 
     def note_crash(self, request: Any) -> None:

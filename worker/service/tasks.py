@@ -12,7 +12,7 @@ from celery.worker.request import Request
 from farm.errors import BrokerError, DestinationError, FarmError, UnfitWorkerError
 from farm.run.queue.settings import TASK_NAME
 from worker.service.runner import JobRunner, TryLaterError
-from worker.service.supervisor import Foreman
+from worker.service.supervisor import Supervisor
 
 log = logging.getLogger(__name__)
 
@@ -25,7 +25,7 @@ def _broker_pause_s(process: int) -> float:
     return least + (most - least) * (process % 100) / 100
 
 
-def register_tasks(app: Any, runner: JobRunner, foreman: Foreman) -> Any:
+def register_tasks(app: Any, runner: JobRunner, supervisor: Supervisor) -> Any:
     """Give the application its task, which hands every message to the runner.
 
     The runner opens its maker at the first job, so in the pool's child and never before the fork.
@@ -33,7 +33,7 @@ def register_tasks(app: Any, runner: JobRunner, foreman: Foreman) -> Any:
     Args:
         app: the Celery application.
         runner: runs the jobs.
-        foreman: learns in the worker's main process how jobs ended.
+        supervisor: learns in the worker's main process how jobs ended.
 
     Returns:
         The task.
@@ -47,7 +47,7 @@ def register_tasks(app: Any, runner: JobRunner, foreman: Foreman) -> Any:
         def acknowledge(self) -> Any:
             """Learn that a picture was made: Celery replaces `on_success`, but acknowledges there."""
             if not self.failed:
-                foreman.note_done()
+                supervisor.note_done()
             return super().acknowledge()
 
         def on_failure(self, exc_info: Any, send_failed_event: bool = True, return_ok: bool = False) -> Any:
@@ -55,18 +55,18 @@ def register_tasks(app: Any, runner: JobRunner, foreman: Foreman) -> Any:
             self.failed = True
             error = getattr(exc_info.exception, "exc", exc_info.exception)
             if isinstance(error, Reject) and isinstance(error.reason, UnfitWorkerError):
-                foreman.note_unfit(error.reason)
+                supervisor.note_unfit(error.reason)
             elif isinstance(error, Reject) and isinstance(error.reason, DestinationError):
-                foreman.note_full(error.reason)
+                supervisor.note_full(error.reason)
             elif isinstance(error, WorkerLostError | SystemExit):
-                foreman.note_crash(self)
+                supervisor.note_crash(self)
             return super().on_failure(exc_info, send_failed_event, return_ok)
 
         def on_timeout(self, soft: bool, timeout: float) -> Any:
             """Learn that a child is about to be killed at the hard limit."""
             if not soft:
                 self.failed = True
-                foreman.note_crash(self)
+                supervisor.note_crash(self)
             return super().on_timeout(soft, timeout)
 
     def render_image(task: Any, message: object = None) -> None:

@@ -14,8 +14,8 @@ from farm.dataset.manifest import FileRecord, Manifest
 from farm.dataset.paths import FileRole, file_path, manifest_path
 from farm.errors import BrokerError, RenderError
 from farm.spec.job import Job
-from worker.service.lease import ClaimLostError
-from worker.service.picture import MadeImage
+from worker.service.lease import LeaseLostError
+from worker.service.picture import Picture
 
 Pixels = NDArray[np.uint8] | NDArray[np.uint16]
 
@@ -39,7 +39,7 @@ def encode_png(pixels: Pixels) -> bytes:
     return data.tobytes()
 
 
-def _check(made: MadeImage) -> None:
+def _check(made: Picture) -> None:
     shape = made.mask.shape
     if made.image.shape != (*shape, 3) or made.instances.shape != shape:
         raise RenderError(f"image {made.image.shape}, mask {shape} and instances {made.instances.shape} differ in size")
@@ -51,14 +51,14 @@ def _check(made: MadeImage) -> None:
 
 
 class Guard(Protocol):
-    """Tells whether the job may still be written; see `worker.service.lease.HeldClaim`."""
+    """Tells whether the job may still be written; see `worker.service.lease.Lease`."""
 
     def renew(self) -> None:
-        """Ask whoever knows; raises ClaimLostError or BrokerError."""
+        """Ask whoever knows; raises LeaseLostError or BrokerError."""
         ...
 
     def check(self) -> None:
-        """Ask no one; raises ClaimLostError."""
+        """Ask no one; raises LeaseLostError."""
         ...
 
 
@@ -72,7 +72,7 @@ class Unguarded:
         """Nothing to check."""
 
 
-def upload(made: MadeImage, job: Job, dataset: Dataset, guard: Guard | None = None) -> Manifest:
+def upload(made: Picture, job: Job, dataset: Dataset, guard: Guard | None = None) -> Manifest:
     """Write the files, then the manifest that vouches for them.
 
     Returns:
@@ -81,7 +81,7 @@ def upload(made: MadeImage, job: Job, dataset: Dataset, guard: Guard | None = No
     Raises:
         RenderError: if the picture and its labels don't fit each other.
         DestinationError: if a file can't be written.
-        ClaimLostError: if the guard finds that another may be writing; then what is in place is whole, or has no
+        LeaseLostError: if the guard finds that another may be writing; then what is in place is whole, or has no
             manifest.
         BrokerError: if the guard can't find out; likewise.
     """
@@ -90,14 +90,14 @@ def upload(made: MadeImage, job: Job, dataset: Dataset, guard: Guard | None = No
     guard.renew()
     try:
         return _write(made, job, dataset, guard)
-    except (ClaimLostError, BrokerError):
+    except (LeaseLostError, BrokerError):
         # The process may have been stopped between a check and its write, which then may have met another's files.
         if not is_done(dataset, job):
             dataset.storage.remove(manifest_path(job))
         raise
 
 
-def _write(made: MadeImage, job: Job, dataset: Dataset, guard: Guard) -> Manifest:
+def _write(made: Picture, job: Job, dataset: Dataset, guard: Guard) -> Manifest:
     start = time.perf_counter()
     pixels: dict[FileRole, Pixels] = {
         FileRole.IMAGE: made.image,

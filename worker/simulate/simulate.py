@@ -8,7 +8,7 @@ from worker.simulate.rod.fall import drop_cables as drop_as_rods
 from worker.simulate.shapes import CableShapes
 
 
-def let_fall(scene: Scene, simulator: Simulator, fall: Fall) -> CableShapes:
+def simulate(scene: Scene, simulator: Simulator, fall: Fall) -> CableShapes:
     """Let the cables of a scene fall until they rest.
 
     Sticks fall with them as rods; cloth has none, and its cables fall as if there were none.

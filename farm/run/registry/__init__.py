@@ -1,1 +1,1 @@
-"""The notice board in Redis that all of a farm share: which runs there are, and which workers. Hints only."""
+"""The run registry in Redis that all of a farm share: which runs there are, and which workers. Hints only."""

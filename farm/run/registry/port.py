@@ -85,7 +85,7 @@ class WorkerReport(Model):
     rss_bytes: int = 0
 
 
-class Board(Protocol):
+class RunRegistry(Protocol):
     """Every method may raise BrokerError."""
 
     def register(self, run: Run) -> Run:

@@ -37,8 +37,8 @@ _REPORT = (
 )
 
 
-class RedisBoard:
-    """Implements `farm.run.registry.port.Board`.
+class RedisRegistry:
+    """Implements `farm.run.registry.port.RunRegistry`.
 
     Args:
         client: with `decode_responses=True`.
@@ -50,7 +50,7 @@ class RedisBoard:
         self._put = client.register_script(_PUT)
 
     def register(self, run: Run) -> Run:
-        """See `Board.register`."""
+        """See `RunRegistry.register`."""
         with as_broker_error():
             if self._put(keys=[_RUNS, _RUNS_SEEN], args=[run.key, run.model_dump_json(), _KEEP_S, 0]):
                 return run
@@ -60,36 +60,36 @@ class RedisBoard:
         return present or run
 
     def replace(self, run: Run) -> None:
-        """See `Board.replace`."""
+        """See `RunRegistry.replace`."""
         with as_broker_error():
             self._put(keys=[_RUNS, _RUNS_SEEN], args=[run.key, run.model_dump_json(), _KEEP_S, 1])
 
     def remove(self, key: str) -> None:
-        """See `Board.remove`."""
+        """See `RunRegistry.remove`."""
         with as_broker_error():
             self._client.hdel(_RUNS, key)
             self._client.zrem(_RUNS_SEEN, key)
 
     def runs(self) -> Mapping[str, Run]:
-        """See `Board.runs`."""
+        """See `RunRegistry.runs`."""
         with as_broker_error():
             found = cast(dict[str, str], self._client.hgetall(_RUNS))
         runs = {key: _read_run(key, text) for key, text in found.items()}
         return {key: run for key, run in runs.items() if run is not None}
 
     def report(self, report: WorkerReport) -> None:
-        """See `Board.report`."""
+        """See `RunRegistry.report`."""
         with as_broker_error():
             self._report(keys=[_WORKERS, _SEEN], args=[report.name, report.model_dump_json(), SEEN_S])
 
     def sign_off(self, name: str) -> None:
-        """See `Board.sign_off`."""
+        """See `RunRegistry.sign_off`."""
         with as_broker_error():
             self._client.hdel(_WORKERS, name)
             self._client.zrem(_SEEN, name)
 
     def workers(self) -> tuple[WorkerReport, ...]:
-        """See `Board.workers`."""
+        """See `RunRegistry.workers`."""
         with as_broker_error():
             seconds, _ = self._client.time()
             names = cast(list[str], self._client.zrangebyscore(_SEEN, seconds - SEEN_S, "+inf"))

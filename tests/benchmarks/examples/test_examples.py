@@ -11,7 +11,7 @@ from benchmarks.examples.options import GROUP_NAMES
 from benchmarks.examples.sheet import EDGE_PX, draw_sheet, examples_a_row
 from farm.scene.cable import Bundle, Skin
 from farm.spec.job import Job
-from worker.sample.scene import draw_scene
+from worker.sample.scene import sample_scene
 
 
 def test_the_options_name_all_groups() -> None:
@@ -25,7 +25,7 @@ def test_every_example_draws_what_it_shows(group: str) -> None:
     examples = list(GROUPS[group](0))
     assert len({example.label for example in examples}) == len(examples) > 5
     for example in examples:
-        scene = draw_scene(example.header, Job(category=example.category, index=3), 0)
+        scene = sample_scene(example.header, Job(category=example.category, index=3), 0)
         if group == "surfaces":
             assert scene.floor is not None
             assert scene.floor.texture == example.label
@@ -40,7 +40,7 @@ def test_kinds_of_cables_are_what_they_are_called() -> None:
         example.label: [
             cable.material
             for index in range(4)
-            for cable in draw_scene(example.header, Job(category=example.category, index=index), 0).cables
+            for cable in sample_scene(example.header, Job(category=example.category, index=index), 0).cables
         ]
         for example in GROUPS["cables"](0)
     }

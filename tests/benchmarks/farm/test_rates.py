@@ -16,7 +16,7 @@ from benchmarks.farm.splits import SPLITS, Split, parse_split
 from benchmarks.terminal import bench_console
 from farm.dataset.dataset import Dataset
 from farm.errors import SpecError
-from tests.stand_in import StandInMaker
+from tests.stand_in import StandInRenderer
 from worker.service.upload import upload
 
 
@@ -69,7 +69,7 @@ def test_pictures_are_read_from_the_dataset_in_their_order(dataset: Dataset) -> 
     """By when the manifest was written."""
     jobs = list(dataset.header.spec.jobs())
     for number, job in enumerate(jobs):
-        upload(StandInMaker().make(job, dataset.header), job, dataset)
+        upload(StandInRenderer().make(job, dataset.header), job, dataset)
         for path in Path(dataset.storage.location).rglob(f"manifests/{job.id}.json"):
             os.utime(path, (1000.0 - number, 1000.0 - number))
     found = finished(dataset, 900.0)

@@ -19,7 +19,7 @@ from farm.dataset.paths import FileRole, file_path
 from farm.errors import DatasetMissingError, FarmError, SpecError, VerificationError
 from farm.spec.category import Category
 from farm.spec.job import Job
-from tests.stand_in import StandInMaker, stand_in_header
+from tests.stand_in import StandInRenderer, stand_in_header
 from worker.service.upload import upload
 
 
@@ -28,7 +28,7 @@ def made(tmp_path: Path) -> Dataset:
     """Two pictures each of two categories, of noise with one cable of 4 px across 32."""
     dataset = create_dataset(Destination(str(tmp_path / "store"), "noise"), stand_in_header())
     for job in dataset.header.spec.jobs():
-        upload(StandInMaker().make(job, dataset.header), job, dataset)
+        upload(StandInRenderer().make(job, dataset.header), job, dataset)
     return dataset
 
 

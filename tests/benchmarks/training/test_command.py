@@ -18,8 +18,8 @@ from benchmarks.training.outcome import Lesson
 from benchmarks.training.plan import PHOTOGRAPHS, Plan
 from benchmarks.training.plot import overlay
 from farm.dataset.dataset import Dataset, Destination, create_dataset
-from farm.errors import EnvironmentMissingError, SpecError
-from tests.stand_in import StandInMaker, stand_in_header
+from farm.errors import MachineError, SpecError
+from tests.stand_in import StandInRenderer, stand_in_header
 from worker.service.upload import upload
 
 EDGE = 32
@@ -111,7 +111,7 @@ def noise(tmp_path: Path) -> Dataset:
     """Two pictures of noise."""
     dataset = create_dataset(Destination(str(tmp_path / "store"), "noise"), stand_in_header(far=2))
     for job in dataset.header.spec.jobs():
-        upload(StandInMaker().make(job, dataset.header), job, dataset)
+        upload(StandInRenderer().make(job, dataset.header), job, dataset)
     return dataset
 
 
@@ -137,7 +137,7 @@ def test_a_run_writes_every_score(noise: Dataset, tmp_path: Path) -> None:
 def test_without_pytorch_it_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Before any picture is made."""
     monkeypatch.setattr("benchmarks.training.command.find_spec", lambda _: None)
-    with pytest.raises(EnvironmentMissingError, match=r"cable-farm\[train\]"):
+    with pytest.raises(MachineError, match=r"cable-farm\[train\]"):
         run(tmp_path, Plan(seed=0, images=1, test_images=1, epochs=1))
 
 

@@ -11,7 +11,7 @@ from benchmarks.training.augmentation import as_input, augment
 from benchmarks.training.examples import EDGE_PX, examples_of, photographs_in
 from farm.dataset.dataset import Dataset, Destination, create_dataset
 from farm.errors import SpecError, VerificationError
-from tests.stand_in import StandInMaker, stand_in_header
+from tests.stand_in import StandInRenderer, stand_in_header
 from worker.service.upload import upload
 
 
@@ -19,7 +19,7 @@ def made(folder: Path, resolution: int) -> Dataset:
     """Two pictures each of two categories."""
     dataset = create_dataset(Destination(str(folder), "noise"), stand_in_header(resolution=resolution))
     for job in dataset.header.spec.jobs():
-        upload(StandInMaker().make(job, dataset.header), job, dataset)
+        upload(StandInRenderer().make(job, dataset.header), job, dataset)
     return dataset
 
 

@@ -24,7 +24,7 @@ from benchmarks.whole.published import render_mask, verify_mask  # noqa: E402
 from benchmarks.whole.renderings import BLENDER, BLENDERPROC, set_picture  # noqa: E402
 from benchmarks.whole.rows import STAGES  # noqa: E402
 from blend import names  # noqa: E402  # after importorskip
-from worker.sample.scene import draw_scene  # noqa: E402
+from worker.sample.scene import sample_scene  # noqa: E402
 
 pytestmark = pytest.mark.blender
 
@@ -64,7 +64,7 @@ def stage() -> Stage:
 @pytest.fixture
 def far() -> SettledScene:
     """Two cables that cross below the camera, under an HDRI that is there."""
-    scene = draw_scene(bench_header(1, 0), JOB, 0)
+    scene = sample_scene(bench_header(1, 0), JOB, 0)
     two = scene.model_copy(update={"cables": (scene.cables * 2)[:2]})
     return SettledScene(JOB, two, shapes(rod(), rod(along_y=True, z=0.003)))
 

@@ -9,7 +9,7 @@ import pytest
 from farm.cli import main
 from farm.dataset.dataset import Dataset
 from tests.farm.cli.result import Farm, Result
-from tests.stand_in import StandInMaker
+from tests.stand_in import StandInRenderer
 from worker.service.upload import upload
 
 
@@ -37,5 +37,5 @@ def farm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capture
 def made(dataset: Dataset) -> Dataset:
     """A finished dataset."""
     for job in dataset.header.spec.jobs():
-        upload(StandInMaker().make(job, dataset.header), job, dataset)
+        upload(StandInRenderer().make(job, dataset.header), job, dataset)
     return dataset

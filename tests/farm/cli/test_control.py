@@ -6,29 +6,29 @@ import redis
 from farm.dataset.dataset import Dataset
 from farm.errors import ConflictError, DestinationError
 from farm.run.coordinator import Coordinator
-from farm.run.handle import redis_hints
-from farm.run.progress import Hints
+from farm.run.handle import open_handle
+from farm.run.progress import RunHandle
 from farm.run.registry.port import Priority, Run, RunState
-from farm.run.registry.redis import RedisBoard
+from farm.run.registry.redis import RedisRegistry
 from tests.farm.cli.result import Farm, assert_refused
 
 pytestmark = pytest.mark.redis
 
 
 @pytest.fixture
-def submitted(dataset: Dataset, redis_url: str, redis_client: "redis.Redis") -> Hints:
+def submitted(dataset: Dataset, redis_url: str, redis_client: "redis.Redis") -> RunHandle:
     """A run of four images that wait."""
-    hints = redis_hints(dataset, redis_url, redis_client)
-    Coordinator(dataset, hints).submit_missing()
-    return hints
+    handle = open_handle(dataset, redis_url, redis_client)
+    Coordinator(dataset, handle).submit_missing()
+    return handle
 
 
-def on_the_board(hints: Hints) -> Run:
+def on_the_board(handle: RunHandle) -> Run:
     """The run's notice."""
-    return hints.board.runs()[hints.run.key]
+    return handle.registry.runs()[handle.run.key]
 
 
-def test_pause_and_resume(farm: Farm, submitted: Hints, dataset: Dataset, redis_url: str) -> None:
+def test_pause_and_resume(farm: Farm, submitted: RunHandle, dataset: Dataset, redis_url: str) -> None:
     """A paused run keeps its queue and says how to go on; resumed, it is active again."""
     place = [dataset.storage.location, "--broker", redis_url]
     assert "4 images wait; farm resume" in farm("pause", *place).stdout
@@ -38,7 +38,7 @@ def test_pause_and_resume(farm: Farm, submitted: Hints, dataset: Dataset, redis_
     assert submitted.queue.length(submitted.run) == 4
 
 
-def test_resume_with_a_priority(farm: Farm, submitted: Hints, dataset: Dataset, redis_url: str) -> None:
+def test_resume_with_a_priority(farm: Farm, submitted: RunHandle, dataset: Dataset, redis_url: str) -> None:
     """A run may be resumed with another priority, which what waits already does not get; pausing keeps it."""
     place = [dataset.storage.location, "--broker", redis_url]
     result = farm("resume", *place, "--priority", "high")
@@ -49,7 +49,7 @@ def test_resume_with_a_priority(farm: Farm, submitted: Hints, dataset: Dataset, 
     )
 
 
-def test_cancel(farm: Farm, submitted: Hints, dataset: Dataset, redis_url: str) -> None:
+def test_cancel(farm: Farm, submitted: RunHandle, dataset: Dataset, redis_url: str) -> None:
     """A cancelled run has an empty queue, and whoever looks is told so."""
     result = farm("cancel", dataset.storage.location, "--broker", redis_url)
     assert "4 images were waiting" in result.stdout
@@ -62,7 +62,7 @@ def test_no_run(farm: Farm, dataset: Dataset, redis_url: str, redis_client: "red
     """Of a dataset of which nothing was submitted there is nothing to control, and nothing comes up."""
     result = farm(command, dataset.storage.location, "--broker", redis_url)
     assert_refused(result, ConflictError.exit_code, "nothing of it was submitted")
-    assert RedisBoard(redis_client).runs() == {}
+    assert RedisRegistry(redis_client).runs() == {}
 
 
 @pytest.mark.parametrize("command", ["pause", "resume", "cancel", "repair", "retry"])

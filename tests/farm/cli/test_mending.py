@@ -9,7 +9,7 @@ from farm.dataset.dataset import Dataset
 from farm.dataset.paths import FileRole, file_path, manifest_path
 from farm.dataset.quarantine import Quarantine, put_in_quarantine
 from farm.errors import DestinationError, MessageError, SpecError
-from farm.run.handle import redis_hints
+from farm.run.handle import open_handle
 from farm.spec.job import Job
 from tests.farm.cli.result import Farm, assert_refused
 
@@ -28,8 +28,8 @@ def lacking(made: Dataset) -> Dataset:
 
 def queued(dataset: Dataset, redis_url: str, client: "redis.Redis") -> list[str]:
     """The images that wait."""
-    hints = redis_hints(dataset, redis_url, client)
-    return sorted(job.id for job in hints.queue.queued(hints.run))
+    handle = open_handle(dataset, redis_url, client)
+    return sorted(job.id for job in handle.queue.queued(handle.run))
 
 
 @pytest.mark.redis
@@ -62,14 +62,14 @@ def test_repair_leaves_the_given_up(farm: Farm, lacking: Dataset, redis_url: str
 @pytest.mark.redis
 def test_retry_of_one(farm: Farm, lacking: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
     """The image that is named is put back and queued, with its attempts forgotten; the other stays given up."""
-    hints = redis_hints(lacking, redis_url, redis_client)
-    hints.ledger.claim(JOB.id, "a:1")
-    hints.ledger.release(JOB.id, "a:1")
+    handle = open_handle(lacking, redis_url, redis_client)
+    handle.ledger.claim(JOB.id, "a:1")
+    handle.ledger.release(JOB.id, "a:1")
     result = farm("retry", lacking.storage.location, JOB.id, "--broker", redis_url)
     assert result.stdout.startswith("1 images put back; 1 queued"), result.stderr
     assert queued(lacking, redis_url, redis_client) == [JOB.id]
     assert list(Quarantine(lacking).look()) == [OTHER.id]
-    assert hints.ledger.claim(JOB.id, "a:1") == 1
+    assert handle.ledger.claim(JOB.id, "a:1") == 1
 
 
 @pytest.mark.redis

@@ -7,7 +7,7 @@ import pytest
 import redis
 
 from farm.dataset.dataset import Dataset
-from farm.errors import ConflictError, DestinationError, EnvironmentMissingError
+from farm.errors import ConflictError, DestinationError, MachineError
 from farm.local import run as local_run
 from farm.local.run import LocalRun
 from tests.farm.cli.result import Farm, assert_refused
@@ -44,7 +44,7 @@ def test_device_that_is_not_there(farm: Farm, tmp_path: Path, redis_url: str, co
     """A device that this machine lacks is refused before surfaces are drawn or a job is taken."""
     options = {"run": ["--images", "1", "--out", "data"], "worker": ["--store", ".", "--broker", redis_url]}[command]
     result = farm(command, *options, "--device", "hip", "--logs", "logs")
-    assert_refused(result, EnvironmentMissingError.exit_code, "--device hip")
+    assert_refused(result, MachineError.exit_code, "--device hip")
     assert not (tmp_path / "data").exists()
     assert list(tmp_path.rglob("*.png")) == []
 
@@ -70,7 +70,7 @@ def test_threads_of_each_worker(farm: Farm, monkeypatch: pytest.MonkeyPatch, opt
 
     def note(_: object, __: object, how: LocalRun, ___: object) -> None:
         used.append(how.threads)
-        raise EnvironmentMissingError("far enough")
+        raise MachineError("far enough")
 
     module = importlib.import_module("farm.cli.run")
     monkeypatch.setattr(local_run, "memory_bytes", lambda: 2**40)
@@ -80,5 +80,5 @@ def test_threads_of_each_worker(farm: Farm, monkeypatch: pytest.MonkeyPatch, opt
     for step in ("require_blender", "check_device", "bake_for"):
         monkeypatch.setattr(module, step, lambda *_: None)
     result = farm("run", "--images", "1", "--out", "data", *options)
-    assert_refused(result, EnvironmentMissingError.exit_code, "far enough")
+    assert_refused(result, MachineError.exit_code, "far enough")
     assert used == [threads]

@@ -14,7 +14,7 @@ from farm.errors import DestinationError, IncompleteError
 from farm.run.handle import run_of
 from farm.run.ledger.redis import RedisLedger
 from farm.run.registry.port import RunState, WorkerReport, WorkerState
-from farm.run.registry.redis import RedisBoard
+from farm.run.registry.redis import RedisRegistry
 from farm.spec.job import Job
 from tests.farm.cli.result import Farm, assert_refused
 
@@ -99,9 +99,9 @@ def test_status_tells_of_workers_and_state(
     farm: Farm, dataset: Dataset, redis_url: str, redis_client: "redis.Redis"
 ) -> None:
     """A paused run says so, and each worker what it does and why it does nothing."""
-    board = RedisBoard(redis_client)
-    board.register(run_of(dataset).model_copy(update={"state": RunState.PAUSED}))
-    board.report(WorkerReport(name="one@host", state=WorkerState.HELD, reason="disk full", done=7))
+    registry = RedisRegistry(redis_client)
+    registry.register(run_of(dataset).model_copy(update={"state": RunState.PAUSED}))
+    registry.report(WorkerReport(name="one@host", state=WorkerState.HELD, reason="disk full", done=7))
     shown = farm("status", dataset.storage.location, "--broker", redis_url).stdout
     assert "state    paused" in shown
     assert "worker   one@host held: disk full, 7 done" in shown

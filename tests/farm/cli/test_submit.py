@@ -5,7 +5,7 @@ import redis
 
 from farm.errors import ConflictError
 from farm.run.registry.port import Priority, RunState
-from farm.run.registry.redis import RedisBoard
+from farm.run.registry.redis import RedisRegistry
 from tests.farm.cli.result import Farm, assert_refused
 
 
@@ -30,5 +30,5 @@ def test_submit_again_goes_on(farm: Farm, redis_url: str, redis_client: "redis.R
     assert farm("cancel", "data", "--broker", redis_url).returncode == 0
     again = farm("submit", *options, "--priority", "high")
     assert again.stdout.startswith("12 of 12 images queued"), again.stderr
-    (run,) = RedisBoard(redis_client).runs().values()
+    (run,) = RedisRegistry(redis_client).runs().values()
     assert (run.state, run.priority) == (RunState.ACTIVE, Priority.HIGH)

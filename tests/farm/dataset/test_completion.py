@@ -15,7 +15,7 @@ from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.spec.job_set import JobSet
 from farm.storage import LocalStorage, StoredFile
-from tests.stand_in import StandInMaker, stand_in_header
+from tests.stand_in import StandInRenderer, stand_in_header
 from worker.service.upload import upload
 
 JOB = Job.from_id("far-000001")
@@ -26,7 +26,7 @@ OTHERS = ALL[:-1]
 def make(dataset: Dataset, job: Job, *, seed: int = 0) -> None:
     """Make one job, with the pixels of a seed."""
     header = stand_in_header(seed=seed)
-    upload(StandInMaker().make(job, header), job, dataset)
+    upload(StandInRenderer().make(job, header), job, dataset)
 
 
 @pytest.fixture

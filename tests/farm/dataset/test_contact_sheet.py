@@ -8,14 +8,14 @@ from PIL import Image
 from farm.dataset.contact_sheet import make_contact_sheet
 from farm.dataset.dataset import Dataset
 from farm.errors import IncompleteError
-from tests.stand_in import StandInMaker
+from tests.stand_in import StandInRenderer
 from worker.service.upload import upload
 
 
 def test_a_row_for_each_category_with_a_quota(dataset: Dataset) -> None:
     """Two categories of two pictures, 20 pixels wide with gaps of 4."""
     for job in dataset.header.spec.jobs():
-        upload(StandInMaker().make(job, dataset.header), job, dataset)
+        upload(StandInRenderer().make(job, dataset.header), job, dataset)
     sheet = Image.open(io.BytesIO(make_contact_sheet(dataset, columns=4, edge_px=20)))
     assert sheet.size == (44, 44)
 

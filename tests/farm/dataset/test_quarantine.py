@@ -10,7 +10,7 @@ from farm.dataset.quarantine import LOG_LENGTH, Quarantine, QuarantineRecord, is
 from farm.dataset.verify import verify
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
-from tests.stand_in import StandInMaker
+from tests.stand_in import StandInRenderer
 from worker.service.upload import upload
 
 JOB = Job.from_id("far-000001")
@@ -136,7 +136,7 @@ def test_record_is_no_extra_file(dataset: Dataset) -> None:
     """A check of the dataset takes a record for what it is, and of its job nothing is missing."""
     for job in dataset.header.spec.jobs():
         if job != JOB:
-            upload(StandInMaker().make(job, dataset.header), job, dataset)
+            upload(StandInRenderer().make(job, dataset.header), job, dataset)
     give_up(dataset)
     verdict = verify(dataset)
     assert verdict.clean

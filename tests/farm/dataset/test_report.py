@@ -12,7 +12,7 @@ from farm.dataset.index import done_manifests, write_index
 from farm.dataset.manifest import Manifest
 from farm.dataset.paths import INDEX_FILE, REPORT_FILE
 from farm.dataset.report import write_report
-from tests.stand_in import StandInMaker
+from tests.stand_in import StandInRenderer
 from worker.service.upload import upload
 
 
@@ -20,7 +20,7 @@ from worker.service.upload import upload
 def made(dataset: Dataset) -> Dataset:
     """A finished dataset."""
     for job in dataset.header.spec.jobs():
-        upload(StandInMaker().make(job, dataset.header), job, dataset)
+        upload(StandInRenderer().make(job, dataset.header), job, dataset)
     return dataset
 
 

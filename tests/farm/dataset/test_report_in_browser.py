@@ -11,7 +11,7 @@ import pytest
 
 from farm.dataset.dataset import Dataset
 from farm.dataset.report import write_report
-from tests.stand_in import StandInMaker
+from tests.stand_in import StandInRenderer
 from worker.service.upload import upload
 
 pytestmark = pytest.mark.browser
@@ -33,7 +33,7 @@ def chromium() -> str:
 def test_a_browser_shows_the_pictures_and_masks(dataset: Dataset, chromium: str, tmp_path: Path) -> None:
     """Every picture and mask of the page loads: green and blue stand-ins fill their places in the screenshot."""
     for number, job in enumerate(dataset.header.spec.jobs()):
-        made = StandInMaker().make(job, dataset.header)
+        made = StandInRenderer().make(job, dataset.header)
         made.image[:] = (0, 200, 0) if number % 2 else (0, 0, 200)
         upload(made, job, dataset)
     write_report(dataset, pictures_per_category=4)

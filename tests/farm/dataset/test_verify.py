@@ -17,7 +17,7 @@ from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.storage import LocalStorage
 from tests.object_store import ObjectStore
-from tests.stand_in import StandInMaker
+from tests.stand_in import StandInRenderer
 from worker.service.upload import encode_png, upload
 
 JOB = Job.from_id("far-000001")
@@ -28,7 +28,7 @@ IMAGE, MASK, INSTANCES = (file_path(JOB, role) for role in FileRole)
 def made(dataset: Dataset) -> Dataset:
     """A finished dataset."""
     for job in dataset.header.spec.jobs():
-        upload(StandInMaker().make(job, dataset.header), job, dataset)
+        upload(StandInRenderer().make(job, dataset.header), job, dataset)
     return dataset
 
 
@@ -87,7 +87,7 @@ def test_anywhere(any_store: Callable[[str], str], header: DatasetHeader) -> Non
     """The same faults are found in a folder and in a bucket."""
     dataset = create_dataset(Destination(any_store("store"), "cables"), header)
     for job in header.spec.jobs():
-        upload(StandInMaker().make(job, header), job, dataset)
+        upload(StandInRenderer().make(job, header), job, dataset)
     assert found(dataset) == []
     dataset.storage.write(MASK, dataset.storage.read(MASK)[:20])
     dataset.storage.write(INSTANCES, dataset.storage.read(INSTANCES)[::-1])
@@ -106,7 +106,7 @@ def test_unfinished_upload_to_a_bucket(bucket: str, object_store: ObjectStore, h
     """Parts of an object that its killed writer never completed count for nothing."""
     dataset = create_dataset(Destination(bucket, "cables"), header)
     for job in header.spec.jobs():
-        upload(StandInMaker().make(job, header), job, dataset)
+        upload(StandInRenderer().make(job, header), job, dataset)
     name, prefix = bucket.removeprefix("s3://").split("/", 1)
     client = object_store.client()
     for path in (IMAGE, "far/images/far-000009.png"):

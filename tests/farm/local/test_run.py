@@ -13,7 +13,7 @@ import pytest
 from farm.dataset.dataset import Dataset, Destination, open_dataset
 from farm.dataset.paths import FileRole, file_path
 from farm.dataset.verify import verify
-from farm.errors import DestinationError, EnvironmentMissingError, IncompleteError
+from farm.errors import DestinationError, IncompleteError, MachineError
 from farm.local.run import LocalRun, run_locally
 from farm.run.progress import Progress
 from farm.spec.header import DatasetHeader
@@ -203,7 +203,7 @@ def test_passing_failure(
 def test_worker_that_does_not_start(destination: Destination, header: DatasetHeader, how: LocalRun) -> None:
     """A worker that ends at each start ends the run, with the last line of its log."""
     broken = replace(how, worker_command=[sys.executable, "-c", "raise SystemExit('no such library')"])
-    with pytest.raises(EnvironmentMissingError, match="no such library"):
+    with pytest.raises(MachineError, match="no such library"):
         run_locally(destination, header, broken)
 
 
@@ -212,7 +212,7 @@ def test_unfit_worker_ends_the_run(
 ) -> None:
     """What this machine lacks ends the run at once, as the error that it is, and no job has failed."""
     monkeypatch.setenv("STAND_IN_UNFIT", "--device optix: no such device")
-    with pytest.raises(EnvironmentMissingError, match=r"optix: no such device; .*log"):
+    with pytest.raises(MachineError, match=r"optix: no such device; .*log"):
         run_locally(destination, header, how)
     monkeypatch.delenv("STAND_IN_UNFIT")
     assert run_locally(destination, header, how).done == 4

@@ -14,7 +14,7 @@ from farm.dataset.dataset import Dataset, parse_destination
 from farm.dataset.paths import FileRole, file_path, manifest_path
 from farm.errors import AssetError, DestinationError, MessageError
 from farm.spec.job import DatasetName, Job, JobMessage
-from tests.stand_in import SHA, StandInMaker
+from tests.stand_in import SHA, StandInRenderer
 from worker.service.upload import upload
 
 HOSTILE = [
@@ -84,7 +84,7 @@ def test_a_destination_is_a_folder_in_its_store(out: str) -> None:
 def manifest(dataset: Dataset) -> bytes:
     """Of a job that is done."""
     job = Job.from_id("far-000000")
-    upload(StandInMaker().make(job, dataset.header), job, dataset)
+    upload(StandInRenderer().make(job, dataset.header), job, dataset)
     return dataset.storage.read(manifest_path(job))
 
 

@@ -31,7 +31,7 @@ from farm.storage import LocalStorage, StoredFile, is_temporary
 from tests.doubles.ledger import MemoryLedger
 from tests.doubles.queue import MemoryQueue
 from tests.doubles.run import Bench
-from tests.stand_in import StandInMaker, stand_in_header
+from tests.stand_in import StandInRenderer, stand_in_header
 from worker.service.upload import upload
 
 JOB = Job.from_id("far-000001")
@@ -83,7 +83,7 @@ def test_submits_all(bench: Bench) -> None:
     """The first submission queues the whole plan, and puts the run on the board."""
     assert bench.coordinator.submit_missing() == 4
     assert bench.queued() == sorted(job.id for job in bench.dataset.header.spec.jobs())
-    assert bench.board.runs() == {bench.hints.run.key: bench.hints.run}
+    assert bench.registry.runs() == {bench.handle.run.key: bench.handle.run}
     assert bench.coordinator.left_out == 0
 
 
@@ -99,7 +99,7 @@ def test_submits_nothing_twice(bench: Bench) -> None:
     """Jobs that wait already are not queued again, by another process either."""
     bench.coordinator.submit_missing()
     assert bench.coordinator.submit_missing() == 0
-    assert Coordinator(bench.dataset, bench.hints).submit_missing() == 0
+    assert Coordinator(bench.dataset, bench.handle).submit_missing() == 0
 
 
 def test_jobs_of_a_former_dataset_do_not_count(bench: Bench, tmp_path: Path) -> None:
@@ -140,7 +140,7 @@ def test_finished_dataset_needs_no_run(bench: Bench) -> None:
     bench.coordinator.submit_missing()
     bench.finish()
     assert bench.coordinator.submit_missing() == 0
-    assert bench.board.runs() == {}
+    assert bench.registry.runs() == {}
 
 
 def test_truncated_picture_is_missing(bench: Bench, tmp_path: Path) -> None:
@@ -202,7 +202,7 @@ def test_nothing_is_left_in_redis(bench: Bench) -> None:
     bench.coordinator.submit_missing()
     bench.queue.messages.append(bench.queue.messages[0])
     bench.finish()
-    assert bench.board.runs() == {}
+    assert bench.registry.runs() == {}
     assert bench.queued() == []
     assert bench.ledger.leader() is None
 
@@ -285,7 +285,7 @@ def test_emptied_redis(large: Dataset) -> None:
 def test_two_coordinators_do_not_double(large: Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of two machines that watch one dataset, one queues and the other looks on, even where messages get lost."""
     bench = Bench(large, window=10, lost_after_s=NEVER_S)
-    other = Coordinator(large, bench.hints, poll_s=0.0, lost_after_s=0.0, window=50)
+    other = Coordinator(large, bench.handle, poll_s=0.0, lost_after_s=0.0, window=50)
     longest, steps = 0, itertools.count()
 
     def work() -> None:
@@ -349,7 +349,7 @@ def test_cancelled_run_ends_the_watch(bench: Bench) -> None:
         bench.work()
         if bench.rendered == 2:
             bench.want(RunState.CANCELLED)
-            bench.queue.clear(bench.hints.run)
+            bench.queue.clear(bench.handle.run)
 
     with pytest.raises(RunCancelledError, match="submit it again"):
         bench.coordinator.watch(supervise=cancel_after_two)
@@ -425,7 +425,7 @@ def test_end_needs_no_redis(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> No
     def away(*_: object) -> None:
         raise BrokerError("Redis went away")
 
-    for part in (bench.ledger, bench.queue, bench.board):
+    for part in (bench.ledger, bench.queue, bench.registry):
         for name in ("activity", "leader", "lead", "resign", "register", "remove", "clear", "length", "runs"):
             if hasattr(part, name):
                 monkeypatch.setattr(part, name, away)
@@ -551,7 +551,7 @@ def test_done_job_of_another_description_does_not_count(tmp_path: Path, dataset:
     """A manifest that was copied from another dataset proves nothing."""
     other = create_dataset(Destination(str(tmp_path), "other"), stand_in_header(seed=9))
     job = Job.from_id("far-000000")
-    upload(StandInMaker().make(job, other.header), job, other)
+    upload(StandInRenderer().make(job, other.header), job, other)
     for path in other.storage.files():
         if path.startswith("far/"):
             dataset.storage.write(path, other.storage.read(path))
@@ -589,9 +589,9 @@ def test_emptied_redis_does_not_undo_a_pause(bench: Bench) -> None:
     bench.coordinator.submit_missing()
     bench.want(RunState.PAUSED)
     looks_of(bench, 1)
-    bench.board.remove(bench.hints.run.key)
+    bench.registry.remove(bench.handle.run.key)
     looks_of(bench, 1)
-    assert bench.board.runs()[bench.hints.run.key].state is RunState.PAUSED
+    assert bench.registry.runs()[bench.handle.run.key].state is RunState.PAUSED
 
 
 def test_changed_priority_holds_for_what_is_queued_next(large: Dataset) -> None:
@@ -608,7 +608,7 @@ def test_changed_priority_holds_for_what_is_queued_next(large: Dataset) -> None:
     queue = Noting()
     bench = Bench(large, window=10, queue=queue)
     bench.coordinator.submit_missing()
-    bench.board.replace(bench.hints.run.model_copy(update={"priority": Priority.HIGH}))
+    bench.registry.replace(bench.handle.run.model_copy(update={"priority": Priority.HIGH}))
     bench.work(8)
     looks_of(bench, 1)
     assert queue.priorities == (Priority.NORMAL, Priority.HIGH)

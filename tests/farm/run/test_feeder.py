@@ -26,7 +26,7 @@ def undone(dataset: Dataset) -> JobSet:
 
 def feeder(bench: Bench, lost_after_s: float = 0.0) -> Feeder:
     """One with a small window."""
-    return Feeder(bench.dataset, bench.hints, window=WINDOW, lost_after_s=lost_after_s)
+    return Feeder(bench.dataset, bench.handle, window=WINDOW, lost_after_s=lost_after_s)
 
 
 def test_fills_the_window(bench: Bench) -> None:

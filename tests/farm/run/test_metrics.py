@@ -14,16 +14,16 @@ from prometheus_client.parser import text_string_to_metric_families
 from farm.dataset.dataset import Dataset
 from farm.dataset.quarantine import put_in_quarantine
 from farm.errors import BrokerError
-from farm.run.handle import redis_hints
+from farm.run.handle import open_handle
 from farm.run.metrics import FOLDER_EVERY_S, FarmCollector
-from farm.run.progress import Hints
+from farm.run.progress import RunHandle
 from farm.run.registry.port import Run, WorkerReport, WorkerState
-from farm.run.registry.redis import RedisBoard
+from farm.run.registry.redis import RedisRegistry
 from farm.spec.job import Job
 from tests.doubles.ledger import MemoryLedger
 from tests.doubles.queue import MemoryQueue
-from tests.doubles.registry import MemoryBoard
-from tests.stand_in import StandInMaker
+from tests.doubles.registry import MemoryRegistry
+from tests.stand_in import StandInRenderer
 from worker.service.upload import upload
 
 DONE, GIVEN_UP = Job.from_id("far-000000"), Job.from_id("far-000001")
@@ -48,36 +48,36 @@ def values_of(collector: FarmCollector) -> Values:
 
 
 @pytest.fixture
-def hints(dataset: Dataset) -> Hints:
+def handle(dataset: Dataset) -> RunHandle:
     """A run in memory."""
     run = Run(dataset=dataset.name, spec_sha256=dataset.header.spec_sha256)
-    return Hints(run=run, ledger=MemoryLedger(), queue=MemoryQueue(), board=MemoryBoard())
+    return RunHandle(run=run, ledger=MemoryLedger(), queue=MemoryQueue(), registry=MemoryRegistry())
 
 
 @pytest.fixture
 def half_done(dataset: Dataset) -> Dataset:
     """One image done, one given up, two missing."""
-    upload(StandInMaker().make(DONE, dataset.header), DONE, dataset)
+    upload(StandInRenderer().make(DONE, dataset.header), DONE, dataset)
     put_in_quarantine(dataset, GIVEN_UP, "no scene passed", attempts=1, worker="a:1", log="")
     return dataset
 
 
-def test_images_by_category_and_state(half_done: Dataset, hints: Hints) -> None:
+def test_images_by_category_and_state(half_done: Dataset, handle: RunHandle) -> None:
     """Every image asked for is in one state."""
-    values = values_of(FarmCollector(lambda: [(half_done, hints)], hints.board))
+    values = values_of(FarmCollector(lambda: [(half_done, handle)], handle.registry))
     assert values["farm_images", "far", "cables", "done"] == 1
     assert values["farm_images", "far", "cables", "quarantined"] == 1
     assert values["farm_images", "far", "cables", "missing"] == 0
     assert values["farm_images", "close_concentrated_light", "cables", "missing"] == 2
 
 
-def test_queue_and_totals(dataset: Dataset, hints: Hints) -> None:
+def test_queue_and_totals(dataset: Dataset, handle: RunHandle) -> None:
     """What waits, what runs, and what was counted."""
-    hints.board.register(hints.run)
-    hints.queue.submit(hints.run, [dataset.message(DONE), dataset.message(GIVEN_UP)])
-    hints.ledger.claim(DONE.id, "elsewhere:1")
-    hints.ledger.add_figures({"retries": 3, "images:far": 2, "seconds:render": 1.5})
-    values = values_of(FarmCollector(lambda: [(dataset, hints)], hints.board))
+    handle.registry.register(handle.run)
+    handle.queue.submit(handle.run, [dataset.message(DONE), dataset.message(GIVEN_UP)])
+    handle.ledger.claim(DONE.id, "elsewhere:1")
+    handle.ledger.add_figures({"retries": 3, "images:far": 2, "seconds:render": 1.5})
+    values = values_of(FarmCollector(lambda: [(dataset, handle)], handle.registry))
     assert values["farm_queue_length", "cables"] == 2
     assert values["farm_jobs_running", "cables"] == 1
     assert values["farm_run_active", "cables"] == 1
@@ -86,27 +86,27 @@ def test_queue_and_totals(dataset: Dataset, hints: Hints) -> None:
     assert values["farm_stage_seconds_total", "cables", "render"] == 1.5
 
 
-def test_workers(hints: Hints) -> None:
+def test_workers(handle: RunHandle) -> None:
     """Each state's number of workers, each worker's jobs and memory."""
-    hints.board.report(WorkerReport(name="a@host", state=WorkerState.WORKING, done=7, rss_bytes=1000))
-    hints.board.report(WorkerReport(name="b@host", state=WorkerState.HELD, reason="full"))
-    values = values_of(FarmCollector(list, hints.board))
+    handle.registry.report(WorkerReport(name="a@host", state=WorkerState.WORKING, done=7, rss_bytes=1000))
+    handle.registry.report(WorkerReport(name="b@host", state=WorkerState.HELD, reason="full"))
+    values = values_of(FarmCollector(list, handle.registry))
     assert values["farm_workers", "working"] == values["farm_workers", "held"] == 1
     assert values["farm_workers", "idle"] == 0
     assert values["farm_worker_jobs_total", "a@host"] == 7
     assert values["farm_worker_resident_memory_bytes", "a@host"] == 1000
 
 
-def test_redis_that_is_away(half_done: Dataset, hints: Hints) -> None:
+def test_redis_that_is_away(half_done: Dataset, handle: RunHandle) -> None:
     """The folder is told of all the same, and that Redis is away."""
     away = False
 
-    def find() -> list[tuple[Dataset, Hints]]:
+    def find() -> list[tuple[Dataset, RunHandle]]:
         if away:
             raise BrokerError("gone")
-        return [(half_done, hints)]
+        return [(half_done, handle)]
 
-    collector = FarmCollector(find, hints.board)
+    collector = FarmCollector(find, handle.registry)
     assert values_of(collector)["farm_redis_up",] == 1
     away = True
     values = values_of(collector)
@@ -115,16 +115,16 @@ def test_redis_that_is_away(half_done: Dataset, hints: Hints) -> None:
     assert ("farm_queue_length", "cables") not in values
 
 
-def test_folder_is_not_listed_at_every_scrape(dataset: Dataset, hints: Hints) -> None:
+def test_folder_is_not_listed_at_every_scrape(dataset: Dataset, handle: RunHandle) -> None:
     """A new image shows after a while, not at once."""
     now_s = 0.0
 
     def clock() -> float:
         return now_s
 
-    collector = FarmCollector(lambda: [(dataset, hints)], hints.board, clock)
+    collector = FarmCollector(lambda: [(dataset, handle)], handle.registry, clock)
     assert values_of(collector)["farm_images", "far", "cables", "done"] == 0
-    upload(StandInMaker().make(DONE, dataset.header), DONE, dataset)
+    upload(StandInRenderer().make(DONE, dataset.header), DONE, dataset)
     assert values_of(collector)["farm_images", "far", "cables", "done"] == 0
     now_s = FOLDER_EVERY_S
     assert values_of(collector)["farm_images", "far", "cables", "done"] == 1
@@ -140,8 +140,8 @@ def test_served_to_prometheus(
     named: bool,
 ) -> None:
     """`farm metrics` serves a dataset by its name, or all of a store that are worked on, on this host alone."""
-    hints = redis_hints(half_done, redis_url, redis_client)
-    RedisBoard(redis_client).register(hints.run)
+    handle = open_handle(half_done, redis_url, redis_client)
+    RedisRegistry(redis_client).register(handle.run)
     place = [half_done.storage.location] if named else ["--store", str(tmp_path / "store")]
     process = subprocess.Popen(
         [sys.executable, "-P", "-m", "farm", "metrics", *place, "--broker", redis_url, "--port", "0"],

@@ -38,10 +38,10 @@ def test_missing_package() -> None:
     """Without s3fs, an S3 URL is refused with the command that installs it."""
     program = (
         "import sys; sys.modules['s3fs'] = None\n"
-        "from farm.errors import EnvironmentMissingError\n"
+        "from farm.errors import MachineError\n"
         "from farm.storage import open_storage\n"
         "try: open_storage('s3://bucket/a')\n"
-        "except EnvironmentMissingError as error: print(error)\n"
+        "except MachineError as error: print(error)\n"
     )
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert "pip install 'cable-farm[s3]'" in result.stdout

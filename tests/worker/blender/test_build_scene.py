@@ -24,11 +24,11 @@ from farm.spec.quality import REFERENCE  # noqa: E402
 from farm.spec.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
 from worker.backdrop.matte import Backdrop  # noqa: E402
 from worker.blender.asset_files import AssetLibrary  # noqa: E402
-from worker.blender.build_scene import realize  # noqa: E402
-from worker.blender.image_cache import ImageShelf  # noqa: E402
+from worker.blender.build_scene import build_scene  # noqa: E402
+from worker.blender.image_cache import ImageCache  # noqa: E402
 from worker.blender.render import configure_cycles, configure_picture, render_picture  # noqa: E402
-from worker.sample.scene import draw_scene  # noqa: E402
-from worker.simulate.simulate import let_fall  # noqa: E402
+from worker.sample.scene import sample_scene  # noqa: E402
+from worker.simulate.simulate import simulate  # noqa: E402
 
 pytestmark = pytest.mark.blender
 
@@ -71,15 +71,15 @@ def set_up(
     camera: Camera | None = None,
 ) -> Backdrop | None:
     """Make a job's scene ready to render, as seen by another camera if one is given."""
-    scene = draw_scene(header, job, 0)
+    scene = sample_scene(header, job, 0)
     scene = scene.model_copy(update={"camera": camera or scene.camera})
-    shapes = let_fall(scene, header.spec.simulator, header.spec.fall)
+    shapes = simulate(scene, header.spec.simulator, header.spec.fall)
     settings = PictureSettings(cycles=CyclesSettings(samples=samples, denoiser=Denoiser.NONE), economy=economy)
-    behind = realize(
+    behind = build_scene(
         scene,
         shapes,
         library,
-        ImageShelf(),
+        ImageCache(),
         traits=job.category.traits,
         resolution=RESOLUTION,
         detail=CableDetail(),

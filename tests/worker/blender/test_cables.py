@@ -28,8 +28,8 @@ from farm.spec.job import Job  # noqa: E402
 from farm.spec.make_header import Inputs, make_header  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
 from tests.worker.scenes import make_skin  # noqa: E402
-from worker.blender.renderer import Studio, open_studio  # noqa: E402
-from worker.sample.scene import draw_scene  # noqa: E402
+from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
+from worker.sample.scene import sample_scene  # noqa: E402
 
 pytestmark = pytest.mark.blender
 
@@ -77,24 +77,24 @@ def dressed(cables: tuple[Cable, ...], index: int) -> tuple[Cable, ...]:
 
 
 @pytest.fixture
-def studio(header: DatasetHeader, baked: Path, monkeypatch: pytest.MonkeyPatch) -> Studio:
+def renderer(header: DatasetHeader, baked: Path, monkeypatch: pytest.MonkeyPatch) -> BlenderRenderer:
     """One that dresses what is drawn."""
 
     def draw(header: DatasetHeader, job: Job, attempt: int) -> Scene:
-        scene = draw_scene(header, job, attempt)
+        scene = sample_scene(header, job, attempt)
         camera = scene.camera.model_copy(update={"height_m": 0.18})
         return scene.model_copy(update={"cables": dressed(scene.cables, job.index % 2), "camera": camera})
 
-    monkeypatch.setattr("worker.blender.renderer.draw_scene", draw)
-    return open_studio(header, device="cpu", threads=0, assets=baked)
+    monkeypatch.setattr("worker.blender.renderer.sample_scene", draw)
+    return open_renderer(header, device="cpu", threads=0, assets=baked)
 
 
 @pytest.mark.parametrize("index", [0, 1])
 def test_the_mask_of_bundles_ties_and_ends_is_that_of_a_render(
-    studio: Studio, header: DatasetHeader, index: int
+    renderer: BlenderRenderer, header: DatasetHeader, index: int
 ) -> None:
     """White cables and black ties, 64 samples: all but a few pixels that differ are about half covered."""
-    made = studio.make(Job(category=Category.CLOSE_CONCENTRATED, index=index), header)
+    made = renderer.make(Job(category=Category.CLOSE_CONCENTRATED, index=index), header)
     assert made.instances.max() == 3 + 2 * index + 2
     rendered = render_coverage(made.scene.camera, samples=64)
     assert compare(made.instances, rendered).iou > 0.985
@@ -102,19 +102,19 @@ def test_the_mask_of_bundles_ties_and_ends_is_that_of_a_render(
     assert np.count_nonzero(differs & (np.abs(rendered - 0.5) > 0.2)) <= 3
 
 
-def test_a_backdrop_takes_ties_for_what_covers(studio: Studio, header: DatasetHeader) -> None:
+def test_a_backdrop_takes_ties_for_what_covers(renderer: BlenderRenderer, header: DatasetHeader) -> None:
     """A far picture, where what is not covered is looked up: the ties' pixels are neither black nor see-through."""
-    made = studio.make(Job(category=Category.FAR, index=1), header)
+    made = renderer.make(Job(category=Category.FAR, index=1), header)
     assert made.image.shape == (RESOLUTION, RESOLUTION, 3)
     assert np.isfinite(made.image).all()
     ties = [item for item in bpy.data.objects if item.name.startswith(f"{names.CABLE}.0.")]
     assert ties
 
 
-def test_images_of_skins_go_with_their_picture(studio: Studio, header: DatasetHeader) -> None:
+def test_images_of_skins_go_with_their_picture(renderer: BlenderRenderer, header: DatasetHeader) -> None:
     """After five pictures there are no more than after two."""
     counts = []
     for index in (0, 2, 4, 6, 8):
-        studio.make(Job(category=Category.CLOSE_CONCENTRATED, index=index), header)
+        renderer.make(Job(category=Category.CLOSE_CONCENTRATED, index=index), header)
         counts.append((len(bpy.data.images), len(bpy.data.materials), len(bpy.data.meshes)))
     assert max(counts[2:]) <= max(counts[:2])

@@ -18,15 +18,15 @@ from tests.worker.scenes import make_header, make_scene  # noqa: E402
 from worker.backdrop.matte import covered_by  # noqa: E402
 from worker.backdrop.panorama import lens_radius_m  # noqa: E402
 from worker.blender.asset_files import AssetLibrary  # noqa: E402
-from worker.blender.build_scene import realize  # noqa: E402
-from worker.blender.image_cache import ImageShelf  # noqa: E402
+from worker.blender.build_scene import build_scene  # noqa: E402
+from worker.blender.image_cache import ImageCache  # noqa: E402
 from worker.blender.render import configure_cycles, configure_picture  # noqa: E402
 from worker.cable.pieces import pieces_of  # noqa: E402
 from worker.camera.view import View  # noqa: E402
 from worker.curves import smooth  # noqa: E402
 from worker.label.label import label_scene  # noqa: E402
 from worker.simulate.shapes import CableShapes  # noqa: E402
-from worker.simulate.simulate import let_fall  # noqa: E402
+from worker.simulate.simulate import simulate  # noqa: E402
 
 pytestmark = pytest.mark.blender
 
@@ -60,7 +60,7 @@ def settled() -> tuple[Scene, CableShapes]:
     """A far scene, and its cables at rest."""
     thin = {"cable": {"count_draws": 1, "diameter_m": 0.002}}
     scene, header = make_scene(Category.CLOSE_CONCENTRATED, index=3, ranges=thin), make_header()
-    return scene, let_fall(scene, header.spec.simulator, header.spec.fall)
+    return scene, simulate(scene, header.spec.simulator, header.spec.fall)
 
 
 @pytest.fixture(autouse=True)
@@ -72,11 +72,11 @@ def template() -> None:
 def render_white(scene: Scene, shapes: CableShapes) -> NDArray[np.float64]:
     """Coverage by the scene's cables as Cycles finds it."""
     settings = PictureSettings(cycles=CyclesSettings(samples=64, denoiser=Denoiser.NONE))
-    realize(
+    build_scene(
         scene,
         shapes,
         AssetLibrary(make_header(), None),
-        ImageShelf(),
+        ImageCache(),
         traits=Category.CLOSE_CONCENTRATED.traits,
         resolution=RESOLUTION,
         detail=CableDetail(),

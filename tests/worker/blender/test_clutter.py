@@ -24,12 +24,12 @@ from farm.spec.parse import parse_spec  # noqa: E402
 from farm.spec.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
 from tests.worker.clutter.things import make_part, make_sheet, make_stick  # noqa: E402
 from worker.blender.asset_files import AssetLibrary  # noqa: E402
-from worker.blender.build_scene import realize  # noqa: E402
+from worker.blender.build_scene import build_scene  # noqa: E402
 from worker.blender.clutter import PREFIX  # noqa: E402
-from worker.blender.image_cache import ImageShelf  # noqa: E402
+from worker.blender.image_cache import ImageCache  # noqa: E402
 from worker.blender.render import configure_cycles, configure_picture, render_picture  # noqa: E402
-from worker.sample.scene import draw_scene  # noqa: E402
-from worker.simulate.simulate import let_fall  # noqa: E402
+from worker.sample.scene import sample_scene  # noqa: E402
+from worker.simulate.simulate import simulate  # noqa: E402
 
 pytestmark = pytest.mark.blender
 
@@ -58,17 +58,17 @@ class Stage:
             update={"surfaces": tuple(each for each in made.surfaces if each.name == "concrete_smooth")}
         )
         open_template(TEMPLATE)
-        self.library, self.shelf = AssetLibrary(self.header, folder), ImageShelf()
+        self.library, self.image_cache = AssetLibrary(self.header, folder), ImageCache()
         self.job = Job(category=Category.CLOSE_CONCENTRATED, index=0)
-        self.plain = draw_scene(self.header, self.job, 0)
+        self.plain = sample_scene(self.header, self.job, 0)
 
     def picture(self, scene: Scene) -> NDArray[np.uint8]:
         """Fallen and rendered."""
-        realize(
+        build_scene(
             scene,
-            let_fall(scene, self.header.spec.simulator, self.header.spec.fall),
+            simulate(scene, self.header.spec.simulator, self.header.spec.fall),
             self.library,
-            self.shelf,
+            self.image_cache,
             traits=self.job.category.traits,
             resolution=RESOLUTION,
             detail=CableDetail(),

@@ -19,9 +19,9 @@ from farm.spec.header import DatasetHeader  # noqa: E402
 from farm.spec.job import Job  # noqa: E402
 from farm.spec.make_header import Inputs, make_header  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
-from worker.blender.renderer import Studio, open_studio  # noqa: E402
-from worker.sample.scene import draw_scene  # noqa: E402
-from worker.service.picture import MadeImage  # noqa: E402
+from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
+from worker.sample.scene import sample_scene  # noqa: E402
+from worker.service.picture import Picture  # noqa: E402
 
 pytestmark = pytest.mark.blender
 
@@ -71,10 +71,10 @@ def header() -> DatasetHeader:
 
 
 @pytest.fixture
-def studio(header: DatasetHeader, tmp_path: Path) -> Studio:
+def renderer(header: DatasetHeader, tmp_path: Path) -> BlenderRenderer:
     """With a fresh template."""
     bake_surfaces(tmp_path, pixels=256, names=("concrete_smooth",), processes=1)
-    return open_studio(header, device="cpu", threads=0, assets=tmp_path)
+    return open_renderer(header, device="cpu", threads=0, assets=tmp_path)
 
 
 @contextmanager
@@ -82,34 +82,34 @@ def photographed(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Let scenes be drawn with the camera above, its development, and under lamps the lamps above."""
 
     def draw(header: DatasetHeader, job: Job, attempt: int) -> Scene:
-        scene = draw_scene(header, job, attempt)
+        scene = sample_scene(header, job, attempt)
         update: dict[str, object] = {"camera": CAMERA, "development": DEVELOPMENT}
         if scene.lamps:
             update |= {"lamps": LAMPS, "grey_world": GreyWorld(radiance=0.3, temperature_k=5000.0)}
         return scene.model_copy(update=update)
 
     with monkeypatch.context() as patch:
-        patch.setattr("worker.blender.renderer.draw_scene", draw)
+        patch.setattr("worker.blender.renderer.sample_scene", draw)
         yield
 
 
-def same(one: MadeImage, other: MadeImage) -> bool:
+def same(one: Picture, other: Picture) -> bool:
     """Picture and labels, to the byte."""
     return one.image.tobytes() == other.image.tobytes() and one.instances.tobytes() == other.instances.tobytes()
 
 
 @pytest.mark.parametrize("category", [Category.CLOSE_CONCENTRATED, Category.FAR])
 def test_a_photograph_leaves_nothing_behind(
-    studio: Studio, header: DatasetHeader, monkeypatch: pytest.MonkeyPatch, category: Category
+    renderer: BlenderRenderer, header: DatasetHeader, monkeypatch: pytest.MonkeyPatch, category: Category
 ) -> None:
     """A published picture is the same before and after it; so is the photograph itself a second time."""
     job = Job(category=category, index=1)
-    before = studio.make(job, header)
+    before = renderer.make(job, header)
     with photographed(monkeypatch):
-        first = studio.make(job, header)
-    after = studio.make(job, header)
+        first = renderer.make(job, header)
+    after = renderer.make(job, header)
     with photographed(monkeypatch):
-        again = studio.make(job, header)
+        again = renderer.make(job, header)
     assert same(before, after)
     assert same(first, again)
     assert not same(before, first)
@@ -117,11 +117,11 @@ def test_a_photograph_leaves_nothing_behind(
 
 @pytest.mark.parametrize("category", [Category.CLOSE_CONCENTRATED, Category.FAR])
 def test_a_photograph_is_lit_and_masked(
-    studio: Studio, header: DatasetHeader, monkeypatch: pytest.MonkeyPatch, category: Category
+    renderer: BlenderRenderer, header: DatasetHeader, monkeypatch: pytest.MonkeyPatch, category: Category
 ) -> None:
     """Neither black nor white; its gradients are on the mask's edges rather than beside them."""
     with photographed(monkeypatch):
-        made = studio.make(Job(category=category, index=1), header)
+        made = renderer.make(Job(category=category, index=1), header)
     assert 40 < made.image.mean() < 200
     grey = made.image.astype(float).mean(axis=2)
     slope = np.hypot(*np.gradient(grey))

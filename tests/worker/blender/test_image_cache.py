@@ -11,10 +11,10 @@ pytestmark = pytest.mark.blender
 
 def test_glossiness_in_grey_becomes_roughness_all_over(tmp_path: Path) -> None:
     """Not in the first columns alone, and in colour as in grey."""
-    from worker.blender.image_cache import ImageShelf, TextureFile  # noqa: PLC0415
+    from worker.blender.image_cache import ImageCache, TextureFile  # noqa: PLC0415
 
     path = tmp_path / "gloss.png"
     cv2.imwrite(str(path), np.full((8, 16), 200, np.uint8))
-    texels = ImageShelf().texels(TextureFile(path, invert=True))
+    texels = ImageCache().texels(TextureFile(path, invert=True))
     assert texels is not None
     assert (texels == 55).all()

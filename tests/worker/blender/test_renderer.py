@@ -16,7 +16,7 @@ from benchmarks.pictures.drawn_coverage import drawn_coverage  # noqa: E402
 from blend.build import TEMPLATE  # noqa: E402
 from blend.contract import open_template  # noqa: E402
 from farm.cli.installed_assets import InstalledAssets  # noqa: E402
-from farm.errors import AssetError, EnvironmentMissingError, SceneError, SpecError, TemplateError  # noqa: E402
+from farm.errors import AssetError, MachineError, SceneError, SpecError, TemplateError  # noqa: E402
 from farm.spec.category import Background, Category  # noqa: E402
 from farm.spec.header import DatasetHeader, FileRef  # noqa: E402
 from farm.spec.job import Job  # noqa: E402
@@ -24,7 +24,7 @@ from farm.spec.make_header import Inputs, make_header, template_ref  # noqa: E40
 from farm.spec.parse import parse_spec  # noqa: E402
 from worker.blender.asset_files import checked  # noqa: E402
 from worker.blender.render import render_picture  # noqa: E402
-from worker.blender.renderer import Studio, open_studio  # noqa: E402
+from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
 from worker.simulate.checks.measure import settled_figures  # noqa: E402
 
 pytestmark = pytest.mark.blender
@@ -49,15 +49,15 @@ def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def studio(baked: Path) -> Studio:
+def renderer(baked: Path) -> BlenderRenderer:
     """A studio that no other test has opened a file under."""
-    return open_studio(small_header(), device="cpu", threads=0, assets=baked)
+    return open_renderer(small_header(), device="cpu", threads=0, assets=baked)
 
 
 @pytest.mark.parametrize("category", Category)
-def test_every_category_gives_a_lit_picture_with_its_mask(studio: Studio, category: Category) -> None:
+def test_every_category_gives_a_lit_picture_with_its_mask(renderer: BlenderRenderer, category: Category) -> None:
     """Cables are in the mask, and the picture is neither black nor flat."""
-    made = studio.make(Job(category=category, index=1), small_header())
+    made = renderer.make(Job(category=category, index=1), small_header())
     assert made.image.shape == (128, 128, 3)
     assert 5 < made.image.mean() < 250
     assert made.image.std() > 3
@@ -68,27 +68,27 @@ def test_every_category_gives_a_lit_picture_with_its_mask(studio: Studio, catego
 def test_a_header_without_settings_is_refused(baked: Path) -> None:
     """One that another farm wrote is not rendered with settings of this one's own."""
     header = small_header().model_copy(update={"rendering": {}})
-    studio = open_studio(header, device="cpu", threads=0, assets=baked)
+    renderer = open_renderer(header, device="cpu", threads=0, assets=baked)
     with pytest.raises(SpecError, match="does not say how far is rendered"):
-        studio.make(Job(category=Category.FAR, index=0), header)
+        renderer.make(Job(category=Category.FAR, index=0), header)
 
 
-def test_a_cable_pixel_looks_unlike_the_picture_without_cables(studio: Studio) -> None:
+def test_a_cable_pixel_looks_unlike_the_picture_without_cables(renderer: BlenderRenderer) -> None:
     """The mask lies where the picture shows cables: taking them away changes masked pixels far more than others."""
     header = small_header()
-    made = studio.make(Job(category=Category.CLOSE_CONCENTRATED, index=1), header)
+    made = renderer.make(Job(category=Category.CLOSE_CONCENTRATED, index=1), header)
     for cable in [item for item in bpy.data.objects if item.name.startswith("cable.")]:
         cable.hide_render = True
     change = np.abs(render_picture().astype(int) - made.image.astype(int)).mean(axis=2)
     assert change[made.mask == 255].mean() > 5 * change[made.mask == 0].mean()
 
 
-def test_a_picture_does_not_depend_on_those_before_it(studio: Studio, baked: Path) -> None:
+def test_a_picture_does_not_depend_on_those_before_it(renderer: BlenderRenderer, baked: Path) -> None:
     """The same bytes from a studio that has made pictures of other categories and from a fresh one."""
     header = small_header()
     jobs = [Job(category=category, index=2) for category in Category]
-    used = [studio.make(job, header) for job in jobs]
-    fresh = open_studio(header, device="cpu", threads=1, assets=baked)
+    used = [renderer.make(job, header) for job in jobs]
+    fresh = open_renderer(header, device="cpu", threads=1, assets=baked)
     for job, before in reversed(list(zip(jobs, used, strict=True))):
         after = fresh.make(job, header)
         assert after.image.tobytes() == before.image.tobytes(), job.id
@@ -100,7 +100,7 @@ def test_a_picture_does_not_depend_on_those_before_it(studio: Studio, baked: Pat
 def test_a_mask_agrees_with_an_emission_render(baked: Path, category: Category) -> None:
     """White cables on black, 64 samples, at 512 pixels: edges within half a pixel, save in gaps between cables."""
     header = small_header(resolution=512)
-    made = open_studio(header, device="cpu", threads=0, assets=baked).make(Job(category=category, index=0), header)
+    made = open_renderer(header, device="cpu", threads=0, assets=baked).make(Job(category=category, index=0), header)
     agreement = compare(made.instances, render_coverage(made.scene.camera, samples=64))
     assert agreement.iou > 0.97
     assert agreement.edge_error_px <= 0.5
@@ -108,9 +108,11 @@ def test_a_mask_agrees_with_an_emission_render(baked: Path, category: Category) 
 
 
 @pytest.mark.parametrize("category", Category)
-def test_the_floor_is_hidden_from_the_camera_in_far_pictures_alone(studio: Studio, category: Category) -> None:
+def test_the_floor_is_hidden_from_the_camera_in_far_pictures_alone(
+    renderer: BlenderRenderer, category: Category
+) -> None:
     """It stays for physics and for light."""
-    studio.make(Job(category=category, index=0), small_header())
+    renderer.make(Job(category=category, index=0), small_header())
     assert bpy.data.objects["floor"].visible_camera == (category.traits.background is Background.FLOOR)
     assert not bpy.data.objects["floor"].hide_render
 
@@ -118,8 +120,8 @@ def test_the_floor_is_hidden_from_the_camera_in_far_pictures_alone(studio: Studi
 def test_only_shown_cables_are_simulated_as_cloth(baked: Path) -> None:
     """The joined mesh of the fall has the vertices of the drawn cables and no more."""
     header = small_header(simulator="cloth")
-    studio = open_studio(header, device="cpu", threads=0, assets=baked)
-    made = studio.make(Job(category=Category.FAR, index=0), header)
+    renderer = open_renderer(header, device="cpu", threads=0, assets=baked)
+    made = renderer.make(Job(category=Category.FAR, index=0), header)
     radius_m = made.scene.cables[0].diameter_m / 2
     nodes = round(0.4 / (5 * radius_m)) + 1
     assert len(bpy.data.objects["fall_cables"].data.vertices) == nodes * len(made.scene.cables)
@@ -131,15 +133,15 @@ def test_the_wind_moves_the_cables(baked: Path) -> None:
     windy = small_header(ranges={"wind": {"strength": [10.0, 10.0]}})
     job = Job(category=Category.FAR, index=2)
     masks = [
-        open_studio(header, device="cpu", threads=0, assets=baked).make(job, header).mask for header in (calm, windy)
+        open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header).mask for header in (calm, windy)
     ]
     assert np.mean(masks[0] != masks[1]) > 0.001
 
 
-def test_settled_scenes_are_at_rest_whole_and_apart(studio: Studio) -> None:
+def test_settled_scenes_are_at_rest_whole_and_apart(renderer: BlenderRenderer) -> None:
     """Figures of eight scenes: gates 1 to 4 at their targets."""
     for index in range(8):
-        settled = studio.make(Job(category=Category.FAR, index=index), small_header()).settled
+        settled = renderer.make(Job(category=Category.FAR, index=index), small_header()).settled
         missed = [gate.name for gate, figure in settled_figures(settled).items() if not gate.on_target(figure)]
         assert missed == []
 
@@ -150,9 +152,9 @@ def test_a_job_whose_scenes_all_fail_ends_in_a_scene_error(baked: Path) -> None:
         fall={"max_attempts": 2, "rod": {"max_time_s": 0.05}},
         ranges={"placement": {"drop_height_m": 0.2}},
     )
-    studio = open_studio(header, device="cpu", threads=0, assets=baked)
+    renderer = open_renderer(header, device="cpu", threads=0, assets=baked)
     with pytest.raises(SceneError, match=r"far-000000: none of 2 drawn scenes .* above"):
-        studio.make(Job(category=Category.FAR, index=0), header)
+        renderer.make(Job(category=Category.FAR, index=0), header)
 
 
 def test_a_rejected_scene_is_drawn_again_and_told_in_the_manifest(baked: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -160,7 +162,9 @@ def test_a_rejected_scene_is_drawn_again_and_told_in_the_manifest(baked: Path, m
     faults = iter(["length error 0.02 is above 0.01", None])
     monkeypatch.setattr("worker.blender.renderer.find_fault", lambda _: next(faults))
     header = small_header()
-    made = open_studio(header, device="cpu", threads=0, assets=baked).make(Job(category=Category.FAR, index=0), header)
+    made = open_renderer(header, device="cpu", threads=0, assets=baked).make(
+        Job(category=Category.FAR, index=0), header
+    )
     assert made.scene.attempt == 1
     assert [(each.attempt, each.reason) for each in made.rejected] == [(0, "length error 0.02 is above 0.01")]
 
@@ -168,9 +172,9 @@ def test_a_rejected_scene_is_drawn_again_and_told_in_the_manifest(baked: Path, m
 def test_surfaces_that_are_not_baked_are_asked_for(tmp_path: Path) -> None:
     """The error names the command that bakes them."""
     header = small_header()
-    studio = open_studio(header, device="cpu", threads=0, assets=tmp_path)
+    renderer = open_renderer(header, device="cpu", threads=0, assets=tmp_path)
     with pytest.raises(AssetError, match="farm assets build"):
-        studio.make(Job(category=Category.CLOSE_CONCENTRATED, index=0), header)
+        renderer.make(Job(category=Category.CLOSE_CONCENTRATED, index=0), header)
 
 
 def test_a_template_that_changed_since_the_submit_is_refused() -> None:
@@ -178,7 +182,7 @@ def test_a_template_that_changed_since_the_submit_is_refused() -> None:
     header = small_header()
     changed = header.model_copy(update={"template": header.template.model_copy(update={"sha256": "0" * 64})})
     with pytest.raises(AssetError, match="has changed"):
-        open_studio(changed, device="cpu", threads=0, assets=None)
+        open_renderer(changed, device="cpu", threads=0, assets=None)
 
 
 def test_an_artists_template_that_lacks_something_is_refused(tmp_path: Path) -> None:
@@ -192,7 +196,7 @@ def test_an_artists_template_that_lacks_something_is_refused(tmp_path: Path) -> 
         InstalledAssets(),
     )
     with pytest.raises(TemplateError, match="picture"):
-        open_studio(header, device="cpu", threads=0, assets=None)
+        open_renderer(header, device="cpu", threads=0, assets=None)
 
 
 def test_another_lens_in_the_template_does_not_spoil_the_masks(tmp_path: Path, baked: Path) -> None:
@@ -204,15 +208,15 @@ def test_another_lens_in_the_template_does_not_spoil_the_masks(tmp_path: Path, b
     header = small_header()
     artists = header.model_copy(update={"template": template_ref(tmp_path / "lens.blend")})
     job = Job(category=Category.FAR, index=1)
-    ours = open_studio(header, device="cpu", threads=0, assets=baked).make(job, header)
-    theirs = open_studio(artists, device="cpu", threads=0, assets=baked).make(job, artists)
+    ours = open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header)
+    theirs = open_renderer(artists, device="cpu", threads=0, assets=baked).make(job, artists)
     assert theirs.image.tobytes() == ours.image.tobytes()
 
 
 def test_an_unknown_device_is_refused() -> None:
     """With the list of those that can be asked for."""
-    with pytest.raises(EnvironmentMissingError, match="optix"):
-        open_studio(small_header(), device="abacus", threads=0, assets=None)
+    with pytest.raises(MachineError, match="optix"):
+        open_renderer(small_header(), device="abacus", threads=0, assets=None)
 
 
 def test_a_file_that_is_not_there_is_an_asset_error(tmp_path: Path) -> None:
@@ -230,7 +234,7 @@ def test_eevee_renders_headless(baked: Path) -> None:
     pictures = []
     for engine in ("eevee", "cycles"):
         header = small_header(engine=engine, resolution=64)
-        made = open_studio(header, device="cpu", threads=0, assets=baked).make(job, header)
+        made = open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header)
         assert made.render.engine == engine
         pictures.append(made.image.astype(float))
     assert np.corrcoef(pictures[0].ravel(), pictures[1].ravel())[0, 1] > 0.9
@@ -243,15 +247,15 @@ def test_a_photograph_stands_behind_far_cables(baked: Path, tmp_path: Path) -> N
     named = plain.model_copy(update={"plates": tuple(InstalledAssets().plates_in(tmp_path))})
     job = Job(category=Category.FAR, index=0)
     for header, is_red in ((named, True), (plain, False)):
-        made = open_studio(header, device="cpu", threads=0, assets=baked).make(job, header)
+        made = open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header)
         far = cv2.dilate(made.mask, np.ones((9, 9), np.uint8)) == 0
         red, green, blue = (np.median(made.image[far][:, channel]) for channel in range(3))
         assert bool(red > 1.5 * max(green, blue)) == is_red
 
 
-def test_labels_without_a_render_cover_what_the_mask_does(studio: Studio) -> None:
+def test_labels_without_a_render_cover_what_the_mask_does(renderer: BlenderRenderer) -> None:
     """Scenes that a benchmark labels alone stand for pictures."""
     header = small_header()
     job = Job(category=Category.CLOSE_ALIGNED_CONCENTRATED, index=2)
     *_, last = drawn_coverage(header, job.category, job.index + 1)
-    assert last == np.mean(studio.make(job, header).mask > 0)
+    assert last == np.mean(renderer.make(job, header).mask > 0)

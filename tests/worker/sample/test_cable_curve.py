@@ -4,7 +4,7 @@ import numpy as np
 from scipy.integrate import trapezoid
 
 from farm.spec.styles import RANGES_OF, Style
-from worker.sample.cable_curve import draw_course
+from worker.sample.cable_curve import sample_course
 from worker.simulate.shapes import bent_rod
 
 PLACEMENT = RANGES_OF[Style.WIDE].placement
@@ -20,7 +20,7 @@ def test_a_loop_turns_once_and_lies_on_itself() -> None:
     ranges = PLACEMENT.model_copy(update={"loop_share": 1.0, "coil_share": 0.0})
     rng = np.random.default_rng(0)
     for _ in range(30):
-        course = draw_course(ranges, (0.0, 0.0), 0.4, 0.003, rng)
+        course = sample_course(ranges, (0.0, 0.0), 0.4, 0.003, rng)
         assert 0.9 < turned(course.bends_per_m, 0.4) < 1.5
         curve = bent_rod(0.4, course.bends_per_m, 400)
         gap = np.linalg.norm(curve[:, None] - curve[None], axis=2) + 9 * (
@@ -36,7 +36,7 @@ def test_a_coil_rises_by_more_than_its_thickness_a_turn() -> None:
     ranges = PLACEMENT.model_copy(update={"loop_share": 0.0, "coil_share": 1.0})
     rng = np.random.default_rng(1)
     for _ in range(30):
-        course = draw_course(ranges, (0.0, 0.0), 0.5, 0.002, rng)
+        course = sample_course(ranges, (0.0, 0.0), 0.5, 0.002, rng)
         turns = turned(course.bends_per_m, 0.5)
         assert course.rise_m == 0.0 or course.rise_m / turns > 1.2 * 0.002
 
@@ -44,5 +44,5 @@ def test_a_coil_rises_by_more_than_its_thickness_a_turn() -> None:
 def test_other_cables_keep_their_gentle_bends() -> None:
     """As drawn, and level."""
     ranges = PLACEMENT.model_copy(update={"loop_share": 0.0, "coil_share": 0.0})
-    course = draw_course(ranges, (1.0, -2.0, 3.0), 0.4, 0.002, np.random.default_rng(0))
+    course = sample_course(ranges, (1.0, -2.0, 3.0), 0.4, 0.002, np.random.default_rng(0))
     assert (course.bends_per_m, course.rise_m) == ((1.0, -2.0, 3.0), 0.0)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from farm.scene.cable import Bundle, CableMaterial, EndKind, Sheath, Skin, StripeKind, envelope_ratio
 from farm.scene.camera import Camera
 from farm.spec.styles import RANGES_OF, Style
-from worker.sample.cable_kind import CableKind, draw_ends, draw_kinds
+from worker.sample.cable_kind import CableKind, sample_ends, sample_kinds
 
 WIDE = RANGES_OF[Style.WIDE].cable
 CAMERA = Camera(height_m=0.2, f_number=8.0)
@@ -17,7 +17,7 @@ CAMERA = Camera(height_m=0.2, f_number=8.0)
 def many(count: int = 400, camera: Camera = CAMERA) -> list[CableKind]:
     """Kinds of the cables of many pictures."""
     rng = np.random.default_rng(0)
-    return [kind for _ in range(count) for kind in draw_kinds(WIDE, 4, camera, rng)]
+    return [kind for _ in range(count) for kind in sample_kinds(WIDE, 4, camera, rng)]
 
 
 def test_the_wide_style_has_every_sheath_stripe_bundle_and_the_published_surface() -> None:
@@ -35,7 +35,7 @@ def test_the_wide_style_has_every_sheath_stripe_bundle_and_the_published_surface
 def test_no_single_cable_is_wider_than_40_of_512_pixels(seed: int, height: float) -> None:
     """Whatever the camera's distance; a bundle may be half as wide again."""
     camera = Camera(height_m=height, f_number=8.0)
-    for kind in draw_kinds(WIDE, 8, camera, np.random.default_rng(seed)):
+    for kind in sample_kinds(WIDE, 8, camera, np.random.default_rng(seed)):
         width_px = kind.diameter_m / (height * 36 / 50) * 512
         assert width_px <= (60 if isinstance(kind.look, Bundle) else 40) * 1.0001
 
@@ -44,7 +44,7 @@ def test_no_single_cable_is_wider_than_40_of_512_pixels(seed: int, height: float
 def test_no_cable_and_no_strand_is_narrower_than_4_of_512_pixels(seed: int, height: float) -> None:
     """As the published ones, whose labels can be learned from."""
     camera = Camera(height_m=height, f_number=8.0)
-    for kind in draw_kinds(WIDE, 8, camera, np.random.default_rng(seed)):
+    for kind in sample_kinds(WIDE, 8, camera, np.random.default_rng(seed)):
         seen_m = kind.look.strand_diameter_m if isinstance(kind.look, Bundle) else kind.diameter_m
         assert seen_m / (height * 36 / 50) * 512 >= 4 * 0.9999
 
@@ -66,7 +66,7 @@ def test_cables_of_one_make_differ_in_colour_alone() -> None:
     """`alike_share` 1."""
     ranges = WIDE.model_copy(update={"skin": WIDE.skin.model_copy(update={"alike_share": 1.0, "share": 1.0})})
     ranges = ranges.model_copy(update={"bundle": ranges.bundle.model_copy(update={"share": 0.0})})
-    kinds = draw_kinds(ranges, 6, CAMERA, np.random.default_rng(0))
+    kinds = sample_kinds(ranges, 6, CAMERA, np.random.default_rng(0))
     skins = [kind.look for kind in kinds if isinstance(kind.look, Skin)]
     assert len({(kind.diameter_m, skin.sheath, skin.roughness) for kind, skin in zip(kinds, skins, strict=True)}) == 1
     assert len({skin.colour for skin in skins}) > 1
@@ -85,7 +85,7 @@ def test_only_skins_end_in_copper_or_a_ferrule() -> None:
             dirt_offset=0.0,
             reflection_position=0.6,
         )
-        ends = draw_ends(ranges, kind.look or published, kind.diameter_m, rng)
+        ends = sample_ends(ranges, kind.look or published, kind.diameter_m, rng)
         assert {end.kind for end in ends} <= (
             {EndKind.STRIPPED, EndKind.FERRULE} if isinstance(kind.look, Skin) else {EndKind.CUT}
         )

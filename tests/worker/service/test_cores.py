@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from worker.service.cores import only_so_many_seen
+from worker.service.cores import limit_visible_cores
 
 pytestmark = pytest.mark.skipif(
     not hasattr(os, "sched_getaffinity"), reason="this system can't limit a process's cores"
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.skipif(
 def test_cores_are_hidden_for_a_while(threads: int) -> None:
     """Inside, as many are seen as asked for and there; afterwards all are back."""
     before = os.sched_getaffinity(0)
-    with only_so_many_seen(threads):
+    with limit_visible_cores(threads):
         assert len(os.sched_getaffinity(0)) == min(threads or len(before), len(before))
     assert os.sched_getaffinity(0) == before
 
@@ -25,7 +25,7 @@ def test_cores_are_hidden_for_a_while(threads: int) -> None:
 def test_cores_are_back_after_an_error() -> None:
     """A library that does not load leaves the process with all of its cores."""
     before = os.sched_getaffinity(0)
-    with pytest.raises(ImportError), only_so_many_seen(1):
+    with pytest.raises(ImportError), limit_visible_cores(1):
         raise ImportError
     assert os.sched_getaffinity(0) == before
 
@@ -37,8 +37,8 @@ def test_blender_starts_no_thread_for_a_hidden_core() -> None:
         pytest.skip("one core can't be hidden")
     program = (
         "import os, sys\n"
-        "from worker.service.cores import only_so_many_seen\n"
-        "with only_so_many_seen(int(sys.argv[1])):\n"
+        "from worker.service.cores import limit_visible_cores\n"
+        "with limit_visible_cores(int(sys.argv[1])):\n"
         "    import bpy\n"
         "sys.stdout.write(f'threads {len(os.listdir(\"/proc/self/task\"))}\\n')\n"
         "sys.stdout.flush()\n"

@@ -7,7 +7,7 @@ import pytest
 
 from farm.errors import BrokerError
 from tests.doubles.ledger import MemoryLedger
-from worker.service.lease import ClaimLostError, HeldClaim
+from worker.service.lease import Lease, LeaseLostError
 
 JOB_ID = "far-000001"
 
@@ -48,9 +48,9 @@ def ledger(clock: Clock) -> MemoryLedger:
 
 
 @pytest.fixture
-def claim(ledger: MemoryLedger, clock: Clock) -> HeldClaim:
+def claim(ledger: MemoryLedger, clock: Clock) -> Lease:
     """The claim, whose thread is not started."""
-    return HeldClaim(ledger, JOB_ID, "a:1", ttl_s=60.0, clock=clock)
+    return Lease(ledger, JOB_ID, "a:1", ttl_s=60.0, clock=clock)
 
 
 def wait_for_beats(ledger: ShortLedger, count: int) -> None:
@@ -65,7 +65,7 @@ def test_claim_outlives_its_term() -> None:
     """While the heart beats, a claim lives on; when it stops, the claim lapses."""
     ledger = ShortLedger()
     ledger.claim(JOB_ID, "a:1", ttl_s=60.0)
-    with HeldClaim(ledger, JOB_ID, "a:1", every_s=0.01):
+    with Lease(ledger, JOB_ID, "a:1", every_s=0.01):
         wait_for_beats(ledger, 30)
         assert JOB_ID in ledger.claims()
     beats = ledger.refreshed
@@ -83,7 +83,7 @@ def test_beats_on_without_redis(caplog: pytest.LogCaptureFixture) -> None:
         calls.append(1)
         raise BrokerError("gone")
 
-    with patch.object(ledger, "refresh", side_effect=away), HeldClaim(ledger, JOB_ID, "a:1", every_s=0.01) as claim:
+    with patch.object(ledger, "refresh", side_effect=away), Lease(ledger, JOB_ID, "a:1", every_s=0.01) as claim:
         give_up_s = time.monotonic() + 30
         while len(calls) < 3:
             assert time.monotonic() < give_up_s
@@ -96,24 +96,24 @@ def test_lost_claim_is_found_out_by_the_thread() -> None:
     """A claim that another has by now is known to be lost at the next beat."""
     ledger = MemoryLedger()
     ledger.claim(JOB_ID, "b:1")
-    with HeldClaim(ledger, JOB_ID, "a:1", every_s=0.01) as claim:
+    with Lease(ledger, JOB_ID, "a:1", every_s=0.01) as claim:
         claim._thread.join(30)  # it ends when it has found out
-        with pytest.raises(ClaimLostError):
+        with pytest.raises(LeaseLostError):
             claim.check()
     assert ledger.claims() == {JOB_ID: "b:1"}
 
 
-def test_lease_is_shorter_than_the_claim(claim: HeldClaim, ledger: MemoryLedger, clock: Clock) -> None:
+def test_lease_is_shorter_than_the_claim(claim: Lease, ledger: MemoryLedger, clock: Clock) -> None:
     """The holder trusts its claim for nine tenths of its term: then the ledger still has it, and nobody writes."""
     clock.now_s += 53.9
     claim.check()
     clock.now_s += 0.2
-    with pytest.raises(ClaimLostError, match="lapsed"):
+    with pytest.raises(LeaseLostError, match="lapsed"):
         claim.check()
     assert ledger.claims() == {JOB_ID: "a:1"}
 
 
-def test_renewed_lease(claim: HeldClaim, clock: Clock) -> None:
+def test_renewed_lease(claim: Lease, clock: Clock) -> None:
     """A renewed claim is trusted for another term."""
     clock.now_s += 50.0
     claim.renew()
@@ -121,23 +121,23 @@ def test_renewed_lease(claim: HeldClaim, clock: Clock) -> None:
     claim.check()
 
 
-def test_lapsed_claim_that_nobody_took(claim: HeldClaim, clock: Clock) -> None:
+def test_lapsed_claim_that_nobody_took(claim: Lease, clock: Clock) -> None:
     """Who comes back after the term must ask, and goes on if nobody was faster."""
     clock.now_s += 61.0
-    with pytest.raises(ClaimLostError):
+    with pytest.raises(LeaseLostError):
         claim.check()
     claim.renew()
     claim.check()
 
 
-def test_claim_of_another_is_not_taken_back(claim: HeldClaim, ledger: MemoryLedger, clock: Clock) -> None:
+def test_claim_of_another_is_not_taken_back(claim: Lease, ledger: MemoryLedger, clock: Clock) -> None:
     """Who finds its job claimed by another leaves it there, for good."""
     clock.now_s += 61.0
     ledger.claim(JOB_ID, "b:1", ttl_s=60.0)
-    with pytest.raises(ClaimLostError):
+    with pytest.raises(LeaseLostError):
         claim.renew()
     ledger.release(JOB_ID, "b:1")
-    with pytest.raises(ClaimLostError):
+    with pytest.raises(LeaseLostError):
         claim.check()
 
 
@@ -150,7 +150,7 @@ def test_late_answer_is_counted_from_the_question(ledger: MemoryLedger, clock: C
             clock.now_s += 55.0
             return found
 
-    claim = HeldClaim(Slow(), JOB_ID, "a:1", ttl_s=60.0, clock=clock)
+    claim = Lease(Slow(), JOB_ID, "a:1", ttl_s=60.0, clock=clock)
     claim.renew()
-    with pytest.raises(ClaimLostError):
+    with pytest.raises(LeaseLostError):
         claim.check()

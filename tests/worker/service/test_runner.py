@@ -17,8 +17,8 @@ from farm.dataset.quarantine import Quarantine, QuarantineRecord, put_in_quarant
 from farm.errors import (
     AssetError,
     DestinationError,
-    EnvironmentMissingError,
     FarmError,
+    MachineError,
     MessageError,
     PermanentError,
     RenderError,
@@ -31,8 +31,8 @@ from farm.run.ledger.port import MAX_ABSENCES, RETRY_OWNER
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from tests.doubles.ledger import MemoryLedger
-from tests.stand_in import StandInMaker
-from worker.service.picture import ImageMaker, MadeImage
+from tests.stand_in import StandInRenderer
+from worker.service.picture import Picture, Renderer
 from worker.service.runner import BACKOFF_S, FAILED_IN_A_ROW, MAX_STARTS, MAX_TRIES, JobRunner, TryLaterError
 
 JOB = Job.from_id("far-000001")
@@ -47,7 +47,7 @@ def ledger() -> MemoryLedger:
 @pytest.fixture
 def runner(tmp_path: Path, ledger: MemoryLedger) -> JobRunner:
     """Works on the store of the `dataset` fixture."""
-    return JobRunner(str(tmp_path / "store"), lambda _: StandInMaker(), lambda *_: ledger)
+    return JobRunner(str(tmp_path / "store"), lambda _: StandInRenderer(), lambda *_: ledger)
 
 
 def given_up(dataset: Dataset) -> Mapping[str, str]:
@@ -177,17 +177,17 @@ def test_lost_processes_are_no_failed_tries(
 
 
 @pytest.mark.parametrize(
-    "fault", [AssetError("torn"), EnvironmentMissingError("no GPU"), TemplateError("bent"), RenderError("dark")]
+    "fault", [AssetError("torn"), MachineError("no GPU"), TemplateError("bent"), RenderError("dark")]
 )
 def test_maker_that_cannot_be_opened(
     dataset: Dataset, tmp_path: Path, ledger: MemoryLedger, runner: JobRunner, fault: FarmError
 ) -> None:
     """A fault of the machine is not the job's: nothing is recorded or spent, and another worker makes it."""
 
-    def open_maker(_header: object) -> ImageMaker:
+    def open_renderer(_header: object) -> Renderer:
         raise fault
 
-    unfit = JobRunner(str(tmp_path / "store"), open_maker, lambda *_: ledger)
+    unfit = JobRunner(str(tmp_path / "store"), open_renderer, lambda *_: ledger)
     for _ in range(MAX_STARTS + 1):
         with pytest.raises(UnfitWorkerError, match=str(fault)) as refused:
             unfit.run(dataset.message(JOB).encode())
@@ -200,12 +200,12 @@ def test_maker_that_cannot_be_opened(
 def test_blender_that_does_not_load(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
     """A library that is missing when the maker is opened is a fault of the machine, too."""
 
-    def open_maker(_header: object) -> ImageMaker:
+    def open_renderer(_header: object) -> Renderer:
         raise ImportError("libXi.so.6")
 
     with pytest.raises(UnfitWorkerError, match=r"libXi\.so\.6") as refused:
-        JobRunner(str(tmp_path / "store"), open_maker, lambda *_: ledger).run(dataset.message(JOB).encode())
-    assert isinstance(refused.value.as_fault(), EnvironmentMissingError)
+        JobRunner(str(tmp_path / "store"), open_renderer, lambda *_: ledger).run(dataset.message(JOB).encode())
+    assert isinstance(refused.value.as_fault(), MachineError)
 
 
 def test_asset_that_this_machine_lacks(
@@ -220,7 +220,7 @@ def test_asset_that_this_machine_lacks(
 
 def test_dataset_that_is_not_here(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
     """A store that lacks the dataset is the worker's fault; that all stores lack it is found out in the end."""
-    runner = JobRunner(str(tmp_path / "elsewhere"), lambda _: StandInMaker(), lambda *_: ledger)
+    runner = JobRunner(str(tmp_path / "elsewhere"), lambda _: StandInRenderer(), lambda *_: ledger)
     for _ in range(MAX_ABSENCES):
         with pytest.raises(UnfitWorkerError, match=r"no dataset here.*--store"):
             runner.run(dataset.message(JOB).encode())
@@ -234,7 +234,7 @@ def test_restarted_worker_with_a_wrong_store(
     dataset: Dataset, tmp_path: Path, runner: JobRunner, ledger: MemoryLedger
 ) -> None:
     """While another worker makes pictures, one that is started over and over fails none."""
-    wrong = JobRunner(str(tmp_path / "elsewhere"), lambda _: StandInMaker(), lambda *_: ledger)
+    wrong = JobRunner(str(tmp_path / "elsewhere"), lambda _: StandInRenderer(), lambda *_: ledger)
     jobs = list(dataset.header.spec.jobs())
     for number in range(2 * MAX_ABSENCES):
         with pytest.raises(UnfitWorkerError):
@@ -279,13 +279,13 @@ def test_bad_message(dataset: Dataset, runner: JobRunner, payload: object) -> No
 
 def test_maker_is_kept(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
     """One maker serves all jobs of a dataset."""
-    opened: list[ImageMaker] = []
+    opened: list[Renderer] = []
 
-    def open_maker(_header: object) -> ImageMaker:
-        opened.append(StandInMaker())
+    def open_renderer(_header: object) -> Renderer:
+        opened.append(StandInRenderer())
         return opened[-1]
 
-    runner = JobRunner(str(tmp_path / "store"), open_maker, lambda *_: ledger)
+    runner = JobRunner(str(tmp_path / "store"), open_renderer, lambda *_: ledger)
     for job in dataset.header.spec.jobs():
         runner.run(dataset.message(job).encode())
     assert len(opened) == 1
@@ -300,11 +300,11 @@ def test_given_up_job_is_dropped(dataset: Dataset, runner: JobRunner, ledger: Me
     assert ledger.claims() == {}
 
 
-class PrintingMaker(StandInMaker):
+class PrintingMaker(StandInRenderer):
     """Writes as C code does, before it fails or not."""
 
-    def make(self, job: Job, header: DatasetHeader) -> MadeImage:
-        """See `ImageMaker.make`."""
+    def make(self, job: Job, header: DatasetHeader) -> Picture:
+        """See `Renderer.make`."""
         os.write(2, f"GPU fell off the bus in {job.id}".encode())
         return super().make(job, header)
 
@@ -366,33 +366,33 @@ def test_success_in_between(dataset: Dataset, runner: JobRunner, monkeypatch: py
     assert len(given_up(dataset)) == 3
 
 
-class CountingMaker(StandInMaker):
+class CountingMaker(StandInRenderer):
     """Counts what it is asked for."""
 
     asked = 0
 
-    def make(self, job: Job, header: DatasetHeader) -> MadeImage:
-        """See `ImageMaker.make`."""
+    def make(self, job: Job, header: DatasetHeader) -> Picture:
+        """See `Renderer.make`."""
         self.asked += 1
         return super().make(job, header)
 
 
 def test_store_that_cannot_be_written(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
     """A job whose files can't be written goes back uncounted; the next ones are not rendered until a write succeeds."""
-    maker = CountingMaker()
-    runner = JobRunner(str(tmp_path / "store"), lambda _: maker, lambda *_: ledger)
+    renderer = CountingMaker()
+    runner = JobRunner(str(tmp_path / "store"), lambda _: renderer, lambda *_: ledger)
     images = tmp_path / "store/cables/far/images"
     images.parent.mkdir()
     images.write_text("in the way")
     for _ in range(2 * MAX_STARTS):
         with pytest.raises(DestinationError, match="images"):
             runner.run(dataset.message(JOB).encode())
-    assert maker.asked == 1
+    assert renderer.asked == 1
     assert given_up(dataset) == ledger.claims() == {}
     assert ledger.figures() == {}
     images.unlink()
     runner.run(dataset.message(JOB).encode())
-    assert maker.asked == 2
+    assert renderer.asked == 2
     assert is_done(dataset, JOB)
     assert not [path for path in dataset.storage.files() if "probe" in path]
     assert ledger.claim(JOB.id, "elsewhere:1") == 1
@@ -401,8 +401,8 @@ def test_store_that_cannot_be_written(dataset: Dataset, tmp_path: Path, ledger: 
 def test_claim_that_was_lost_meanwhile(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
     """A worker that finds its job claimed by another, once it has rendered, writes nothing and looks again later."""
 
-    class SlowMaker(StandInMaker):
-        def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+    class SlowMaker(StandInRenderer):
+        def make(self, job: Job, header: DatasetHeader) -> Picture:
             ledger.release(job.id, this_process())
             ledger.claim(job.id, "elsewhere:1")
             return super().make(job, header)
@@ -418,7 +418,7 @@ def test_claim_that_was_lost_meanwhile(dataset: Dataset, tmp_path: Path, ledger:
 def pause(dataset: Dataset, store: Path, job: Job) -> float:
     """How long a job is put off at its first failure, by a worker and Redis that know nothing of it."""
     ledger = MemoryLedger()
-    runner = JobRunner(str(store), lambda _: StandInMaker(), lambda *_: ledger)
+    runner = JobRunner(str(store), lambda _: StandInRenderer(), lambda *_: ledger)
     with pytest.raises(TryLaterError) as later:
         runner.run(dataset.message(job).encode())
     return later.value.delay_s
@@ -497,8 +497,8 @@ def test_dataset_that_was_here_before(dataset: Dataset, runner: JobRunner, tmp_p
 def test_late_failure_is_not_counted(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
     """Who fails at a job that is another's by now neither counts that nor gives the job up."""
 
-    class LateMaker(StandInMaker):
-        def make(self, job: Job, header: DatasetHeader) -> MadeImage:
+    class LateMaker(StandInRenderer):
+        def make(self, job: Job, header: DatasetHeader) -> Picture:
             del header
             ledger.release(job.id, this_process())
             ledger.claim(job.id, "elsewhere:1")

@@ -16,7 +16,7 @@ from farm.dataset.verify import verify
 from farm.errors import RunCancelledError
 from farm.local.redis_server import private_redis
 from farm.run.coordinator import Coordinator
-from farm.run.progress import Hints
+from farm.run.progress import RunHandle
 from farm.run.registry.port import Priority, RunState, WorkerState
 from farm.spec.job import Job
 from tests.live_farm import LiveFarm, done, is_once_each, live_farm, wait_for, wait_until_done
@@ -38,10 +38,10 @@ def farm(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveFarm]:
         yield farm
 
 
-def wait_until_settled(hints: Hints) -> None:
+def wait_until_settled(handle: RunHandle) -> None:
     """Wait until nobody works for a run, and a while longer, in which somebody might begin to."""
     for _ in range(2):
-        wait_for(lambda: not hints.ledger.claims())
+        wait_for(lambda: not handle.ledger.claims())
         time.sleep(1.5)
 
 
@@ -50,8 +50,8 @@ def test_two_runs_take_turns(farm: LiveFarm) -> None:
     since = len(farm.starts())
     one, two = farm.dataset("one", far=30), farm.dataset("two", far_aligned=30)
     for dataset in (one, two):
-        hints = farm.hints(dataset)
-        hints.board.register(hints.run)
+        handle = farm.handle(dataset)
+        handle.registry.register(handle.run)
     time.sleep(3.0)  # both workers join both runs
     for dataset in (one, two):
         farm.submit(dataset)
@@ -84,31 +84,31 @@ def test_pause_and_resume(farm: LiveFarm) -> None:
     """A paused run stops once what was begun is finished; resumed, it goes on where it was, each image made once."""
     dataset = farm.dataset("paused", far=60)
     since = len(farm.starts())
-    hints = farm.submit(dataset)
+    handle = farm.submit(dataset)
     wait_until_done(dataset, 3)
-    farm.want(hints, RunState.PAUSED)
-    wait_until_settled(hints)
+    farm.want(handle, RunState.PAUSED)
+    wait_until_settled(handle)
     stopped = done(dataset)
-    waiting = hints.queue.length(hints.run)
+    waiting = handle.queue.length(handle.run)
     time.sleep(2.0)
     assert done(dataset) == stopped < 60
-    assert hints.queue.length(hints.run) == waiting
-    farm.want(hints, RunState.ACTIVE)
-    Coordinator(dataset, hints, poll_s=0.2, lost_after_s=2.0).watch()
+    assert handle.queue.length(handle.run) == waiting
+    farm.want(handle, RunState.ACTIVE)
+    Coordinator(dataset, handle, poll_s=0.2, lost_after_s=2.0).watch()
     assert is_once_each(farm.starts(since), dataset)
 
 
 def test_cancel(farm: LiveFarm) -> None:
     """A cancelled run is left as it is, its queue empty, what is done whole, and whoever waits for it is told."""
     dataset = farm.dataset("cancelled", far=200)
-    hints = farm.submit(dataset)
+    handle = farm.submit(dataset)
     wait_until_done(dataset, 3)
-    farm.cancel(hints)
-    wait_until_settled(hints)
+    farm.cancel(handle)
+    wait_until_settled(handle)
     stopped = done(dataset)
-    assert hints.queue.length(hints.run) == 0
+    assert handle.queue.length(handle.run) == 0
     with pytest.raises(RunCancelledError):
-        Coordinator(dataset, hints).watch()
+        Coordinator(dataset, handle).watch()
     assert done(dataset) == stopped < 200
     assert {finding.path.split("/")[1] for finding in verify(dataset).findings} == {"manifests"}
 

@@ -13,13 +13,13 @@ import redis
 from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset
 from farm.dataset.quarantine import Quarantine
-from farm.errors import DatasetMissingError, EnvironmentMissingError
+from farm.errors import DatasetMissingError, MachineError
 from farm.run.handle import run_of
 from farm.run.ledger.redis import RedisLedger
 from farm.run.queue.celery import CeleryQueue
 from farm.run.queue.settings import QUEUE, TASK_NAME, make_app
 from farm.run.registry.port import Run
-from farm.run.registry.redis import RedisBoard
+from farm.run.registry.redis import RedisRegistry
 from farm.spec.job import Job
 
 pytestmark = pytest.mark.redis
@@ -37,7 +37,7 @@ def queue(redis_url: str, redis_client: "redis.Redis") -> CeleryQueue:
 @pytest.fixture
 def run(redis_client: "redis.Redis", dataset: Dataset) -> Run:
     """The dataset's run, which is on the board."""
-    return RedisBoard(redis_client).register(run_of(dataset))
+    return RedisRegistry(redis_client).register(run_of(dataset))
 
 
 @pytest.fixture
@@ -157,7 +157,7 @@ def test_unfit_worker_takes_itself_out(
     """A worker that can't open its maker gives its job back and ends, with the reason and its code."""
     queue.submit(run, [dataset.message(JOB)])
     result = serve(worker_command, tmp_path / "store", redis_url, STAND_IN_UNFIT="--device optix: no such device")
-    assert result.returncode == EnvironmentMissingError.exit_code
+    assert result.returncode == MachineError.exit_code
     assert result.stderr.splitlines()[-1] == "--device optix: no such device"
     assert list(queue.queued(run)) == [JOB]
     assert Quarantine(dataset).look() == ledger.claims() == {}

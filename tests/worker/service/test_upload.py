@@ -16,18 +16,18 @@ from farm.errors import BrokerError, DestinationError, RenderError
 from farm.spec.job import Job
 from farm.storage import LocalStorage
 from tests.doubles.ledger import MemoryLedger
-from tests.stand_in import StandInMaker, stand_in_header
-from worker.service.lease import ClaimLostError, HeldClaim
-from worker.service.picture import MadeImage
+from tests.stand_in import StandInRenderer, stand_in_header
+from worker.service.lease import Lease, LeaseLostError
+from worker.service.picture import Picture
 from worker.service.upload import encode_png, upload
 
 JOB = Job.from_id("far-000000")
 
 
 @pytest.fixture
-def made(dataset: Dataset) -> MadeImage:
+def made(dataset: Dataset) -> Picture:
     """A picture with its labels."""
-    return StandInMaker().make(JOB, dataset.header)
+    return StandInRenderer().make(JOB, dataset.header)
 
 
 @pytest.mark.parametrize("shape_and_type", [((5, 7, 3), np.uint8), ((5, 7), np.uint8), ((5, 7), np.uint16)])
@@ -40,7 +40,7 @@ def test_png_keeps_every_value(shape_and_type: tuple[tuple[int, ...], Any]) -> N
     assert np.array_equal(decoded[:, :, ::-1] if decoded.ndim == 3 else decoded, pixels)
 
 
-def test_writes_the_layout(dataset: Dataset, made: MadeImage) -> None:
+def test_writes_the_layout(dataset: Dataset, made: Picture) -> None:
     """Three pictures and a manifest, where the layout says."""
     upload(made, JOB, dataset)
     expected = {file_path(JOB, role) for role in FileRole} | {manifest_path(JOB), "dataset.json"}
@@ -48,7 +48,7 @@ def test_writes_the_layout(dataset: Dataset, made: MadeImage) -> None:
     assert is_done(dataset, JOB)
 
 
-def test_manifest_is_last(dataset: Dataset, made: MadeImage, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_manifest_is_last(dataset: Dataset, made: Picture, monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing is written after the manifest, so that it never vouches for a file still to come."""
     written: list[str] = []
     write = type(dataset.storage).write
@@ -62,7 +62,7 @@ def test_manifest_is_last(dataset: Dataset, made: MadeImage, monkeypatch: pytest
     assert written[-1] == manifest_path(JOB)
 
 
-def test_interrupted_upload_is_not_done(dataset: Dataset, made: MadeImage, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_interrupted_upload_is_not_done(dataset: Dataset, made: Picture, monkeypatch: pytest.MonkeyPatch) -> None:
     """When a write fails, the job is not done, whatever was written before."""
     write = type(dataset.storage).write
 
@@ -87,7 +87,7 @@ def test_interrupted_upload_is_not_done(dataset: Dataset, made: MadeImage, monke
         {"image": np.zeros((32, 32, 3), np.float32)},
     ],
 )
-def test_labels_that_do_not_fit(dataset: Dataset, made: MadeImage, damage: dict[str, Any]) -> None:
+def test_labels_that_do_not_fit(dataset: Dataset, made: Picture, damage: dict[str, Any]) -> None:
     """A picture and labels that contradict each other are not written."""
     before = dataset.storage.files()
     with pytest.raises(RenderError):
@@ -117,7 +117,7 @@ class Elsewhere:
         self.clock = Clock()
         self.ledger = MemoryLedger(self.clock)
         self.ledger.claim(JOB.id, "here:1", 60.0)
-        self.claim = HeldClaim(self.ledger, JOB.id, "here:1", ttl_s=60.0, clock=self.clock)
+        self.claim = Lease(self.ledger, JOB.id, "here:1", ttl_s=60.0, clock=self.clock)
         self._dataset = dataset
         self._seed = seed
 
@@ -125,7 +125,7 @@ class Elsewhere:
         """Let a minute pass, in which the worker here was stopped, and make the job."""
         self.clock.now_s += 61.0
         assert self.ledger.claim(JOB.id, "elsewhere:1", 60.0)
-        upload(StandInMaker().make(JOB, stand_in_header(seed=self._seed)), JOB, self._dataset)
+        upload(StandInRenderer().make(JOB, stand_in_header(seed=self._seed)), JOB, self._dataset)
         self.ledger.finish(JOB.id, "elsewhere:1", "picture")
 
 
@@ -147,17 +147,17 @@ class StoppedStorage(LocalStorage):
 ALL_PATHS = [*(file_path(JOB, role) for role in FileRole), manifest_path(JOB)]
 
 
-def test_worker_that_was_stopped_writes_nothing(dataset: Dataset, made: MadeImage) -> None:
+def test_worker_that_was_stopped_writes_nothing(dataset: Dataset, made: Picture) -> None:
     """A worker that was stopped past its lease leaves what another has made to the last bit."""
     other = Elsewhere(dataset, seed=5)
     other.take_over()
     before = {path: dataset.storage.read(path) for path in dataset.storage.files()}
-    with pytest.raises(ClaimLostError):
+    with pytest.raises(LeaseLostError):
         upload(made, JOB, dataset, other.claim)
     assert {path: dataset.storage.read(path) for path in dataset.storage.files()} == before
 
 
-def test_worker_that_was_stopped_and_not_missed(dataset: Dataset, made: MadeImage) -> None:
+def test_worker_that_was_stopped_and_not_missed(dataset: Dataset, made: Picture) -> None:
     """Past its lease a worker asks, and writes what it made if nobody has taken the job yet."""
     other = Elsewhere(dataset, seed=5)
     other.clock.now_s += 61.0
@@ -166,7 +166,7 @@ def test_worker_that_was_stopped_and_not_missed(dataset: Dataset, made: MadeImag
 
 
 @pytest.mark.parametrize("path", ALL_PATHS)
-def test_stop_between_check_and_write(dataset: Dataset, made: MadeImage, path: str) -> None:
+def test_stop_between_check_and_write(dataset: Dataset, made: Picture, path: str) -> None:
     """A late write among another machine's files, whose bytes differ, leaves no job that seems done and is mixed."""
     other = Elsewhere(dataset, seed=5)
     theirs: dict[str, bytes] = {}
@@ -176,7 +176,7 @@ def test_stop_between_check_and_write(dataset: Dataset, made: MadeImage, path: s
         theirs.update({each: dataset.storage.read(each) for each in ALL_PATHS})
 
     storage = StoppedStorage(Path(dataset.storage.location), path, take_over)
-    with pytest.raises(ClaimLostError):
+    with pytest.raises(LeaseLostError):
         upload(made, JOB, replace(dataset, storage=storage), other.claim)
     assert manifest_path(JOB) not in dataset.storage.files()
     for each in set(ALL_PATHS) - {path, manifest_path(JOB)}:
@@ -186,16 +186,16 @@ def test_stop_between_check_and_write(dataset: Dataset, made: MadeImage, path: s
 
 
 @pytest.mark.parametrize("path", ALL_PATHS)
-def test_stop_between_check_and_write_of_the_same(dataset: Dataset, made: MadeImage, path: str) -> None:
+def test_stop_between_check_and_write_of_the_same(dataset: Dataset, made: Picture, path: str) -> None:
     """A late write of the very bytes that another has written does no harm, and what is done stays so."""
     other = Elsewhere(dataset, seed=0)
     storage = StoppedStorage(Path(dataset.storage.location), path, other.take_over)
-    with pytest.raises(ClaimLostError):
+    with pytest.raises(LeaseLostError):
         upload(made, JOB, replace(dataset, storage=storage), other.claim)
     assert is_done(dataset, JOB)
 
 
-def test_stop_before_a_redis_that_is_away(dataset: Dataset, made: MadeImage, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_stop_before_a_redis_that_is_away(dataset: Dataset, made: Picture, monkeypatch: pytest.MonkeyPatch) -> None:
     """Whoever can't ask after a late write leaves no mixed job either."""
     other = Elsewhere(dataset, seed=5)
 
@@ -212,18 +212,18 @@ def test_stop_before_a_redis_that_is_away(dataset: Dataset, made: MadeImage, mon
     assert manifest_path(JOB) not in dataset.storage.files()
 
 
-def test_claim_that_another_got_early(dataset: Dataset, made: MadeImage) -> None:
+def test_claim_that_another_got_early(dataset: Dataset, made: Picture) -> None:
     """A claim that is another's though its time is not over, as after the loss of Redis, is noticed before a write."""
     other = Elsewhere(dataset, seed=5)
     other.ledger.release(JOB.id, "here:1")
     other.ledger.claim(JOB.id, "elsewhere:1", 60.0)
     before = dataset.storage.files()
-    with pytest.raises(ClaimLostError):
+    with pytest.raises(LeaseLostError):
         upload(made, JOB, dataset, other.claim)
     assert dataset.storage.files() == before
 
 
-def test_claim_that_is_held_writes(dataset: Dataset, made: MadeImage) -> None:
+def test_claim_that_is_held_writes(dataset: Dataset, made: Picture) -> None:
     """A worker that holds its claim writes as one that has the dataset to itself."""
     upload(made, JOB, dataset, Elsewhere(dataset, seed=5).claim)
     assert is_done(dataset, JOB)

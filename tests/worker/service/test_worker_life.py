@@ -43,22 +43,22 @@ def six(farm: LiveFarm) -> Dataset:
 
 def test_worker_that_is_told_to_stop_finishes_its_image(farm: LiveFarm, six: Dataset) -> None:
     """Told to stop, a worker finishes what it has begun, takes no more, and gives the rest back."""
-    hints = farm.submit(six)
+    handle = farm.submit(six)
     worker = farm.start("w", STAND_IN_DELAY_S="1")
     wait_for(lambda: len(farm.starts()) == 2)
     worker.send_signal(signal.SIGTERM)
     assert worker.wait(PATIENCE_S) == 0
     begun = len(farm.starts())
     assert done(six) == begun < 6
-    assert hints.ledger.claims() == {}
-    assert hints.queue.length(hints.run) == 6 - begun
-    assert hints.board.workers() == ()
+    assert handle.ledger.claims() == {}
+    assert handle.queue.length(handle.run) == 6 - begun
+    assert handle.registry.workers() == ()
     assert processes_with(str(farm.logs)) == {}
 
 
 def test_worker_that_is_told_twice_ends_at_once(farm: LiveFarm, six: Dataset) -> None:
     """A second signal ends a worker amid its image, with its renderer; the image is another's to make."""
-    hints = farm.submit(six)
+    handle = farm.submit(six)
     worker = farm.start("w", STAND_IN_DELAY_S="3600")
     wait_for(farm.starts)
 
@@ -72,14 +72,14 @@ def test_worker_that_is_told_twice_ends_at_once(farm: LiveFarm, six: Dataset) ->
     farm.start("next")
     farm.submit(six)
     wait_until_done(six, 6)
-    assert Quarantine(six).look() == hints.ledger.claims() == {}
+    assert Quarantine(six).look() == handle.ledger.claims() == {}
 
 
 def test_store_that_cannot_be_written_holds_the_worker(farm: LiveFarm, six: Dataset) -> None:
     """While a folder can't be written the worker is held, with the reason, and no job fails; then it goes on."""
     in_the_way = Path(six.storage.location) / "far"
     in_the_way.write_text("no folder")
-    hints = farm.submit_without_look(six)
+    handle = farm.submit_without_look(six)
     farm.start("w")
     wait_for(lambda: farm.workers(WorkerState.HELD))
     assert str(in_the_way) in farm.workers(WorkerState.HELD)[0].reason
@@ -87,7 +87,7 @@ def test_store_that_cannot_be_written_holds_the_worker(farm: LiveFarm, six: Data
     in_the_way.unlink()
     wait_until_done(six)
     assert verify(six).clean
-    wait_for(lambda: not hints.ledger.claims())
+    wait_for(lambda: not handle.ledger.claims())
     assert len(farm.starts()) == 6
 
 

@@ -14,7 +14,7 @@ from farm.dataset.dataset import Dataset
 from farm.errors import BrokerError
 from farm.local.workers import LocalWorkers, WorkerOptions
 from farm.run.coordinator import Coordinator
-from farm.run.handle import redis_hints
+from farm.run.handle import open_handle
 from farm.run.queue.broker import connect
 from farm.run.queue.settings import make_app
 from tests.farm.run.queue.servers import debian_redis, free_port
@@ -66,7 +66,7 @@ def test_a_farm_works_under_the_list(
     monkeypatch.setenv("STAND_IN_FAILS", "far-000001=once")
     client = connect(guarded.url)
     app = make_app(guarded.url)
-    coordinator = Coordinator(dataset, redis_hints(dataset, guarded.url, client), poll_s=0.1)
+    coordinator = Coordinator(dataset, open_handle(dataset, guarded.url, client), poll_s=0.1)
     coordinator.submit_missing()
     options = WorkerOptions(
         store=str(tmp_path / "store"),

@@ -12,7 +12,7 @@ from farm.dataset.dataset import Dataset
 from farm.errors import BrokerError
 from farm.local.workers import LocalWorkers, WorkerOptions
 from farm.run.coordinator import Coordinator
-from farm.run.handle import redis_hints
+from farm.run.handle import open_handle
 from farm.run.queue.broker import broker_url, connect
 from farm.run.queue.settings import make_app
 from tests.farm.run.queue.servers import ENCODED, PASSWORD, Certificates, debian_redis, free_port, make_certificates
@@ -50,7 +50,7 @@ def test_a_worker_does_its_jobs_over_tls_with_a_password(
     """Queue, ledger and worker all go over the one address."""
     url = broker_url(f"rediss://:{ENCODED}@{place}?ssl_ca_certs={certificates.authority}")
     client = connect(url)
-    coordinator = Coordinator(dataset, redis_hints(dataset, url, client), poll_s=0.1)
+    coordinator = Coordinator(dataset, open_handle(dataset, url, client), poll_s=0.1)
     assert coordinator.submit_missing() == 4
     options = WorkerOptions(
         store=str(tmp_path / "store"), broker_url=url, device="cpu", threads=1, assets=None, logs=tmp_path / "logs"

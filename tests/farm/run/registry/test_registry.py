@@ -6,90 +6,90 @@ from redis.backoff import NoBackoff
 from redis.retry import Retry
 
 from farm.errors import BrokerError
-from farm.run.registry.port import SEEN_S, Board, Priority, Run, RunState, WorkerReport, WorkerState
-from farm.run.registry.redis import RedisBoard
-from tests.doubles.registry import MemoryBoard
+from farm.run.registry.port import SEEN_S, Priority, Run, RunRegistry, RunState, WorkerReport, WorkerState
+from farm.run.registry.redis import RedisRegistry
+from tests.doubles.registry import MemoryRegistry
 
 RUN = Run(dataset="cables", spec_sha256="0" * 64)
 IDLE = WorkerReport(name="a@host", state=WorkerState.IDLE)
 
 
 @pytest.fixture(params=["memory", pytest.param("redis", marks=pytest.mark.redis)])
-def board(request: pytest.FixtureRequest) -> Board:
+def registry(request: pytest.FixtureRequest) -> RunRegistry:
     """An empty board."""
     if request.param == "memory":
-        return MemoryBoard()
-    return RedisBoard(request.getfixturevalue("redis_client"))
+        return MemoryRegistry()
+    return RedisRegistry(request.getfixturevalue("redis_client"))
 
 
-def test_empty_board(board: Board) -> None:
+def test_empty_board(registry: RunRegistry) -> None:
     """An empty board tells of no run and no worker."""
-    assert board.runs() == {}
-    assert board.workers() == ()
+    assert registry.runs() == {}
+    assert registry.workers() == ()
 
 
-def test_registered_run_is_up(board: Board) -> None:
+def test_registered_run_is_up(registry: RunRegistry) -> None:
     """A run that is put up is found by its key, with all that it tells."""
     run = RUN.model_copy(update={"priority": Priority.HIGH, "state": RunState.PAUSED})
-    assert board.register(run) == run
-    assert board.runs() == {run.key: run}
+    assert registry.register(run) == run
+    assert registry.runs() == {run.key: run}
 
 
-def test_registering_again_changes_nothing(board: Board) -> None:
+def test_registering_again_changes_nothing(registry: RunRegistry) -> None:
     """A run that was paused stays so when it is registered again."""
     paused = RUN.model_copy(update={"state": RunState.PAUSED})
-    board.register(paused)
-    assert board.register(RUN) == paused
-    assert board.runs() == {RUN.key: paused}
+    registry.register(paused)
+    assert registry.register(RUN) == paused
+    assert registry.runs() == {RUN.key: paused}
 
 
-def test_replaced_run(board: Board) -> None:
+def test_replaced_run(registry: RunRegistry) -> None:
     """A notice takes the place of the former one, or of none."""
-    board.replace(RUN)
+    registry.replace(RUN)
     cancelled = RUN.model_copy(update={"state": RunState.CANCELLED})
-    board.replace(cancelled)
-    assert board.runs() == {RUN.key: cancelled}
+    registry.replace(cancelled)
+    assert registry.runs() == {RUN.key: cancelled}
 
 
-def test_runs_of_one_name_are_apart(board: Board) -> None:
+def test_runs_of_one_name_are_apart(registry: RunRegistry) -> None:
     """Two descriptions under one name are two runs, of which one can be taken down."""
     other = RUN.model_copy(update={"spec_sha256": "1" * 64})
-    board.register(RUN)
-    board.register(other)
-    board.remove(RUN.key)
-    board.remove(RUN.key)
-    assert board.runs() == {other.key: other}
+    registry.register(RUN)
+    registry.register(other)
+    registry.remove(RUN.key)
+    registry.remove(RUN.key)
+    assert registry.runs() == {other.key: other}
 
 
-def test_newest_report_counts(board: Board) -> None:
+def test_newest_report_counts(registry: RunRegistry) -> None:
     """Of each worker the last report is up, in the order of their names."""
     working = WorkerReport(
         name="a@host", state=WorkerState.WORKING, reason="none", jobs=("far-000001",), done=3, rss_bytes=2**31
     )
     other = WorkerReport(name="B@host", state=WorkerState.HELD, reason="disk full")
     for report in (IDLE, other, working):
-        board.report(report)
-    assert board.workers() == (other, working)
+        registry.report(report)
+    assert registry.workers() == (other, working)
 
 
-def test_worker_that_signs_off(board: Board) -> None:
+def test_worker_that_signs_off(registry: RunRegistry) -> None:
     """A worker that has ended is not told of; signing off twice is no error."""
-    board.report(IDLE)
-    board.sign_off(IDLE.name)
-    board.sign_off(IDLE.name)
-    assert board.workers() == ()
+    registry.report(IDLE)
+    registry.sign_off(IDLE.name)
+    registry.sign_off(IDLE.name)
+    assert registry.workers() == ()
 
 
 @pytest.mark.redis
 def test_silent_worker_is_gone(redis_client: "redis.Redis") -> None:
     """A worker that has not reported for long is not told of, and the next report of another removes its own."""
-    board = RedisBoard(redis_client)
-    board.report(IDLE)
+    registry = RedisRegistry(redis_client)
+    registry.report(IDLE)
     redis_client.zincrby("farm:workers:seen", -SEEN_S - 1, IDLE.name)
-    assert board.workers() == ()
+    assert registry.workers() == ()
     other = IDLE.model_copy(update={"name": "b@host"})
-    board.report(other)
-    assert board.workers() == (other,)
+    registry.report(other)
+    assert registry.workers() == (other,)
     assert redis_client.hkeys("farm:workers") == [other.name]
 
 
@@ -97,39 +97,39 @@ def test_silent_worker_is_gone(redis_client: "redis.Redis") -> None:
 @pytest.mark.parametrize("text", ["", "no json", "{}", '{"dataset": "../..", "spec_sha256": "0"}'])
 def test_unreadable_notices_are_passed_over(redis_client: "redis.Redis", text: str) -> None:
     """What another version or hand has written hides nothing else, and gives way to a run that registers."""
-    board = RedisBoard(redis_client)
-    board.report(IDLE)
+    registry = RedisRegistry(redis_client)
+    registry.report(IDLE)
     redis_client.hset("farm:runs", RUN.key, text)
     redis_client.hset("farm:workers", "b@host", text)
     redis_client.zadd("farm:workers:seen", {"b@host": 2**33})
-    assert board.runs() == {}
-    assert board.workers() == (IDLE,)
-    assert board.register(RUN) == RUN
-    assert board.runs() == {RUN.key: RUN}
+    assert registry.runs() == {}
+    assert registry.workers() == (IDLE,)
+    assert registry.register(RUN) == RUN
+    assert registry.runs() == {RUN.key: RUN}
 
 
 @pytest.mark.redis
 def test_notice_under_another_key_is_passed_over(redis_client: "redis.Redis") -> None:
     """A notice whose key is not its run's is no notice."""
     redis_client.hset("farm:runs", "wires:000000000000", RUN.model_dump_json())
-    assert RedisBoard(redis_client).runs() == {}
+    assert RedisRegistry(redis_client).runs() == {}
 
 
 @pytest.mark.redis
 def test_notices_lapse(redis_client: "redis.Redis") -> None:
     """Runs that nobody writes of are forgotten in the end."""
-    board = RedisBoard(redis_client)
+    registry = RedisRegistry(redis_client)
     old = RUN.model_copy(update={"dataset": "old"})
-    board.register(old)
+    registry.register(old)
     redis_client.zadd("farm:runs:seen", {old.key: 1.0})
-    board.register(RUN)
-    assert list(board.runs()) == [RUN.key]
+    registry.register(RUN)
+    assert list(registry.runs()) == [RUN.key]
 
 
 def test_redis_that_is_away() -> None:
     """A board that can't be reached is the farm's own error."""
-    board = RedisBoard(redis.Redis(port=1, retry=Retry(NoBackoff(), 0), decode_responses=True))
-    for ask in (board.runs, board.workers, lambda: board.register(RUN), lambda: board.report(IDLE)):
+    registry = RedisRegistry(redis.Redis(port=1, retry=Retry(NoBackoff(), 0), decode_responses=True))
+    for ask in (registry.runs, registry.workers, lambda: registry.register(RUN), lambda: registry.report(IDLE)):
         with pytest.raises(BrokerError):
             ask()
 

@@ -13,7 +13,7 @@ from blend.contract import open_template  # noqa: E402
 from farm.scene.scene import Scene  # noqa: E402
 from farm.spec.simulation import ClothFall, Fall, Simulator  # noqa: E402
 from tests.worker.scenes import make_scene  # noqa: E402
-from worker.simulate.simulate import let_fall  # noqa: E402
+from worker.simulate.simulate import simulate  # noqa: E402
 
 pytestmark = pytest.mark.blender
 
@@ -38,16 +38,16 @@ def contents() -> Mapping[str, list[str]]:
 def test_the_joined_cloth_repeats_bitwise() -> None:
     """The same scene gives the same nodes to the last bit, whatever fell in between."""
     scene, fall = short_cables(4), Fall()
-    first = let_fall(scene, Simulator.CLOTH, fall)
-    let_fall(short_cables(2), Simulator.CLOTH, fall)
-    again = let_fall(scene, Simulator.CLOTH, fall)
+    first = simulate(scene, Simulator.CLOTH, fall)
+    simulate(short_cables(2), Simulator.CLOTH, fall)
+    again = simulate(scene, Simulator.CLOTH, fall)
     assert [nodes.tobytes() for nodes in first.nodes_m] == [nodes.tobytes() for nodes in again.nodes_m]
 
 
 def test_the_published_set_up_returns_the_shown_cables_and_leaves_nothing_behind() -> None:
     """Two cables of eight come back, finite and lower than they started, and the file holds what it held before."""
     scene, before = short_cables(2), contents()
-    shapes = let_fall(scene, Simulator.CLOTH_PUBLISHED, Fall(cloth=ClothFall(quality=1)))
+    shapes = simulate(scene, Simulator.CLOTH_PUBLISHED, Fall(cloth=ClothFall(quality=1)))
     assert len(shapes.nodes_m) == len(shapes.speeds_m_s) == 2
     assert shapes.steps == 100
     for nodes, cable in zip(shapes.nodes_m, scene.cables, strict=True):
