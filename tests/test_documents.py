@@ -12,6 +12,7 @@ from typer.core import TyperGroup
 
 from farm.cli import app
 from farm.errors import FarmError
+from farm.spec.parse import describe
 from worker.service import watchdog
 
 ROOT = Path(__file__).parents[1]
@@ -23,7 +24,8 @@ SOURCES = [
     file
     for pattern in ("Makefile", "pyproject.toml", *(f"{room}/**/*" for room in (*ROOMS, ".ci")))
     for file in sorted(ROOT.glob(pattern))
-    if file.is_file() and (file.suffix in {".py", ".toml", ".yaml", ".sh", ".txt", ".lua"} or not file.suffix)
+    if file.suffix in {".py", ".toml", ".yaml", ".sh", ".txt", ".lua"}
+    or (file.name in {"Dockerfile", "Makefile", "run"} and file.is_file())
 ]
 """Files that may name a document."""
 
@@ -32,6 +34,9 @@ MOST_BYTES = 6 * 1024
 
 MADE_LATER = ("demo/", "results/", "docker/.env")
 """Starts of paths that the repository does not hold: a command or a user makes these files."""
+
+PLACEHOLDER = "NAME"
+"""Word in a path for the part that a reader chooses: `worker/label/NAME.py`."""
 
 FILE_ENDINGS = "py|md|toml|json|html|lua|blend|yaml|acl|sh|jpg|png|txt"
 BARE_CODES = {0, 2, watchdog.EXIT_CODE}
@@ -88,7 +93,7 @@ def missing_paths(document: Path) -> Iterator[str]:
     names = {file.name for file in SOURCES}
     for span in code_of(document.read_text()).spans:
         for word in span.split():
-            if not _PATH.fullmatch(word) or word.startswith(MADE_LATER):
+            if not _PATH.fullmatch(word) or word.startswith(MADE_LATER) or PLACEHOLDER in word:
                 continue
             is_file = re.search(rf"\.(?:{FILE_ENDINGS})$", word) is not None
             if "/" not in word:
@@ -181,6 +186,16 @@ class TestEachDocument:
 def test_front_pages_are_short(name: str) -> None:
     """The two documents that everybody reads keep within their limit."""
     assert (ROOT / name).stat().st_size <= MOST_BYTES
+
+
+@pytest.mark.parametrize("name", ["README.md", "docs/datasets.md"])
+def test_descriptions_are_accepted(name: str, tmp_path: Path) -> None:
+    """The farm takes the description that a document shows, with all its keys."""
+    blocks = re.findall(r"^```toml\n(.*?)^```$", (ROOT / name).read_text(), re.MULTILINE | re.DOTALL)
+    assert len(blocks) == 1
+    file = tmp_path / "spec.toml"
+    file.write_text(blocks[0])
+    assert describe(file, {}, {}).spec.total == 25_000
 
 
 def test_exit_codes_are_those_of_the_errors() -> None:
