@@ -4,7 +4,7 @@ Source: Malvido Fresnillo et al., "Generation of realistic synthetic cable image
 segmentation models", Machine Vision and Applications 35(4), 2024, doi 10.1007/s00138-024-01562-y.
 
 Lengths are metres of the picture, in which cables are true to size (2.4 mm thick); angles are degrees. The wind's
-numbers are those of a Blender wind field in the fall's own units (ARCHITECTURE.md, "Two scales"). Where the
+numbers are those of a Blender wind field in the fall's own units (docs/design/solver.md, "Two scales"). Where the
 publication gives no figure (cable length, drop height, spacing, f-number) the default is ours and marked so.
 """
 
