@@ -116,19 +116,22 @@ def stand_in_files(job: Job, header: DatasetHeader) -> dict[str, Any]:
         INSTANCES.role: instances,
     }
     others = [output for output in outputs_of(header.spec) if output.role not in files]
-    return files | _made_labels(job, header, others) if others else files
+    return files | _made_labels(job, header, others, top / size) if others else files
 
 
-def _made_labels(job: Job, header: DatasetHeader, outputs: list[Output]) -> dict[str, Any]:
+def _made_labels(job: Job, header: DatasetHeader, outputs: list[Output], place: float) -> dict[str, Any]:
+    """Labels of a straight cable that lies `place`, 0 to 1, of the picture's height below its top."""
     # They bring SciPy, which would slow the start of every stand-in.
+    from worker.camera.view import View  # noqa: PLC0415
     from worker.label.makers import LabelInputs, make_labels  # noqa: PLC0415
     from worker.simulate.shapes import CableShapes  # noqa: PLC0415
 
     scene = stand_in_scene(job)
     cable = scene.cables[0]
     along = np.linspace(-cable.length_m / 2, cable.length_m / 2, 51)
+    across_m = (0.5 - place) / View.of(scene.camera, resolution=1).pixels_per_m
     shapes = CableShapes(
-        nodes_m=(np.stack([along, np.zeros(51), np.full(51, cable.diameter_m / 2)], axis=1),),
+        nodes_m=(np.stack([along, np.full(51, across_m), np.full(51, cable.diameter_m / 2)], axis=1),),
         radii_m=np.array([cable.diameter_m / 2]),
         lengths_m=np.array([cable.length_m]),
         speeds_m_s=(np.zeros(51),),

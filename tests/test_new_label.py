@@ -48,9 +48,9 @@ def _fewer_than_seen(content: Any, instances: Any) -> str | None:
     return "counts fewer cables than are seen" if content["cables"] < len(set(instances.flat) - {0}) else None
 
 
-def count_cables(inputs: LabelInputs) -> Mapping[str, Any]:
+def count_cables(geometry: LabelInputs) -> Mapping[str, Any]:
     """Makes the label."""
-    return {"cable_count": {"cables": len(inputs.scene.cables)}}
+    return {"cable_count": {"cables": len(geometry.scene.cables)}}
 
 
 COUNT = Output(
@@ -103,9 +103,9 @@ def test_it_is_made_and_written(made: Dataset) -> None:
 
 
 def test_the_manifest_lists_it_last(made: Dataset) -> None:
-    """After the files that every dataset has, by the row's folder."""
+    """It comes after the files of the rows before it, by the row's folder."""
     files = read_manifest(made).files
-    assert list(files) == ["images", "masks", "instances", "counts"]
+    assert list(files) == [*(output.folder for output in OUTPUTS), "counts"]
     assert files["counts"] == file_record(PATH, made.storage.read(PATH))
 
 
@@ -174,16 +174,8 @@ def test_the_index_has_it(made: Dataset) -> None:
     """A line has its path and its checksum, after those of the outputs before it."""
     write_index(made)
     line = json.loads(made.storage.read(INDEX_FILE).splitlines()[-1])
-    assert list(line)[4:12] == [
-        "image",
-        "mask",
-        "instances",
-        "cable_count",
-        "image_sha256",
-        "mask_sha256",
-        "instances_sha256",
-        "cable_count_sha256",
-    ]
+    roles = [*(output.role for output in OUTPUTS), "cable_count"]
+    assert list(line)[4 : 4 + 2 * len(roles)] == [*roles, *(f"{role}_sha256" for role in roles)]
     assert line["cable_count"] == PATH
     assert line["cable_count_sha256"] == file_record(PATH, made.storage.read(PATH)).sha256
 

@@ -96,8 +96,8 @@ class BlenderRenderer:
         with _timed(timings, "render"):
             image = render_scene(scene, behind)
         with _timed(timings, "mask"):
-            inputs = LabelInputs(scene, shapes, chosen.settings.detail, spec.resolution)
-            labels = make_labels(inputs, outputs_of(spec))
+            geometry = LabelInputs(scene, shapes, chosen.settings.detail, spec.resolution)
+            labels = make_labels(geometry, outputs_of(spec))
         return Picture(
             files={IMAGE.role: image, **labels},
             scene=scene,

@@ -38,9 +38,9 @@ class Labels:
     instances: NDArray[np.uint16]
 
 
-def make_mask_and_instances(inputs: LabelInputs) -> Mapping[str, NDArray[np.uint8] | NDArray[np.uint16]]:
+def make_mask_and_instances(geometry: LabelInputs) -> Mapping[str, NDArray[np.uint8] | NDArray[np.uint16]]:
     """Make the mask and the instances of a picture; see `worker.label.makers.Maker`."""
-    labels = label_scene(inputs.scene, inputs.shapes, inputs.detail, inputs.resolution)
+    labels = label_scene(geometry.scene, geometry.shapes, geometry.detail, geometry.resolution)
     return {MASK.role: labels.mask, INSTANCES.role: labels.instances}
 
 

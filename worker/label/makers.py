@@ -30,7 +30,7 @@ class LabelInputs:
 
 Maker: TypeAlias = Callable[[LabelInputs], Mapping[str, Any]]
 """Makes one label, or several that come from one computation: contents by role. It draws no random number, so that the
-same inputs give the same contents."""
+same geometry gives the same contents."""
 
 
 def find_maker(name: str) -> Maker:
@@ -44,16 +44,16 @@ def find_maker(name: str) -> Maker:
     return maker
 
 
-def make_labels(inputs: LabelInputs, outputs: Iterable[Output]) -> dict[str, Any]:
+def make_labels(geometry: LabelInputs, outputs: Iterable[Output]) -> dict[str, Any]:
     """Make every label among the outputs; each maker is called once.
 
     Args:
-        inputs: what the labels are made from.
+        geometry: what the labels are made from.
         outputs: the outputs that the picture must have; those without a maker are left out.
 
     Returns:
         Contents by role, in the order of the outputs.
     """
     labels = {output.role: output.maker for output in outputs if output.maker is not None}
-    made = {name: find_maker(name)(inputs) for name in dict.fromkeys(labels.values())}
+    made = {name: find_maker(name)(geometry) for name in dict.fromkeys(labels.values())}
     return {role: made[name][role] for role, name in labels.items()}

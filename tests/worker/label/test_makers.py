@@ -17,9 +17,9 @@ from worker.simulate.shapes import CableShapes
 CALLS: list[LabelInputs] = []
 
 
-def make_pair(inputs: LabelInputs) -> Mapping[str, Any]:
+def make_pair(geometry: LabelInputs) -> Mapping[str, Any]:
     """Makes two labels at once."""
-    CALLS.append(inputs)
+    CALLS.append(geometry)
     return {"right": 2, "left": 1}
 
 
@@ -53,9 +53,9 @@ def test_the_renderer_makes_the_image_alone() -> None:
 
 def test_labels_of_the_table() -> None:
     """The makers of mask and instances give what labelling the scene gives; the image is left to the renderer."""
-    inputs = straight_inputs()
-    expected = label_scene(inputs.scene, inputs.shapes, inputs.detail, inputs.resolution)
-    made = make_labels(inputs, (IMAGE, MASK, INSTANCES))
+    geometry = straight_inputs()
+    expected = label_scene(geometry.scene, geometry.shapes, geometry.detail, geometry.resolution)
+    made = make_labels(geometry, (IMAGE, MASK, INSTANCES))
     assert list(made) == ["mask", "instances"]
     assert np.array_equal(made["mask"], expected.mask)
     assert np.array_equal(made["instances"], expected.instances)
@@ -68,8 +68,8 @@ def test_a_maker_of_two_labels_is_called_once() -> None:
         Output(role, role, PNG, lambda *_: None, maker="tests.worker.label.test_makers:make_pair")
         for role in ("left", "right")
     )
-    inputs = straight_inputs()
+    geometry = straight_inputs()
     CALLS.clear()
-    assert list(make_labels(inputs, (left, IMAGE, right)).items()) == [("left", 1), ("right", 2)]
-    assert [inputs] == CALLS
-    assert make_labels(inputs, (right,)) == {"right": 2}
+    assert list(make_labels(geometry, (left, IMAGE, right)).items()) == [("left", 1), ("right", 2)]
+    assert [geometry] == CALLS
+    assert make_labels(geometry, (right,)) == {"right": 2}
