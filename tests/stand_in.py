@@ -1,6 +1,6 @@
-"""A maker without Blender: draws noise from the job's own seed, so the queue can be tested in seconds.
+"""A renderer without Blender: draws noise from the job's own seed, so the queue can be tested in seconds.
 
-As a program it is a worker with this maker: `python -P tests/stand_in.py serve ...`. Environment variables make it
+As a program it is a worker with this renderer: `python -P tests/stand_in.py serve ...`. Environment variables make it
 slow or failing: `STAND_IN_DELAY_S`; `STAND_IN_UNFIT` with a reason why it can't be opened; and `STAND_IN_FAILS` with
 `job id=kind` pairs. The kinds: `permanent`; `passing`, which never passes; `once` in each process; `crash` of the
 process; `segfault`, a real one; `hang`; `bloat`, which takes 400 MiB and hangs; `asset`, which this machine lacks;
@@ -14,12 +14,13 @@ import signal
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from farm import __version__
 from farm.dataset.manifest import RejectedAttempt, RenderSettings, SettleFigures
+from farm.dataset.outputs import IMAGE, INSTANCES, MASK, Output, outputs_of
 from farm.errors import AssetError, MachineError, RenderError, SceneError
 from farm.scene.backdrop import HdriWorld
 from farm.scene.cable import Cable, CableMaterial
@@ -32,6 +33,7 @@ from farm.spec.category import Category
 from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
 from farm.spec.job import Job
 from farm.spec.parse import parse_spec
+from farm.spec.rendering import CableDetail
 from worker.cli import main
 from worker.sample.seeds import Stage, generator
 from worker.service.picture import Picture, Renderer
@@ -47,7 +49,7 @@ SETTLED = SettleFigures.model_validate(
 
 
 def stand_in_header(*, seed: int = 0, resolution: int = 32, **quotas: int) -> DatasetHeader:
-    """A header that asks for so many images of the categories named."""
+    """A header that asks for the given number of images of each category named."""
     wanted = quotas or {"far": 2, "close_concentrated_light": 2}
     data = {"seed": seed, "style": "published", "resolution": resolution, "quotas": wanted}
     return DatasetHeader(
@@ -101,14 +103,43 @@ def stand_in_scene(job: Job) -> Scene:
     )
 
 
-def stand_in_pixels(job: Job, header: DatasetHeader) -> tuple[NDArray[np.uint8], NDArray[np.uint16]]:
-    """The image and the instances of a job, which no other job has."""
+def stand_in_files(job: Job, header: DatasetHeader) -> dict[str, Any]:
+    """Contents by role: noise that no other job has, one cable across it, and every other label from its maker."""
     size = header.spec.resolution
     draw = generator(header.spec.seed, job.category, job.index, 0, Stage.CABLES)
     instances = np.zeros((size, size), np.uint16)
     top = int(draw.integers(1, size - 5))
     instances[top : top + 4] = 1
-    return draw.integers(0, 256, (size, size, 3), dtype=np.uint8), instances
+    files = {
+        IMAGE.role: draw.integers(0, 256, (size, size, 3), dtype=np.uint8),
+        MASK.role: np.where(instances > 0, 255, 0).astype(np.uint8),
+        INSTANCES.role: instances,
+    }
+    others = [output for output in outputs_of(header.spec) if output.role not in files]
+    return files | _made_labels(job, header, others, top / size) if others else files
+
+
+def _made_labels(job: Job, header: DatasetHeader, outputs: list[Output], place: float) -> dict[str, Any]:
+    """Labels of a straight cable that lies `place`, 0 to 1, of the picture's height below its top."""
+    # They bring SciPy, which would slow the start of every stand-in.
+    from worker.camera.view import View  # noqa: PLC0415
+    from worker.label.makers import LabelInputs, make_labels  # noqa: PLC0415
+    from worker.simulate.shapes import CableShapes  # noqa: PLC0415
+
+    scene = stand_in_scene(job)
+    cable = scene.cables[0]
+    along = np.linspace(-cable.length_m / 2, cable.length_m / 2, 51)
+    across_m = (0.5 - place) / View.of(scene.camera, resolution=1).pixels_per_m
+    shapes = CableShapes(
+        nodes_m=(np.stack([along, np.full(51, across_m), np.full(51, cable.diameter_m / 2)], axis=1),),
+        radii_m=np.array([cable.diameter_m / 2]),
+        lengths_m=np.array([cable.length_m]),
+        speeds_m_s=(np.zeros(51),),
+        start_order=(0,),
+        fall_s=0.0,
+        steps=0,
+    )
+    return make_labels(LabelInputs(scene, shapes, CableDetail(), header.spec.resolution), outputs)
 
 
 class StandInRenderer:
@@ -119,17 +150,13 @@ class StandInRenderer:
         _note_start(job)
         time.sleep(float(os.environ.get("STAND_IN_DELAY_S", "0")))
         _fail_if_told(job)
-        size = header.spec.resolution
-        image, instances = stand_in_pixels(job, header)
         print("noise of Blender, which belongs in the log")
         return Picture(
-            image=image,
-            mask=np.where(instances > 0, 255, 0).astype(np.uint8),
-            instances=instances,
+            files=stand_in_files(job, header),
             scene=stand_in_scene(job),
             settled=SETTLED,
             rejected=(RejectedAttempt(attempt=0, reason="one for the show"),),
-            render=RenderSettings(engine="none", device="CPU", samples=1, resolution=size),
+            render=RenderSettings(engine="none", device="CPU", samples=1, resolution=header.spec.resolution),
             timings_s={"render": 0.01},
             versions={"farm": __version__},
         )

@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 
 from farm.dataset.dataset import open_dataset, parse_destination
-from farm.dataset.paths import FileRole, file_path
+from farm.dataset.outputs import OUTPUTS
+from farm.dataset.paths import file_path
 from farm.dataset.verify import verify
 from farm.spec.category import Category
 
@@ -113,6 +114,6 @@ def test_two_runs_give_the_same_bytes(datasets: tuple[Path, Path]) -> None:
     """Every image, mask and instance map, with one worker or two, whatever died on the way."""
     calm, stormy = datasets
     for job in open_dataset(parse_destination(str(calm))).header.spec.jobs():
-        for role in FileRole:
-            path = file_path(job, role)
+        for output in OUTPUTS:
+            path = file_path(job, output)
             assert (calm / path).read_bytes() == (stormy / path).read_bytes(), path

@@ -12,6 +12,7 @@ from typing import Protocol
 from pydantic import ValidationError
 
 from assets.environments import DEFAULT_WIDTH
+from farm.dataset.outputs import IMAGE, MASK
 from farm.errors import FarmError, MachineError, MessageError
 from farm.run.queue.broker import broker_url
 from farm.run.queue.settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
@@ -22,7 +23,6 @@ from worker.service.cores import limit_visible_cores
 from worker.service.picture import Renderer
 from worker.service.process import WorkerSettings, prepare_log, send_output_to, serve
 from worker.service.runner import OpenRenderer
-from worker.service.upload import encode_png
 
 
 class OpenBlender(Protocol):
@@ -156,9 +156,9 @@ def _preview(options: argparse.Namespace, open_renderer: OpenRenderer) -> int:
     with _output_in(options.logs / "preview.log"):
         made = open_renderer(header).make(job, header)
     # Both are encoded before the first is written, so that a failure leaves nothing.
-    contents = [(options.out, encode_png(made.image))]
+    contents = [(options.out, IMAGE.format.encode(made.files[IMAGE.role]))]
     if options.mask is not None:
-        contents.append((options.mask, encode_png(made.mask)))
+        contents.append((options.mask, MASK.format.encode(made.files[MASK.role])))
     for path, content in contents:
         LocalStorage(path.parent).write(path.name, content)
     return 0

@@ -57,4 +57,4 @@ def _pictures(example: Example, each: int) -> Iterator[NDArray[np.uint8]]:
     )
     renderer = open_renderer(header, device="cpu", threads=0, assets=None)
     for index in range(each):
-        yield renderer.make(Job(category=example.category, index=index), header).image
+        yield renderer.make(Job(category=example.category, index=index), header).files["image"]

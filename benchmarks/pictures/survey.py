@@ -12,7 +12,7 @@ from benchmarks.pictures.picture_figures import PictureFigures, measure
 from farm.dataset.dataset import Dataset
 from farm.dataset.index import done_manifests
 from farm.dataset.manifest import Manifest
-from farm.dataset.paths import FileRole
+from farm.dataset.outputs import IMAGE, INSTANCES, MASK, Output
 from farm.errors import VerificationError
 from farm.spec.category import Category
 
@@ -76,9 +76,9 @@ def survey(dataset: Dataset) -> Iterator[MeasuredPicture]:
         DestinationError: if the dataset can't be read.
     """
     for job, manifest in done_manifests(dataset):
-        picture = _read(dataset, manifest, FileRole.IMAGE, cv2.IMREAD_COLOR)[:, :, ::-1].astype(np.uint8)
-        mask = _read(dataset, manifest, FileRole.MASK, cv2.IMREAD_GRAYSCALE).astype(np.uint8)
-        instances = _read(dataset, manifest, FileRole.INSTANCES, cv2.IMREAD_UNCHANGED).astype(np.uint16)
+        picture = _read(dataset, manifest, IMAGE, cv2.IMREAD_COLOR)[:, :, ::-1].astype(np.uint8)
+        mask = _read(dataset, manifest, MASK, cv2.IMREAD_GRAYSCALE).astype(np.uint8)
+        instances = _read(dataset, manifest, INSTANCES, cv2.IMREAD_UNCHANGED).astype(np.uint16)
         seconds = sum(taken for stage, taken in manifest.timings_s.items() if stage != _ONCE)
         figures = measure(picture, mask, instances)
         yield MeasuredPicture(job.id, job.category, figures, colour_histogram(picture), seconds)
@@ -120,8 +120,8 @@ def distribution(values: Sequence[float]) -> Distribution:
     return Distribution(len(values), float(np.mean(values)), deviation, p5, p50, p95)
 
 
-def _read(dataset: Dataset, manifest: Manifest, role: FileRole, how: int) -> NDArray[np.generic]:
-    path = manifest.files[role].path
+def _read(dataset: Dataset, manifest: Manifest, output: Output, how: int) -> NDArray[np.generic]:
+    path = manifest.files[output.folder].path
     decoded = cv2.imdecode(np.frombuffer(dataset.storage.read(path), np.uint8), how)
     if decoded is None:
         raise VerificationError(

@@ -10,12 +10,12 @@ import pydantic_core
 from numpy.typing import NDArray
 
 from benchmarks.render.stage_set import SettledScene, Stage
+from farm.dataset.formats import PNG
 from farm.errors import AssetError
 from farm.machine import cache_folder
 from farm.spec.header import DatasetHeader
 from farm.spec.make_header import template_ref
 from farm.spec.quality import REFERENCE
-from worker.service.upload import encode_png
 
 VERSION = 1
 """To be raised when references must be rendered anew, since the farm shows the same scene otherwise."""
@@ -66,7 +66,7 @@ class References:
             self._stage.set(settled, REFERENCE, seed=SEED, share=SHARE)
             path.parent.mkdir(parents=True, exist_ok=True)
             partial = path.with_suffix(".partial")
-            partial.write_bytes(encode_png(self._stage.render()))
+            partial.write_bytes(PNG.encode(self._stage.render()))
             partial.replace(path)
         pixels = cv2.imread(str(path), cv2.IMREAD_COLOR)
         if pixels is None:

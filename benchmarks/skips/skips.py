@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from benchmarks.physics.scenes import DRAWN_CABLES, crowd
 from benchmarks.render.stage_set import SettledScene, Stage
 from blend import names
+from farm.dataset.formats import PNG
 from farm.scene.scene import Scene
 from farm.spec.category import Background, Category, Light
 from farm.spec.header import DatasetHeader
@@ -20,7 +21,6 @@ from worker.blender.asset_files import AssetLibrary
 from worker.blender.floor import set_floor
 from worker.blender.image_cache import ImageCache
 from worker.sample.scene import sample_scene
-from worker.service.upload import encode_png
 from worker.simulate.rod.fall import rods_of, surroundings_of
 from worker.simulate.rod.simulation import RodSimulation
 from worker.simulate.simulate import simulate
@@ -192,7 +192,7 @@ class Skips:
 
         def encode() -> None:
             if skipped:
-                encode_png(picture)
+                PNG.encode(picture)
             else:
                 cv2.imencode(".png", picture[:, :, ::-1], [cv2.IMWRITE_PNG_COMPRESSION, 6])
 

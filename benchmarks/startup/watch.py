@@ -61,7 +61,7 @@ def make(renderer: Renderer, job: Job, header: DatasetHeader, assets: Seconds) -
     stages["realize"] -= assets["assets"]
     stages |= assets
     stages["other"] = all_s - sum(stages.values())
-    digest = hashlib.sha256(made.image.tobytes() + made.mask.tobytes()).hexdigest()
+    digest = hashlib.sha256(made.files["image"].tobytes() + made.files["mask"].tobytes()).hexdigest()
     return {"seconds": stages, "sha256": digest, "device": made.render.device}
 
 

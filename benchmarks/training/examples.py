@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from farm.dataset.dataset import Dataset
 from farm.dataset.index import done_manifests
-from farm.dataset.paths import FileRole
+from farm.dataset.outputs import IMAGE, MASK
 from farm.errors import SpecError, VerificationError
 
 EDGE_PX = 256
@@ -43,7 +43,7 @@ def examples_of(dataset: Dataset) -> Examples:
     """
     pairs = []
     for _, manifest in done_manifests(dataset):
-        paths = [manifest.files[role].path for role in (FileRole.IMAGE, FileRole.MASK)]
+        paths = [manifest.files[output.folder].path for output in (IMAGE, MASK)]
         contents = [dataset.storage.read(path) for path in paths]
         picture, mask = _decode(contents[0], cv2.IMREAD_COLOR), _decode(contents[1], cv2.IMREAD_GRAYSCALE)
         if picture is None or mask is None:

@@ -15,7 +15,8 @@ from benchmarks.render.stage_set import SettledScene
 from benchmarks.whole.rows import STAGES, Row, Shot, Way
 from farm.dataset.completion import parse_manifest
 from farm.dataset.dataset import Dataset
-from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.outputs import IMAGE
+from farm.dataset.paths import file_path, manifest_path
 from farm.dataset.verify import verify
 from farm.errors import VerificationError
 from farm.spec.job import Job
@@ -85,7 +86,7 @@ def settled_again(dataset: Dataset, job: Job) -> SettledScene:
 
 def written_picture(dataset: Dataset, job: Job) -> NDArray[np.uint8]:
     """A picture that was made, (H, W, 3)."""
-    content = np.frombuffer(dataset.storage.read(file_path(job, FileRole.IMAGE)), np.uint8)
+    content = np.frombuffer(dataset.storage.read(file_path(job, IMAGE)), np.uint8)
     picture: NDArray[np.uint8] = np.ascontiguousarray(cv2.imdecode(content, cv2.IMREAD_COLOR)[:, :, ::-1])
     return picture
 

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from farm.dataset.formats import PNG
 from farm.storage import LocalStorage
-from worker.service.upload import encode_png
 
 
 def write_files(folder: Path, **pictures: NDArray[np.uint8] | NDArray[np.uint16]) -> None:
@@ -17,4 +17,4 @@ def write_files(folder: Path, **pictures: NDArray[np.uint8] | NDArray[np.uint16]
     """
     storage = LocalStorage(folder)
     for name, pixels in pictures.items():
-        storage.write(f"{name}.png", encode_png(pixels))
+        storage.write(f"{name}.png", PNG.encode(pixels))

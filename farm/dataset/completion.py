@@ -8,7 +8,8 @@ from pydantic import ValidationError
 
 from farm.dataset.dataset import Dataset
 from farm.dataset.manifest import Manifest
-from farm.dataset.paths import QUARANTINE_FOLDER, FileRole, file_path, manifest_folder, manifest_path
+from farm.dataset.outputs import Output, outputs_of
+from farm.dataset.paths import QUARANTINE_FOLDER, file_path, manifest_folder, manifest_path, output_folder
 from farm.errors import DestinationError, MessageError
 from farm.spec.category import Category
 from farm.spec.job import Job
@@ -18,8 +19,12 @@ from farm.storage import TEMPORARY_PREFIX, StoredFile, is_temporary
 STALE_TEMPORARY_S = 3600.0
 """No writer lives this long: a job's hard time limit is half of it."""
 
-_SEEN = np.dtype([("bytes", np.int64), ("modified_s", np.float64), ("fits", np.bool_), ("sizes", np.int64, 3)])
-"""What is remembered of a manifest: its own size and time, whether it fits its job, the sizes it gives of the files."""
+
+def _seen_type(files: int) -> np.dtype[np.void]:
+    """What is remembered of a manifest: its own size and time, whether it fits its job, its files' sizes."""
+    return np.dtype(
+        [("bytes", np.int64), ("modified_s", np.float64), ("fits", np.bool_), ("sizes", np.int64, (files,))]
+    )
 
 
 def parse_manifest(content: bytes, dataset: Dataset, job: Job) -> Manifest | None:
@@ -34,7 +39,8 @@ def parse_manifest(content: bytes, dataset: Dataset, job: Job) -> Manifest | Non
         and manifest.dataset == dataset.name
         and manifest.spec_sha256 == header.spec_sha256
         and manifest.seed == header.spec.seed
-        and all(role in manifest.files and manifest.files[role].path == file_path(job, role) for role in FileRole)
+        and {folder: record.path for folder, record in manifest.files.items()}
+        == {output.folder: file_path(job, output) for output in outputs_of(header.spec)}
     )
     return manifest if belongs else None
 
@@ -75,7 +81,9 @@ class Completion:
     def __init__(self, dataset: Dataset) -> None:
         self._dataset = dataset
         quotas = dataset.header.spec.quotas
-        self._seen = {category: np.zeros(quota, _SEEN) for category, quota in quotas.items()}
+        self._outputs = outputs_of(dataset.header.spec)
+        seen_type = _seen_type(len(self._outputs))
+        self._seen = {category: np.zeros(quota, seen_type) for category, quota in quotas.items()}
         self._damaged = {category: np.zeros(quota, np.bool_) for category, quota in quotas.items()}
         self._vouched_s = {category: np.zeros(quota) for category, quota in quotas.items()}
         self.done = JobSet(quotas)
@@ -113,7 +121,7 @@ class Completion:
             manifest = parse_manifest(self._dataset.storage.read(path), self._dataset, job)
         except (FileNotFoundError, DestinationError):
             return False  # one that can't be read counts for nothing; the others do
-        sizes = (0, 0, 0) if manifest is None else tuple(manifest.files[role].bytes for role in FileRole)
+        sizes = [0 if manifest is None else manifest.files[output.folder].bytes for output in self._outputs]
         self._seen[job.category][job.index] = (stored.bytes, stored.modified_s, manifest is not None, sizes)
         return True
 
@@ -129,10 +137,10 @@ class Completion:
             there = self._look_at(category)
             damaged = np.zeros(len(seen), np.bool_)
             changed_s = np.zeros(len(seen))
-            for place, role in enumerate(FileRole):
+            for place, output in enumerate(self._outputs):
                 found = np.full(len(seen), -1, np.int64)
-                for path, stored in self._dataset.storage.files(f"{category}/{role}").items():
-                    job = _job_of_picture(path, role)
+                for path, stored in self._dataset.storage.files(output_folder(category, output)).items():
+                    job = _job_of_file(path, output)
                     if job is not None and self._dataset.asks_for(job):
                         found[job.index] = stored.bytes
                         changed_s[job.index] = max(changed_s[job.index], stored.modified_s)
@@ -160,8 +168,11 @@ class Completion:
             DestinationError: if the folder can't be read or written.
         """
         removed = 0
-        below = [f"{category}/{folder}" for category in self._seen for folder in (*FileRole, "manifests")]
-        for folder in ("", QUARANTINE_FOLDER, *below):
+        folders = ["", QUARANTINE_FOLDER]
+        for category in self._seen:
+            folders += [output_folder(category, output) for output in self._outputs]
+            folders.append(manifest_folder(category))
+        for folder in folders:
             for path, stored in self._dataset.storage.files(folder, deep=False).items():
                 if is_temporary(path) and (now_s - stored.modified_s > STALE_TEMPORARY_S or self._is_done(path)):
                     self._dataset.storage.remove(path)
@@ -176,9 +187,9 @@ class Completion:
             return False
 
 
-def _job_of_picture(path: str, role: FileRole) -> Job | None:
+def _job_of_file(path: str, output: Output) -> Job | None:
     try:
-        job = Job.from_id(path.rpartition("/")[2].removesuffix(".png"))
+        job = Job.from_id(path.rpartition("/")[2].removesuffix(output.format.suffix))
     except MessageError:
         return None
-    return job if file_path(job, role) == path else None
+    return job if file_path(job, output) == path else None

@@ -5,7 +5,8 @@ import io
 from PIL import Image
 
 from farm.dataset.dataset import Dataset
-from farm.dataset.paths import FileRole, file_path
+from farm.dataset.outputs import IMAGE
+from farm.dataset.paths import file_path
 from farm.errors import IncompleteError
 from farm.spec.category import Category
 from farm.spec.job import Job
@@ -36,7 +37,7 @@ def make_contact_sheet(dataset: Dataset, *, columns: int, edge_px: int) -> bytes
 def _read(dataset: Dataset, category: Category, index: int) -> Image.Image:
     job = Job(category=category, index=index)
     try:
-        content = dataset.storage.read(file_path(job, FileRole.IMAGE))
+        content = dataset.storage.read(file_path(job, IMAGE))
     except FileNotFoundError as error:
         raise IncompleteError(f"{job.id} is not there yet; finish the dataset first") from error
     return Image.open(io.BytesIO(content)).convert("RGB")

@@ -1,38 +1,57 @@
 """Gathers what the manifests tell: the done images in order, and `index.jsonl`, one line for each."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 
-from pydantic import NonNegativeInt
+from pydantic import NonNegativeInt, SerializerFunctionWrapHandler, model_serializer
 
 from farm.dataset.completion import Completion, parse_manifest
 from farm.dataset.dataset import Dataset
 from farm.dataset.manifest import Manifest
-from farm.dataset.paths import INDEX_FILE, FileRole, manifest_path
+from farm.dataset.outputs import outputs_of
+from farm.dataset.paths import INDEX_FILE, manifest_path
 from farm.model import Model, Sha256
 from farm.spec.category import Category
 from farm.spec.job import Job
 
 
+class IndexedFile(Model):
+    """One file of an image: where it is below the dataset's folder, and its checksum."""
+
+    path: str
+    sha256: Sha256
+
+
 class IndexEntry(Model):
-    """One image in the index. It tells nothing that changes from one making of the image to the next."""
+    """One image in the index. It tells nothing that changes from one making of the image to the next.
+
+    Attributes:
+        files: the image's files by role. In JSON they are keys of the entry itself: each file's path under its role,
+            then each file's checksum under its role and `_sha256`.
+    """
 
     job_id: str
     category: Category
     index: NonNegativeInt
     seed: NonNegativeInt
-    image: str
-    mask: str
-    instances: str
-    image_sha256: Sha256
-    mask_sha256: Sha256
-    instances_sha256: Sha256
+    files: Mapping[str, IndexedFile]
     attempt: NonNegativeInt
     cables: NonNegativeInt
     surface: str | None
     hdri: str | None
     lamp: str | None
     camera_height_m: float
+
+    @model_serializer(mode="wrap")
+    def _with_files_as_keys(self, as_declared: SerializerFunctionWrapHandler) -> dict[str, object]:
+        line: dict[str, object] = {}
+        for key, value in as_declared(self).items():
+            if key == "files":
+                line |= {role: file.path for role, file in self.files.items()}
+                line |= {f"{role}_sha256": file.sha256 for role, file in self.files.items()}
+            else:
+                line[key] = value
+        return line
 
 
 def done_manifests(dataset: Dataset) -> Iterator[tuple[Job, Manifest]]:
@@ -50,20 +69,16 @@ def done_manifests(dataset: Dataset) -> Iterator[tuple[Job, Manifest]]:
                 yield job, manifest
 
 
-def index_entry(job: Job, manifest: Manifest) -> IndexEntry:
-    """The line of one image."""
-    scene, files = manifest.scene, manifest.files
+def index_entry(dataset: Dataset, job: Job, manifest: Manifest) -> IndexEntry:
+    """The line of one image of a dataset."""
+    scene = manifest.scene
+    records = {output.role: manifest.files[output.folder] for output in outputs_of(dataset.header.spec)}
     return IndexEntry(
         job_id=job.id,
         category=job.category,
         index=job.index,
         seed=manifest.seed,
-        image=files[FileRole.IMAGE].path,
-        mask=files[FileRole.MASK].path,
-        instances=files[FileRole.INSTANCES].path,
-        image_sha256=files[FileRole.IMAGE].sha256,
-        mask_sha256=files[FileRole.MASK].sha256,
-        instances_sha256=files[FileRole.INSTANCES].sha256,
+        files={role: IndexedFile(path=record.path, sha256=record.sha256) for role, record in records.items()},
         attempt=scene.attempt,
         cables=len(scene.cables),
         surface=scene.floor.texture if scene.floor else None,
@@ -82,6 +97,6 @@ def write_index(dataset: Dataset) -> int:
     Raises:
         DestinationError: if the folder can't be read or written.
     """
-    lines = [index_entry(job, manifest).model_dump_json() + "\n" for job, manifest in done_manifests(dataset)]
+    lines = [index_entry(dataset, job, manifest).model_dump_json() + "\n" for job, manifest in done_manifests(dataset)]
     dataset.storage.write(INDEX_FILE, "".join(lines).encode())
     return len(lines)

@@ -1,11 +1,11 @@
 """The manifest: what stands beside every picture, written last. A job is done when it is there and agrees."""
 
+import hashlib
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from farm.dataset.paths import FileRole
 from farm.model import Model, Sha256
 from farm.scene.scene import Scene
 from farm.spec.job import DatasetName
@@ -20,6 +20,11 @@ class FileRecord(Model):
     path: str
     bytes: Annotated[int, Field(ge=0)]
     sha256: Sha256
+
+
+def file_record(path: str, content: bytes) -> FileRecord:
+    """The record of a file with this content."""
+    return FileRecord(path=path, bytes=len(content), sha256=hashlib.sha256(content).hexdigest())
 
 
 class RejectedAttempt(Model):
@@ -71,8 +76,8 @@ class RenderSettings(Model):
     """How the picture was rendered, as acted on, not as asked for.
 
     Attributes:
-        samples: a pixel.
-        settings: of Cycles; None for another engine.
+        samples: most samples that a pixel takes.
+        settings: what Cycles rendered with; None for another engine.
         expected_flip: mean FLIP against a picture without noise, as calibrated; None where it is not known, as for
             pictures that a camera's development changes.
     """
@@ -90,7 +95,8 @@ class Manifest(Model):
 
     Attributes:
         timings_s: seconds per stage of this job (open, randomize, simulate, render, mask, write).
-        versions: of the farm, Blender and the libraries that take part.
+        versions: versions of the farm, Blender and the libraries that take part.
+        files: every file of the picture but this one, by the folder of its output; see `farm.dataset.outputs.Output`.
     """
 
     version: Literal[1] = 1
@@ -104,4 +110,4 @@ class Manifest(Model):
     render: RenderSettings
     timings_s: Mapping[str, Seconds]
     versions: Mapping[str, str]
-    files: Mapping[FileRole, FileRecord]
+    files: Mapping[str, FileRecord]

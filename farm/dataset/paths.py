@@ -1,7 +1,6 @@
-"""Where the files of a dataset lie, relative to its folder. The first two folders are the published layout."""
+"""Where the files of a dataset lie, relative to its folder. Images and masks lie as published."""
 
-from enum import StrEnum
-
+from farm.dataset.outputs import Output
 from farm.spec.category import Category
 from farm.spec.job import Job
 
@@ -11,17 +10,14 @@ REPORT_FILE = "report.html"
 QUARANTINE_FOLDER = "quarantine"
 
 
-class FileRole(StrEnum):
-    """A kind of file that every job has one of; the value is the folder's name."""
-
-    IMAGE = "images"
-    MASK = "masks"
-    INSTANCES = "instances"
+def file_path(job: Job, output: Output) -> str:
+    """Path of the file that the job has of an output."""
+    return f"{output_folder(job.category, output)}/{job.id}{output.format.suffix}"
 
 
-def file_path(job: Job, role: FileRole) -> str:
-    """Path of one of the job's pictures."""
-    return f"{job.category}/{role}/{job.id}.png"
+def output_folder(category: Category, output: Output) -> str:
+    """Folder of a category's files of one output."""
+    return f"{category}/{output.folder}"
 
 
 def manifest_path(job: Job) -> str:

@@ -11,6 +11,7 @@ from urllib.parse import quote
 
 from farm.dataset.dataset import Dataset
 from farm.dataset.index import IndexEntry, done_manifests, index_entry, write_index
+from farm.dataset.outputs import IMAGE, MASK
 from farm.dataset.paths import REPORT_FILE
 from farm.spec.category import Category
 
@@ -32,7 +33,7 @@ def write_report(dataset: Dataset, *, pictures_per_category: int = 40) -> int:
 
     Args:
         dataset: the dataset, done or in the making.
-        pictures_per_category: at most so many are shown.
+        pictures_per_category: maximum number of pictures that are shown of each category.
 
     Returns:
         How many images are done.
@@ -45,7 +46,7 @@ def write_report(dataset: Dataset, *, pictures_per_category: int = 40) -> int:
         section = sections[job.category]
         section.done += 1
         if len(section.shown) < pictures_per_category:
-            section.shown.append(index_entry(job, manifest))
+            section.shown.append(index_entry(dataset, job, manifest))
         for stage, seconds in manifest.timings_s.items():
             section.seconds[stage].append(seconds)
     dataset.storage.write(REPORT_FILE, _page(dataset, sections).encode())
@@ -114,8 +115,8 @@ def _section(category: Category, section: _Section) -> str:
 
 def _card(entry: IndexEntry) -> str:
     pictures = "".join(
-        f'<a href="{quote(path)}"><img src="{quote(path)}" alt="{what} of {escape(entry.job_id)}" loading="lazy"></a>'
-        for what, path in (("image", entry.image), ("mask", entry.mask))
+        f'<a href="{quote(path)}"><img src="{quote(path)}" alt="{role} of {escape(entry.job_id)}" loading="lazy"></a>'
+        for role, path in ((output.role, entry.files[output.role].path) for output in (IMAGE, MASK))
     )
     facts = [f"{entry.cables} cable{'s' if entry.cables != 1 else ''}", f"{entry.camera_height_m * 100:.0f} cm high"]
     facts += [str(fact) for fact in (entry.surface, entry.hdri, entry.lamp and f"{entry.lamp} lamp") if fact]

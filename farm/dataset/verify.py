@@ -6,15 +6,13 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from enum import StrEnum
-
-import cv2
-import numpy as np
-from numpy.typing import NDArray
+from typing import Any
 
 from farm.dataset.completion import STALE_TEMPORARY_S, parse_manifest
 from farm.dataset.dataset import Dataset
-from farm.dataset.manifest import FileRecord, Manifest
-from farm.dataset.paths import HEADER_FILE, INDEX_FILE, REPORT_FILE, FileRole, file_path, manifest_path, quarantine_path
+from farm.dataset.manifest import FileRecord
+from farm.dataset.outputs import find_faults, outputs_of
+from farm.dataset.paths import HEADER_FILE, INDEX_FILE, REPORT_FILE, file_path, manifest_path, quarantine_path
 from farm.dataset.quarantine import Quarantine
 from farm.model import Model
 from farm.spec.job import Job
@@ -132,21 +130,25 @@ def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
     if manifest is None:
         yield Finding(fault=Fault.ALTERED, path=path, detail="not a manifest of this job of this dataset")
         return
-    pixels: dict[FileRole, NDArray[np.generic]] = {}
-    for role in FileRole:
-        found = _check_file(dataset, role, manifest.files[role], pixels)
-        if found is not None:
-            yield found
-    if len(pixels) == len(FileRole):
-        yield from _check_pixels(manifest, dataset.header.spec.resolution, pixels)
+    spec = dataset.header.spec
+    contents: dict[str, Any] = {}
+    for output in outputs_of(spec):
+        record = manifest.files[output.folder]
+        read = _read_file(dataset, record)
+        if isinstance(read, Finding):
+            yield read
+            continue
+        content = output.format.decode(read)
+        if content is None:
+            yield Finding(fault=Fault.ALTERED, path=record.path, detail=f"no readable {output.format.name}")
+        else:
+            contents[output.role] = content
+    for output, detail in find_faults(outputs_of(spec), contents, spec.resolution):
+        yield Finding(fault=Fault.ALTERED, path=manifest.files[output.folder].path, detail=detail)
 
 
-def _check_file(
-    dataset: Dataset,
-    role: FileRole,
-    record: FileRecord,
-    pixels: dict[FileRole, NDArray[np.generic]],
-) -> Finding | None:
+def _read_file(dataset: Dataset, record: FileRecord) -> bytes | Finding:
+    """The file's bytes if they are those of its record, else what is wrong."""
     # Read rather than looked up in a listing, which would be older than the manifest where the dataset grows.
     try:
         content = dataset.storage.read(record.path)
@@ -157,44 +159,16 @@ def _check_file(
         return Finding(fault=Fault.TRUNCATED, path=record.path, detail=detail)
     if len(content) != record.bytes or hashlib.sha256(content).hexdigest() != record.sha256:
         return Finding(fault=Fault.ALTERED, path=record.path, detail="its checksum is not the manifest's")
-    decoded = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
-    if decoded is None:
-        return Finding(fault=Fault.ALTERED, path=record.path, detail="no readable PNG")
-    pixels[role] = decoded
-    return None
-
-
-def _check_pixels(
-    manifest: Manifest, resolution: int, pixels: dict[FileRole, NDArray[np.generic]]
-) -> Iterator[Finding]:
-    square = (resolution, resolution)
-    expected = {
-        FileRole.IMAGE: ((*square, 3), np.dtype(np.uint8)),
-        FileRole.MASK: (square, np.dtype(np.uint8)),
-        FileRole.INSTANCES: (square, np.dtype(np.uint16)),
-    }
-    for role, (shape, kind) in expected.items():
-        if pixels[role].shape != shape or pixels[role].dtype != kind:
-            detail = f"{pixels[role].shape} {pixels[role].dtype}, expected {shape} {kind}"
-            yield Finding(fault=Fault.ALTERED, path=manifest.files[role].path, detail=detail)
-            return
-    mask, instances = pixels[FileRole.MASK], pixels[FileRole.INSTANCES]
-    if not np.isin(mask, (0, 255)).all():
-        yield Finding(
-            fault=Fault.ALTERED, path=manifest.files[FileRole.MASK].path, detail="has other values than 0, 255"
-        )
-    elif not np.array_equal(mask == 255, instances > np.uint16(0)):
-        yield Finding(
-            fault=Fault.ALTERED, path=manifest.files[FileRole.INSTANCES].path, detail="does not agree with the mask"
-        )
+    return content
 
 
 def _extra(dataset: Dataset, files: dict[str, StoredFile]) -> Iterator[Finding]:
     known = {HEADER_FILE, INDEX_FILE, REPORT_FILE}
+    outputs = outputs_of(dataset.header.spec)
     for job in dataset.header.spec.jobs():
         known.add(manifest_path(job))
         known.add(quarantine_path(job))
-        known.update(file_path(job, role) for role in FileRole)
+        known.update(file_path(job, output) for output in outputs)
     now_s = time.time()
     for path in files.keys() - known:
         if not is_temporary(path):

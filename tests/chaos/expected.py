@@ -3,32 +3,25 @@
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-import numpy as np
-
-from farm.dataset.paths import FileRole, file_path
+from farm.dataset.outputs import OUTPUTS, Output, outputs_of
+from farm.dataset.paths import file_path
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
-from tests.stand_in import stand_in_pixels
-from worker.service.upload import encode_png
+from tests.stand_in import stand_in_files
 
-Expected = Callable[[Job], Mapping[FileRole, bytes]]
+Expected = Callable[[Job], Mapping[Output, bytes]]
 
 
 def drawn_by_stand_in(header: DatasetHeader) -> Expected:
     """What a stand-in draws: noise from the job's own seed, so that no two jobs have the same."""
 
-    def expected(job: Job) -> Mapping[FileRole, bytes]:
-        image, instances = stand_in_pixels(job, header)
-        mask = np.where(instances > 0, 255, 0).astype(np.uint8)
-        return {
-            FileRole.IMAGE: encode_png(image),
-            FileRole.MASK: encode_png(mask),
-            FileRole.INSTANCES: encode_png(instances),
-        }
+    def expected(job: Job) -> Mapping[Output, bytes]:
+        files = stand_in_files(job, header)
+        return {output: output.format.encode(files[output.role]) for output in outputs_of(header.spec)}
 
     return expected
 
 
 def made_before(folder: Path) -> Expected:
     """What lies in the folder of a dataset of the same description."""
-    return lambda job: {role: (folder / file_path(job, role)).read_bytes() for role in FileRole}
+    return lambda job: {output: (folder / file_path(job, output)).read_bytes() for output in OUTPUTS}

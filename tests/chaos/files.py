@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.outputs import OUTPUTS
+from farm.dataset.paths import file_path, manifest_path
 from farm.spec.job import Job
 from tests.chaos.farm_under_test import FarmUnderTest
 
@@ -41,8 +42,8 @@ def _exchange(one: Path, other: Path) -> None:
 
 
 def _some_file(farm: FarmUnderTest, job_id: str, rng: np.random.Generator) -> Path:
-    role = list(FileRole)[int(rng.integers(len(FileRole)))]
-    return farm.folder / file_path(Job.from_id(job_id), role)
+    output = OUTPUTS[int(rng.integers(len(OUTPUTS)))]
+    return farm.folder / file_path(Job.from_id(job_id), output)
 
 
 def truncate(farm: FarmUnderTest, job_id: str, rng: np.random.Generator) -> None:

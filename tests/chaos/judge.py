@@ -10,7 +10,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.outputs import OUTPUTS
+from farm.dataset.paths import file_path, manifest_path
 from farm.dataset.verify import Verdict, verify
 from farm.errors import IncompleteError
 from farm.spec.job import Job
@@ -170,10 +171,10 @@ def _files(farm: FarmUnderTest, verdict: Verdict, quarantined: Collection[str]) 
 def _pixels(farm: FarmUnderTest, expected: Expected, quarantined: Collection[str]) -> Iterator[str]:
     wrong = []
     for job in farm.plan.header.spec.jobs():
-        for role, content in expected(job).items() if job.id not in quarantined else ():
-            path = farm.folder / file_path(job, role)
+        for output, content in expected(job).items() if job.id not in quarantined else ():
+            path = farm.folder / file_path(job, output)
             if path.exists() and path.read_bytes() != content:
-                wrong.append(file_path(job, role))
+                wrong.append(file_path(job, output))
     if wrong:
         yield f"{len(wrong)} files are not their job's own: {_some(wrong)}"
 
@@ -196,7 +197,7 @@ def _status_findings(
 
 
 def _is_there(farm: FarmUnderTest, job: Job) -> bool:
-    paths = [manifest_path(job), *(file_path(job, role) for role in FileRole)]
+    paths = [manifest_path(job), *(file_path(job, output) for output in OUTPUTS)]
     return all((farm.folder / path).is_file() for path in paths)
 
 

@@ -21,7 +21,8 @@ from assets.scan.photographs import decode_plate
 from assets.scan.radiance import check_radiance
 from farm.dataset.completion import job_of_manifest, parse_manifest
 from farm.dataset.dataset import Dataset, Destination, create_dataset, open_dataset, parse_destination
-from farm.dataset.paths import HEADER_FILE, FileRole, file_path, manifest_path
+from farm.dataset.outputs import OUTPUTS
+from farm.dataset.paths import HEADER_FILE, file_path, manifest_path
 from farm.errors import FarmError
 from farm.run.queue.broker import broker_url, masked
 from farm.run.queue.wire import ENVELOPE_BYTES, checked_envelope, decode_json
@@ -128,7 +129,7 @@ def _header(data: bytes) -> None:
 def _manifest(data: bytes) -> None:
     manifest = parse_manifest(data, _dataset(), JOB)
     if manifest is not None:
-        assert {record.path for record in manifest.files.values()} == {file_path(JOB, role) for role in FileRole}
+        assert {record.path for record in manifest.files.values()} == {file_path(JOB, output) for output in OUTPUTS}
 
 
 def _destination(data: bytes) -> None:

@@ -14,6 +14,7 @@ from blend.build import TEMPLATE
 from blend.contract import open_template
 from blend.devices import choose_device
 from farm.dataset.manifest import RejectedAttempt, RenderSettings, SettleFigures
+from farm.dataset.outputs import IMAGE, outputs_of
 from farm.errors import SceneError, SpecError
 from farm.scene.scene import Scene
 from farm.spec.category import Category
@@ -28,7 +29,7 @@ from worker.blender.asset_files import AssetLibrary, checked
 from worker.blender.build_scene import build_scene
 from worker.blender.image_cache import ImageCache
 from worker.blender.render import configure_cycles, configure_eevee, configure_picture, render_scene
-from worker.label.label import label_scene
+from worker.label.makers import LabelInputs, make_labels
 from worker.sample.scene import sample_scene
 from worker.service.picture import Picture
 from worker.simulate.checks.accept import find_fault
@@ -95,11 +96,10 @@ class BlenderRenderer:
         with _timed(timings, "render"):
             image = render_scene(scene, behind)
         with _timed(timings, "mask"):
-            labels = label_scene(scene, shapes, chosen.settings.detail, spec.resolution)
+            geometry = LabelInputs(scene, shapes, chosen.settings.detail, spec.resolution)
+            labels = make_labels(geometry, outputs_of(spec))
         return Picture(
-            image=image,
-            mask=labels.mask,
-            instances=labels.instances,
+            files={IMAGE.role: image, **labels},
             scene=scene,
             settled=settled,
             rejected=rejected,

@@ -5,12 +5,13 @@ sides by the same, so that depth of field leaves its half-way line, and with it 
 What is left out: blur fills narrow gaps, of a pixel or so, between cables well above the floor, where the focus is.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from farm.dataset.outputs import INSTANCES, MASK
 from farm.scene.scene import Scene
 from farm.spec.rendering import CableDetail
 from worker.cable.piece import Piece
@@ -18,6 +19,7 @@ from worker.cable.pieces import pieces_of
 from worker.camera.view import View
 from worker.curves import smooth
 from worker.label.coverage import cover
+from worker.label.makers import LabelInputs
 from worker.label.occluders import hiding_pieces
 from worker.label.silhouette import silhouettes
 from worker.simulate.shapes import CableShapes
@@ -34,6 +36,12 @@ class Labels:
 
     mask: NDArray[np.uint8]
     instances: NDArray[np.uint16]
+
+
+def make_mask_and_instances(geometry: LabelInputs) -> Mapping[str, NDArray[np.uint8] | NDArray[np.uint16]]:
+    """Make the mask and the instances of a picture; see `worker.label.makers.Maker`."""
+    labels = label_scene(geometry.scene, geometry.shapes, geometry.detail, geometry.resolution)
+    return {MASK.role: labels.mask, INSTANCES.role: labels.instances}
 
 
 def label_scene(scene: Scene, shapes: CableShapes, detail: CableDetail, resolution: int) -> Labels:

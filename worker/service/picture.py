@@ -1,11 +1,8 @@
-"""What a maker hands over for upload, and the port that workers call."""
+"""What a renderer hands over for upload, and the port that workers call."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import Any, Protocol
 
 from farm.dataset.manifest import RejectedAttempt, RenderSettings, SettleFigures
 from farm.scene.scene import Scene
@@ -18,15 +15,11 @@ class Picture:
     """One picture with its labels and everything its manifest tells.
 
     Attributes:
-        image: (H, W, 3) uint8 sRGB.
-        mask: (H, W) uint8, 0 or 255.
-        instances: (H, W) uint16, 0 for background; counted from 1, cable by cable and strand by strand of a bundle.
+        files: content of every file by its output's role; `farm.dataset.outputs` says what each is.
         timings_s: seconds per stage; the upload adds its own.
     """
 
-    image: NDArray[np.uint8]
-    mask: NDArray[np.uint8]
-    instances: NDArray[np.uint16]
+    files: Mapping[str, Any]
     scene: Scene
     settled: SettleFigures
     rejected: tuple[RejectedAttempt, ...]

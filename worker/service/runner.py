@@ -11,7 +11,7 @@ from celery.exceptions import SoftTimeLimitExceeded
 from farm.dataset.completion import is_done
 from farm.dataset.dataset import Dataset, open_for_message
 from farm.dataset.manifest import Manifest
-from farm.dataset.paths import FileRole
+from farm.dataset.outputs import IMAGE
 from farm.dataset.quarantine import is_in_quarantine, put_in_quarantine
 from farm.errors import (
     AssetError,
@@ -318,7 +318,7 @@ def _note_done(message: JobMessage, manifest: Manifest, ledger: Ledger) -> str:
     seconds = manifest.timings_s
     said = f"{message.task_id} done in {sum(seconds.values()):.1f} s"
     try:
-        if ledger.finish(message.job_id, this_process(), manifest.files[FileRole.IMAGE].path):
+        if ledger.finish(message.job_id, this_process(), manifest.files[IMAGE.folder].path):
             figures = {f"seconds:{stage}": value for stage, value in seconds.items()}
             ledger.add_figures({f"images:{message.job.category}": 1, "redrawn": len(manifest.rejected), **figures})
     except BrokerError as error:

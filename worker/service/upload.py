@@ -1,53 +1,27 @@
-"""Writing a made picture into its dataset: image, mask, instances, and the manifest last."""
+"""Writing a made picture into its dataset: its files in the order of the table of outputs, and the manifest last."""
 
-import hashlib
 import time
 from typing import Protocol
 
-import cv2
-import numpy as np
-from numpy.typing import NDArray
-
 from farm.dataset.completion import is_done
 from farm.dataset.dataset import Dataset
-from farm.dataset.manifest import FileRecord, Manifest
-from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.manifest import Manifest, file_record
+from farm.dataset.outputs import find_faults, outputs_of
+from farm.dataset.paths import file_path, manifest_path
 from farm.errors import BrokerError, RenderError
+from farm.spec.dataset_spec import DatasetSpec
 from farm.spec.job import Job
 from worker.service.lease import LeaseLostError
 from worker.service.picture import Picture
 
-Pixels = NDArray[np.uint8] | NDArray[np.uint16]
 
-_COMPRESSION = [cv2.IMWRITE_PNG_COMPRESSION, 1, cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
-"""A quarter of the time of zlib's level 6 for rendered pictures, and within 5 % of its size."""
-
-
-def encode_png(pixels: Pixels) -> bytes:
-    """A PNG of the pixels; the same pixels give the same bytes.
-
-    Args:
-        pixels: (H, W) of 8 or 16 bits, or (H, W, 3) of 8 bits, red first.
-
-    Raises:
-        RenderError: if they can't be encoded.
-    """
-    ordered = pixels[:, :, ::-1] if pixels.ndim == 3 else pixels  # OpenCV has blue first
-    encoded, data = cv2.imencode(".png", np.ascontiguousarray(ordered), _COMPRESSION)
-    if not encoded:
-        raise RenderError(f"can't encode a picture of shape {pixels.shape} and type {pixels.dtype}")
-    return data.tobytes()
-
-
-def _check(made: Picture) -> None:
-    shape = made.mask.shape
-    if made.image.shape != (*shape, 3) or made.instances.shape != shape:
-        raise RenderError(f"image {made.image.shape}, mask {shape} and instances {made.instances.shape} differ in size")
-    types = (made.image.dtype, made.mask.dtype, made.instances.dtype)
-    if types != (np.dtype(np.uint8), np.dtype(np.uint8), np.dtype(np.uint16)):
-        raise RenderError(f"image, mask and instances have types {types}, not 8, 8 and 16 bits")
-    if not np.array_equal(made.mask, np.where(made.instances > 0, 255, 0)):
-        raise RenderError("mask and instances do not cover the same pixels")
+def _check(made: Picture, spec: DatasetSpec) -> None:
+    outputs = outputs_of(spec)
+    wanted = [output.role for output in outputs]
+    if made.files.keys() != set(wanted):
+        raise RenderError(f"made {', '.join(made.files)}; the dataset has {', '.join(wanted)}")
+    for output, fault in find_faults(outputs, made.files, spec.resolution):
+        raise RenderError(f"{output.role}: {fault}")
 
 
 class Guard(Protocol):
@@ -79,13 +53,13 @@ def upload(made: Picture, job: Job, dataset: Dataset, guard: Guard | None = None
         The manifest; its timings have the seconds of this stage as `write`.
 
     Raises:
-        RenderError: if the picture and its labels don't fit each other.
+        RenderError: if a file's content is not what its output must have, or the contents don't fit each other.
         DestinationError: if a file can't be written.
         LeaseLostError: if the guard finds that another may be writing; then what is in place is whole, or has no
             manifest.
         BrokerError: if the guard can't find out; likewise.
     """
-    _check(made)
+    _check(made, dataset.header.spec)
     guard = guard or Unguarded()
     guard.renew()
     try:
@@ -99,18 +73,13 @@ def upload(made: Picture, job: Job, dataset: Dataset, guard: Guard | None = None
 
 def _write(made: Picture, job: Job, dataset: Dataset, guard: Guard) -> Manifest:
     start = time.perf_counter()
-    pixels: dict[FileRole, Pixels] = {
-        FileRole.IMAGE: made.image,
-        FileRole.MASK: made.mask,
-        FileRole.INSTANCES: made.instances,
-    }
     files = {}
-    for role, array in pixels.items():
-        content = encode_png(array)
-        path = file_path(job, role)
+    for output in outputs_of(dataset.header.spec):
+        content = output.format.encode(made.files[output.role])
+        path = file_path(job, output)
         guard.check()
         dataset.storage.write(path, content)
-        files[role] = FileRecord(path=path, bytes=len(content), sha256=hashlib.sha256(content).hexdigest())
+        files[output.folder] = file_record(path, content)
     manifest = Manifest(
         dataset=dataset.name,
         spec_sha256=dataset.header.spec_sha256,

@@ -15,7 +15,8 @@ from benchmarks.pictures.making import STYLES, NamedDataset, make, parse_named
 from benchmarks.pictures.options import add_pictures, styles_of
 from benchmarks.pictures.survey import distribution, groups, summarize, survey
 from farm.dataset.dataset import Dataset, Destination, create_dataset
-from farm.dataset.paths import FileRole, file_path
+from farm.dataset.outputs import IMAGE
+from farm.dataset.paths import file_path
 from farm.errors import DatasetMissingError, FarmError, SpecError, VerificationError
 from farm.spec.category import Category
 from farm.spec.job import Job
@@ -68,7 +69,7 @@ def test_a_picture_that_is_no_image_is_told(made: Dataset) -> None:
     pictures = survey(made)
     next(pictures)
     # Sizes are compared before the first picture is read.
-    path = file_path(Job.from_id("far-000001"), FileRole.IMAGE)
+    path = file_path(Job.from_id("far-000001"), IMAGE)
     made.storage.write(path, b"x" * len(made.storage.read(path)))
     with pytest.raises(VerificationError, match="far-000001"):
         list(pictures)

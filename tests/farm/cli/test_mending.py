@@ -6,7 +6,8 @@ import pytest
 import redis
 
 from farm.dataset.dataset import Dataset
-from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.outputs import MASK
+from farm.dataset.paths import file_path, manifest_path
 from farm.dataset.quarantine import Quarantine, put_in_quarantine
 from farm.errors import DestinationError, MessageError, SpecError
 from farm.run.handle import open_handle
@@ -35,7 +36,7 @@ def queued(dataset: Dataset, redis_url: str, client: "redis.Redis") -> list[str]
 @pytest.mark.redis
 def test_repair_queues_what_is_missing(farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
     """An image one of whose files is gone is queued, once, however often this is asked for."""
-    made.storage.remove(file_path(JOB, FileRole.MASK))
+    made.storage.remove(file_path(JOB, MASK))
     place = [made.storage.location, "--broker", redis_url]
     assert farm("repair", *place).stdout.startswith("1 of 4 images queued")
     assert farm("repair", *place).stdout.startswith("0 of 4 images queued")

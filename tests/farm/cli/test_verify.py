@@ -4,7 +4,8 @@ import json
 
 from farm.dataset.dataset import Dataset
 from farm.dataset.index import write_index
-from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.outputs import OUTPUTS
+from farm.dataset.paths import file_path, manifest_path
 from farm.dataset.quarantine import put_in_quarantine
 from farm.errors import IncompleteError, VerificationError
 from farm.spec.job import Job
@@ -39,7 +40,7 @@ def test_verify_finds(farm: Farm, made: Dataset) -> None:
 def test_verify_of_a_dataset_with_given_up_images(farm: Farm, made: Dataset) -> None:
     """A dataset whose only lack is what was given up ends with a code of its own, and says what to do."""
     job = Job.from_id("far-000001")
-    for path in (manifest_path(job), *(file_path(job, role) for role in FileRole)):
+    for path in (manifest_path(job), *(file_path(job, output) for output in OUTPUTS)):
         made.storage.remove(path)
     put_in_quarantine(made, job, "no scene passed", attempts=1, worker="host:1", log="")
     result = farm("verify", made.storage.location)

@@ -4,13 +4,15 @@ import os
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from operator import attrgetter
 from pathlib import Path
 
 import pytest
 
 from farm.dataset.completion import STALE_TEMPORARY_S, Completion, is_done, job_of_manifest
 from farm.dataset.dataset import Dataset, Destination, create_dataset
-from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.outputs import IMAGE, MASK, OUTPUTS, Output
+from farm.dataset.paths import file_path, manifest_path
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.spec.job_set import JobSet
@@ -70,16 +72,16 @@ def test_look_finds_what_is_new(dataset: Dataset) -> None:
     assert ids(completion.look()) == []
 
 
-@pytest.mark.parametrize("role", FileRole)
+@pytest.mark.parametrize("output", OUTPUTS, ids=attrgetter("role"))
 @pytest.mark.parametrize("size", [None, 0, 20])
-def test_audit_finds_damage(made: Dataset, role: FileRole, size: int | None) -> None:
+def test_audit_finds_damage(made: Dataset, output: Output, size: int | None) -> None:
     """A picture that is gone or was cut off is found by an audit, and a look remembers it."""
     completion = Completion(made)
     completion.audit()
     if size is None:
-        made.storage.remove(file_path(JOB, role))
+        made.storage.remove(file_path(JOB, output))
     else:
-        os.truncate(path_of(made, file_path(JOB, role)), size)
+        os.truncate(path_of(made, file_path(JOB, output)), size)
     assert ids(completion.look()) == ALL
     assert ids(completion.audit()) == OTHERS
     assert ids(completion.look()) == OTHERS
@@ -87,17 +89,17 @@ def test_audit_finds_damage(made: Dataset, role: FileRole, size: int | None) -> 
 
 def test_audit_finds_a_longer_file(made: Dataset) -> None:
     """A picture with something after its end is found, too."""
-    with path_of(made, file_path(JOB, FileRole.MASK)).open("ab") as file:
+    with path_of(made, file_path(JOB, MASK)).open("ab") as file:
         file.write(b"\0")
     assert ids(Completion(made).audit()) == OTHERS
 
 
-@pytest.mark.parametrize("role", FileRole)
-def test_audit_reads_what_changed(made: Dataset, role: FileRole) -> None:
+@pytest.mark.parametrize("output", OUTPUTS, ids=attrgetter("role"))
+def test_audit_reads_what_changed(made: Dataset, output: Output) -> None:
     """A picture that was changed after its manifest, in a bit, is found by an audit; one that is the same is not."""
     completion = Completion(made)
     later_s = time.time() + 60
-    same, other = file_path(Job.from_id("far-000000"), role), file_path(JOB, role)
+    same, other = file_path(Job.from_id("far-000000"), output), file_path(JOB, output)
     content = bytearray(made.storage.read(other))
     content[-20] ^= 1
     made.storage.write(other, bytes(content))
@@ -110,7 +112,7 @@ def test_audit_reads_what_changed(made: Dataset, role: FileRole) -> None:
 def test_damaged_job_that_was_made_again(made: Dataset) -> None:
     """A look sees that a job that was damaged has been made again, with pictures of other sizes even."""
     completion = Completion(made)
-    made.storage.remove(file_path(JOB, FileRole.IMAGE))
+    made.storage.remove(file_path(JOB, IMAGE))
     assert ids(completion.audit()) == OTHERS
     make(made, JOB, seed=5)
     assert ids(completion.look()) == ALL
@@ -120,7 +122,7 @@ def test_damaged_job_that_was_made_again(made: Dataset) -> None:
 def test_picture_that_came_back(made: Dataset) -> None:
     """A picture that is whole again counts from the next audit, as its manifest has not changed."""
     completion = Completion(made)
-    path = file_path(JOB, FileRole.IMAGE)
+    path = file_path(JOB, IMAGE)
     content = made.storage.read(path)
     os.truncate(path_of(made, path), 10)
     completion.audit()
@@ -149,7 +151,7 @@ def test_manifest_of_another_dataset(made: Dataset, tmp_path: Path) -> None:
     """A manifest that was copied from another dataset vouches for nothing."""
     other = create_dataset(Destination(str(tmp_path), "other"), stand_in_header(seed=9))
     make(other, JOB)
-    for path in (manifest_path(JOB), *(file_path(JOB, role) for role in FileRole)):
+    for path in (manifest_path(JOB), *(file_path(JOB, output) for output in OUTPUTS)):
         made.storage.write(path, other.storage.read(path))
     assert ids(Completion(made).audit()) == OTHERS
     assert not is_done(made, JOB)
@@ -227,7 +229,7 @@ def test_job_that_is_made_during_an_audit(dataset: Dataset) -> None:
 def test_done_by_checksum(made: Dataset) -> None:
     """A single job is done when its files are those of its manifest to the last bit."""
     assert is_done(made, JOB)
-    path = file_path(JOB, FileRole.IMAGE)
+    path = file_path(JOB, IMAGE)
     content = bytearray(made.storage.read(path))
     content[-20] ^= 1
     made.storage.write(path, bytes(content))
@@ -266,5 +268,5 @@ def test_bucket(any_store: Callable[[str], str], header: DatasetHeader) -> None:
     completion = Completion(dataset)
     make(dataset, JOB)
     assert ids(completion.look()) == ids(completion.audit()) == [JOB.id]
-    dataset.storage.write(file_path(JOB, FileRole.IMAGE), b"half")
+    dataset.storage.write(file_path(JOB, IMAGE), b"half")
     assert ids(completion.audit()) == []

@@ -34,7 +34,7 @@ def test_a_browser_shows_the_pictures_and_masks(dataset: Dataset, chromium: str,
     """Every picture and mask of the page loads: green and blue stand-ins fill their places in the screenshot."""
     for number, job in enumerate(dataset.header.spec.jobs()):
         made = StandInRenderer().make(job, dataset.header)
-        made.image[:] = (0, 200, 0) if number % 2 else (0, 0, 200)
+        made.files["image"][:] = (0, 200, 0) if number % 2 else (0, 0, 200)
         upload(made, job, dataset)
     write_report(dataset, pictures_per_category=4)
     shot = tmp_path / "shot.png"

@@ -1,6 +1,5 @@
 """What a check of a dataset finds."""
 
-import hashlib
 import os
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,18 +9,20 @@ import numpy as np
 import pytest
 
 from farm.dataset.dataset import Dataset, Destination, create_dataset
-from farm.dataset.manifest import FileRecord, Manifest
-from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.formats import PNG
+from farm.dataset.manifest import Manifest, file_record
+from farm.dataset.outputs import IMAGE, INSTANCES, MASK, Output
+from farm.dataset.paths import file_path, manifest_path
 from farm.dataset.verify import Fault, verify
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.storage import LocalStorage
 from tests.object_store import ObjectStore
 from tests.stand_in import StandInRenderer
-from worker.service.upload import encode_png, upload
+from worker.service.upload import upload
 
 JOB = Job.from_id("far-000001")
-IMAGE, MASK, INSTANCES = (file_path(JOB, role) for role in FileRole)
+IMAGE_PATH, MASK_PATH, INSTANCES_PATH = ALL_PATHS = [file_path(JOB, output) for output in (IMAGE, MASK, INSTANCES)]
 
 
 @pytest.fixture
@@ -37,13 +38,13 @@ def found(dataset: Dataset) -> list[tuple[Fault, str]]:
     return [(finding.fault, finding.path) for finding in verify(dataset).findings]
 
 
-def replace_file(dataset: Dataset, role: FileRole, content: bytes) -> None:
+def replace_file(dataset: Dataset, output: Output, content: bytes) -> None:
     """Put another file in place, and have the manifest vouch for it."""
     path = manifest_path(JOB)
     manifest = Manifest.model_validate_json(dataset.storage.read(path))
-    record = FileRecord(path=file_path(JOB, role), bytes=len(content), sha256=hashlib.sha256(content).hexdigest())
-    forged = manifest.model_copy(update={"files": {**manifest.files, role: record}})
-    dataset.storage.write(file_path(JOB, role), content)
+    record = file_record(file_path(JOB, output), content)
+    forged = manifest.model_copy(update={"files": {**manifest.files, output.folder: record}})
+    dataset.storage.write(file_path(JOB, output), content)
     dataset.storage.write(path, forged.model_dump_json().encode())
 
 
@@ -59,14 +60,14 @@ def test_unmade(dataset: Dataset) -> None:
     assert [fault for fault, _ in found(dataset)] == [Fault.MISSING] * 4
 
 
-@pytest.mark.parametrize("path", [IMAGE, MASK, INSTANCES, manifest_path(JOB)])
+@pytest.mark.parametrize("path", [*ALL_PATHS, manifest_path(JOB)])
 def test_missing(made: Dataset, path: str) -> None:
     """A file that was removed is missing."""
     made.storage.remove(path)
     assert found(made) == [(Fault.MISSING, path)]
 
 
-@pytest.mark.parametrize("path", [IMAGE, MASK, INSTANCES])
+@pytest.mark.parametrize("path", ALL_PATHS)
 @pytest.mark.parametrize("size", [0, 20])
 def test_truncated(made: Dataset, path: str, size: int) -> None:
     """A file that is shorter than its manifest tells is truncated."""
@@ -74,7 +75,7 @@ def test_truncated(made: Dataset, path: str, size: int) -> None:
     assert found(made) == [(Fault.TRUNCATED, path)]
 
 
-@pytest.mark.parametrize("path", [IMAGE, MASK, INSTANCES])
+@pytest.mark.parametrize("path", ALL_PATHS)
 def test_altered(made: Dataset, path: str) -> None:
     """A file of the right size with one other bit is altered."""
     content = bytearray(made.storage.read(path))
@@ -89,14 +90,14 @@ def test_anywhere(any_store: Callable[[str], str], header: DatasetHeader) -> Non
     for job in header.spec.jobs():
         upload(StandInRenderer().make(job, header), job, dataset)
     assert found(dataset) == []
-    dataset.storage.write(MASK, dataset.storage.read(MASK)[:20])
-    dataset.storage.write(INSTANCES, dataset.storage.read(INSTANCES)[::-1])
-    dataset.storage.remove(IMAGE)
+    dataset.storage.write(MASK_PATH, dataset.storage.read(MASK_PATH)[:20])
+    dataset.storage.write(INSTANCES_PATH, dataset.storage.read(INSTANCES_PATH)[::-1])
+    dataset.storage.remove(IMAGE_PATH)
     dataset.storage.write("stray.txt", b"")
     assert dict(found(dataset)) == {
-        Fault.TRUNCATED: MASK,
-        Fault.ALTERED: INSTANCES,
-        Fault.MISSING: IMAGE,
+        Fault.TRUNCATED: MASK_PATH,
+        Fault.ALTERED: INSTANCES_PATH,
+        Fault.MISSING: IMAGE_PATH,
         Fault.EXTRA: "stray.txt",
     }
 
@@ -109,7 +110,7 @@ def test_unfinished_upload_to_a_bucket(bucket: str, object_store: ObjectStore, h
         upload(StandInRenderer().make(job, header), job, dataset)
     name, prefix = bucket.removeprefix("s3://").split("/", 1)
     client = object_store.client()
-    for path in (IMAGE, "far/images/far-000009.png"):
+    for path in (IMAGE_PATH, "far/images/far-000009.png"):
         where = {"Bucket": name, "Key": f"{prefix}/cables/{path}"}
         begun = client.call_s3("create_multipart_upload", **where)
         client.call_s3("upload_part", **where, UploadId=begun["UploadId"], PartNumber=1, Body=bytes(5 * 1024 * 1024))
@@ -148,18 +149,18 @@ def test_job_that_is_made_meanwhile(dataset: Dataset, made: Dataset) -> None:
 
 def test_job_that_is_made_anew_meanwhile(made: Dataset) -> None:
     """A file that vanishes during the look is looked for again, and then reported, not raised."""
-    content = made.storage.read(IMAGE)
-    made.storage.remove(IMAGE)
-    back = GrowingStorage(Path(made.storage.location), MASK, lambda: made.storage.write(IMAGE, content))
+    content = made.storage.read(IMAGE_PATH)
+    made.storage.remove(IMAGE_PATH)
+    back = GrowingStorage(Path(made.storage.location), MASK_PATH, lambda: made.storage.write(IMAGE_PATH, content))
     assert verify(replace(made, storage=back)).clean
-    gone = GrowingStorage(Path(made.storage.location), MASK, lambda: made.storage.remove(MASK))
-    assert found(replace(made, storage=gone)) == [(Fault.MISSING, MASK)]
+    gone = GrowingStorage(Path(made.storage.location), MASK_PATH, lambda: made.storage.remove(MASK_PATH))
+    assert found(replace(made, storage=gone)) == [(Fault.MISSING, MASK_PATH)]
 
 
 def test_longer(made: Dataset) -> None:
     """A file with something after its end is altered."""
-    made.storage.write(MASK, made.storage.read(MASK) + b"\0")
-    assert found(made) == [(Fault.ALTERED, MASK)]
+    made.storage.write(MASK_PATH, made.storage.read(MASK_PATH) + b"\0")
+    assert found(made) == [(Fault.ALTERED, MASK_PATH)]
 
 
 @pytest.mark.parametrize("content", [b"", b"{}", b"{", b"\xff"])
@@ -198,27 +199,27 @@ def test_old_temporary_file(made: Dataset) -> None:
 
 def test_no_png(made: Dataset) -> None:
     """What is no PNG is found even where the manifest vouches for it."""
-    replace_file(made, FileRole.IMAGE, b"no picture")
-    assert found(made) == [(Fault.ALTERED, IMAGE)]
+    replace_file(made, IMAGE, b"no picture")
+    assert found(made) == [(Fault.ALTERED, IMAGE_PATH)]
 
 
 @pytest.mark.parametrize("shape", [(16, 16), (32, 32, 3)])
 def test_wrong_shape(made: Dataset, shape: tuple[int, ...]) -> None:
     """A mask of another size or with colours is found."""
-    replace_file(made, FileRole.MASK, encode_png(np.zeros(shape, np.uint8)))
-    assert found(made) == [(Fault.ALTERED, MASK)]
+    replace_file(made, MASK, PNG.encode(np.zeros(shape, np.uint8)))
+    assert found(made) == [(Fault.ALTERED, MASK_PATH)]
 
 
 def test_grey_mask(made: Dataset) -> None:
     """A mask with values between is found."""
-    replace_file(made, FileRole.MASK, encode_png(np.full((32, 32), 7, np.uint8)))
-    assert found(made) == [(Fault.ALTERED, MASK)]
+    replace_file(made, MASK, PNG.encode(np.full((32, 32), 7, np.uint8)))
+    assert found(made) == [(Fault.ALTERED, MASK_PATH)]
 
 
 def test_instances_that_do_not_agree(made: Dataset) -> None:
     """Instances that cover other pixels than the mask are found."""
-    replace_file(made, FileRole.INSTANCES, encode_png(np.full((32, 32), 3, np.uint16)))
-    assert found(made) == [(Fault.ALTERED, INSTANCES)]
+    replace_file(made, INSTANCES, PNG.encode(np.full((32, 32), 3, np.uint16)))
+    assert found(made) == [(Fault.ALTERED, INSTANCES_PATH)]
 
 
 def test_tells_how_far_it_is(made: Dataset) -> None:

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from farm.dataset.dataset import Dataset, Destination, open_dataset
-from farm.dataset.paths import FileRole, file_path
+from farm.dataset.outputs import OUTPUTS
+from farm.dataset.paths import file_path
 from farm.dataset.verify import verify
 from farm.errors import DestinationError, IncompleteError, MachineError
 from farm.local.run import LocalRun, run_locally
@@ -105,7 +106,7 @@ def test_number_of_workers_decides_nothing(tmp_path: Path, header: DatasetHeader
         destination = Destination(str(tmp_path / name), "cables")
         run_locally(destination, header, replace(how, workers=workers))
         storage = open_dataset(destination).storage
-        paths = [file_path(job, role) for job in header.spec.jobs() for role in FileRole]
+        paths = [file_path(job, output) for job in header.spec.jobs() for output in OUTPUTS]
         pictures.append([storage.read(path) for path in paths])
     assert pictures[0] == pictures[1]
 

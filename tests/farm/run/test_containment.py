@@ -11,7 +11,8 @@ from pydantic import TypeAdapter, ValidationError
 from assets.surfaces.baked import load_surface
 from farm.dataset.completion import is_done, parse_manifest
 from farm.dataset.dataset import Dataset, parse_destination
-from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.outputs import IMAGE, MASK, OUTPUTS, Output
+from farm.dataset.paths import file_path, manifest_path
 from farm.errors import AssetError, DestinationError, MessageError
 from farm.spec.job import DatasetName, Job, JobMessage
 from tests.stand_in import SHA, StandInRenderer
@@ -64,7 +65,7 @@ def test_a_message_names_a_job_of_a_dataset_and_nothing_else(dataset: str, job_i
         message = JobMessage.decode({"version": 1, "dataset": dataset, "spec_sha256": SHA, "job_id": job_id})
     except MessageError:
         return
-    paths = [manifest_path(message.job), *(file_path(message.job, role) for role in FileRole)]
+    paths = [manifest_path(message.job), *(file_path(message.job, output) for output in OUTPUTS)]
     assert is_one_name(message.dataset)
     assert all(is_one_name(part) for path in paths for part in path.split("/"))
 
@@ -89,15 +90,13 @@ def manifest(dataset: Dataset) -> bytes:
 
 
 @BORROWED
-@given(
-    role=st.sampled_from(FileRole), path=NAMES | st.sampled_from([file_path(Job.from_id("far-000001"), FileRole.MASK)])
-)
-def test_a_manifest_names_its_own_files_alone(dataset: Dataset, manifest: bytes, role: FileRole, path: str) -> None:
+@given(output=st.sampled_from(OUTPUTS), path=NAMES | st.sampled_from([file_path(Job.from_id("far-000001"), MASK)]))
+def test_a_manifest_names_its_own_files_alone(dataset: Dataset, manifest: bytes, output: Output, path: str) -> None:
     """One that names another file, be it another job's of this dataset, is none of this job."""
     job = Job.from_id("far-000000")
     assert parse_manifest(manifest, dataset, job) is not None
     altered = json.loads(manifest)
-    altered["files"][role]["path"] = path
+    altered["files"][output.folder]["path"] = path
     assert parse_manifest(json.dumps(altered).encode(), dataset, job) is None
 
 
@@ -114,7 +113,7 @@ def test_a_manifest_that_names_a_secret_file_is_not_followed(dataset: Dataset, m
     job = Job.from_id("far-000000")
     assert is_done(dataset, job)
     altered = json.loads(manifest)
-    altered["files"][FileRole.IMAGE]["path"] = "/dev/zero"  # reading it would never end
+    altered["files"][IMAGE.folder]["path"] = "/dev/zero"  # reading it would never end
     dataset.storage.write(manifest_path(job), json.dumps(altered).encode())
     assert not is_done(dataset, job)
 

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from farm.dataset.paths import FileRole, file_path, manifest_path
+from farm.dataset.outputs import OUTPUTS
+from farm.dataset.paths import file_path, manifest_path
 from farm.errors import MessageError
 from farm.spec.category import Category
 from farm.spec.job import MAX_INDEX, Job, JobMessage
@@ -77,7 +78,7 @@ def test_malformed_ids(text: str) -> None:
 @given(JOBS)
 def test_files_stay_in_the_category(job: Job) -> None:
     """Every path of a job is three plain parts, the category first."""
-    for path in [manifest_path(job), *(file_path(job, role) for role in FileRole)]:
+    for path in [manifest_path(job), *(file_path(job, output) for output in OUTPUTS)]:
         parts = path.split("/")
         assert len(parts) == 3
         assert parts[0] == job.category

@@ -95,18 +95,18 @@ def test_the_mask_of_bundles_ties_and_ends_is_that_of_a_render(
 ) -> None:
     """White cables and black ties, 64 samples: all but a few pixels that differ are about half covered."""
     made = renderer.make(Job(category=Category.CLOSE_CONCENTRATED, index=index), header)
-    assert made.instances.max() == 3 + 2 * index + 2
+    assert made.files["instances"].max() == 3 + 2 * index + 2
     rendered = render_coverage(made.scene.camera, samples=64)
-    assert compare(made.instances, rendered).iou > 0.985
-    differs = (made.mask > 0) != (rendered >= 0.5)
+    assert compare(made.files["instances"], rendered).iou > 0.985
+    differs = (made.files["mask"] > 0) != (rendered >= 0.5)
     assert np.count_nonzero(differs & (np.abs(rendered - 0.5) > 0.2)) <= 3
 
 
 def test_a_backdrop_takes_ties_for_what_covers(renderer: BlenderRenderer, header: DatasetHeader) -> None:
     """A far picture, where what is not covered is looked up: the ties' pixels are neither black nor see-through."""
     made = renderer.make(Job(category=Category.FAR, index=1), header)
-    assert made.image.shape == (RESOLUTION, RESOLUTION, 3)
-    assert np.isfinite(made.image).all()
+    assert made.files["image"].shape == (RESOLUTION, RESOLUTION, 3)
+    assert np.isfinite(made.files["image"]).all()
     ties = [item for item in bpy.data.objects if item.name.startswith(f"{names.CABLE}.0.")]
     assert ties
 

@@ -95,7 +95,7 @@ def photographed(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 def same(one: Picture, other: Picture) -> bool:
     """Picture and labels, to the byte."""
-    return one.image.tobytes() == other.image.tobytes() and one.instances.tobytes() == other.instances.tobytes()
+    return all(one.files[role].tobytes() == other.files[role].tobytes() for role in ("image", "instances"))
 
 
 @pytest.mark.parametrize("category", [Category.CLOSE_CONCENTRATED, Category.FAR])
@@ -122,9 +122,9 @@ def test_a_photograph_is_lit_and_masked(
     """Neither black nor white; its gradients are on the mask's edges rather than beside them."""
     with photographed(monkeypatch):
         made = renderer.make(Job(category=category, index=1), header)
-    assert 40 < made.image.mean() < 200
-    grey = made.image.astype(float).mean(axis=2)
+    assert 40 < made.files["image"].mean() < 200
+    grey = made.files["image"].astype(float).mean(axis=2)
     slope = np.hypot(*np.gradient(grey))
-    inside = made.mask == 255
+    inside = made.files["mask"] == 255
     edge = np.hypot(*np.gradient(inside.astype(float))) > 0
     assert slope[edge].mean() > 2 * slope[~edge].mean()

@@ -58,11 +58,11 @@ def renderer(baked: Path) -> BlenderRenderer:
 def test_every_category_gives_a_lit_picture_with_its_mask(renderer: BlenderRenderer, category: Category) -> None:
     """Cables are in the mask, and the picture is neither black nor flat."""
     made = renderer.make(Job(category=category, index=1), small_header())
-    assert made.image.shape == (128, 128, 3)
-    assert 5 < made.image.mean() < 250
-    assert made.image.std() > 3
-    assert 0.005 < np.mean(made.mask == 255) < 0.6
-    assert ((made.instances > 0) == (made.mask == 255)).all()
+    assert made.files["image"].shape == (128, 128, 3)
+    assert 5 < made.files["image"].mean() < 250
+    assert made.files["image"].std() > 3
+    assert 0.005 < np.mean(made.files["mask"] == 255) < 0.6
+    assert ((made.files["instances"] > 0) == (made.files["mask"] == 255)).all()
 
 
 def test_a_header_without_settings_is_refused(baked: Path) -> None:
@@ -79,8 +79,8 @@ def test_a_cable_pixel_looks_unlike_the_picture_without_cables(renderer: Blender
     made = renderer.make(Job(category=Category.CLOSE_CONCENTRATED, index=1), header)
     for cable in [item for item in bpy.data.objects if item.name.startswith("cable.")]:
         cable.hide_render = True
-    change = np.abs(render_picture().astype(int) - made.image.astype(int)).mean(axis=2)
-    assert change[made.mask == 255].mean() > 5 * change[made.mask == 0].mean()
+    change = np.abs(render_picture().astype(int) - made.files["image"].astype(int)).mean(axis=2)
+    assert change[made.files["mask"] == 255].mean() > 5 * change[made.files["mask"] == 0].mean()
 
 
 def test_a_picture_does_not_depend_on_those_before_it(renderer: BlenderRenderer, baked: Path) -> None:
@@ -91,8 +91,8 @@ def test_a_picture_does_not_depend_on_those_before_it(renderer: BlenderRenderer,
     fresh = open_renderer(header, device="cpu", threads=1, assets=baked)
     for job, before in reversed(list(zip(jobs, used, strict=True))):
         after = fresh.make(job, header)
-        assert after.image.tobytes() == before.image.tobytes(), job.id
-        assert after.instances.tobytes() == before.instances.tobytes(), job.id
+        assert after.files["image"].tobytes() == before.files["image"].tobytes(), job.id
+        assert after.files["instances"].tobytes() == before.files["instances"].tobytes(), job.id
         assert after.scene == before.scene
 
 
@@ -101,7 +101,7 @@ def test_a_mask_agrees_with_an_emission_render(baked: Path, category: Category) 
     """White cables on black, 64 samples, at 512 pixels: edges within half a pixel, save in gaps between cables."""
     header = small_header(resolution=512)
     made = open_renderer(header, device="cpu", threads=0, assets=baked).make(Job(category=category, index=0), header)
-    agreement = compare(made.instances, render_coverage(made.scene.camera, samples=64))
+    agreement = compare(made.files["instances"], render_coverage(made.scene.camera, samples=64))
     assert agreement.iou > 0.97
     assert agreement.edge_error_px <= 0.5
     assert agreement.gap_pixels < 50
@@ -133,7 +133,8 @@ def test_the_wind_moves_the_cables(baked: Path) -> None:
     windy = small_header(ranges={"wind": {"strength": [10.0, 10.0]}})
     job = Job(category=Category.FAR, index=2)
     masks = [
-        open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header).mask for header in (calm, windy)
+        open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header).files["mask"]
+        for header in (calm, windy)
     ]
     assert np.mean(masks[0] != masks[1]) > 0.001
 
@@ -210,7 +211,7 @@ def test_another_lens_in_the_template_does_not_spoil_the_masks(tmp_path: Path, b
     job = Job(category=Category.FAR, index=1)
     ours = open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header)
     theirs = open_renderer(artists, device="cpu", threads=0, assets=baked).make(job, artists)
-    assert theirs.image.tobytes() == ours.image.tobytes()
+    assert theirs.files["image"].tobytes() == ours.files["image"].tobytes()
 
 
 def test_an_unknown_device_is_refused() -> None:
@@ -236,7 +237,7 @@ def test_eevee_renders_headless(baked: Path) -> None:
         header = small_header(engine=engine, resolution=64)
         made = open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header)
         assert made.render.engine == engine
-        pictures.append(made.image.astype(float))
+        pictures.append(made.files["image"].astype(float))
     assert np.corrcoef(pictures[0].ravel(), pictures[1].ravel())[0, 1] > 0.9
 
 
@@ -248,8 +249,8 @@ def test_a_photograph_stands_behind_far_cables(baked: Path, tmp_path: Path) -> N
     job = Job(category=Category.FAR, index=0)
     for header, is_red in ((named, True), (plain, False)):
         made = open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header)
-        far = cv2.dilate(made.mask, np.ones((9, 9), np.uint8)) == 0
-        red, green, blue = (np.median(made.image[far][:, channel]) for channel in range(3))
+        far = cv2.dilate(made.files["mask"], np.ones((9, 9), np.uint8)) == 0
+        red, green, blue = (np.median(made.files["image"][far][:, channel]) for channel in range(3))
         assert bool(red > 1.5 * max(green, blue)) == is_red
 
 
@@ -258,4 +259,4 @@ def test_labels_without_a_render_cover_what_the_mask_does(renderer: BlenderRende
     header = small_header()
     job = Job(category=Category.CLOSE_ALIGNED_CONCENTRATED, index=2)
     *_, last = drawn_coverage(header, job.category, job.index + 1)
-    assert last == np.mean(renderer.make(job, header).mask > 0)
+    assert last == np.mean(renderer.make(job, header).files["mask"] > 0)

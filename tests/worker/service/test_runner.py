@@ -12,7 +12,8 @@ from celery.exceptions import SoftTimeLimitExceeded
 from farm.dataset.completion import is_done
 from farm.dataset.dataset import Dataset
 from farm.dataset.manifest import Manifest
-from farm.dataset.paths import FileRole, file_path, manifest_path, quarantine_path
+from farm.dataset.outputs import IMAGE, MASK, OUTPUTS
+from farm.dataset.paths import file_path, manifest_path, quarantine_path
 from farm.dataset.quarantine import Quarantine, QuarantineRecord, put_in_quarantine
 from farm.errors import (
     AssetError,
@@ -60,7 +61,7 @@ def test_makes_the_job(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger
     runner.run(dataset.message(JOB).encode())
     assert is_done(dataset, JOB)
     assert ledger.claims() == {}
-    assert ledger.activity().last_picture == file_path(JOB, FileRole.IMAGE)
+    assert ledger.activity().last_picture == file_path(JOB, IMAGE)
 
 
 def test_manifest_vouches_for_the_files(dataset: Dataset, runner: JobRunner) -> None:
@@ -69,10 +70,10 @@ def test_manifest_vouches_for_the_files(dataset: Dataset, runner: JobRunner) -> 
     manifest = Manifest.model_validate_json(dataset.storage.read(manifest_path(JOB)))
     assert manifest.job_id == JOB.id
     assert manifest.timings_s.keys() == {"render", "write"}
-    for role in FileRole:
-        content = dataset.storage.read(file_path(JOB, role))
-        assert manifest.files[role].bytes == len(content)
-        assert manifest.files[role].sha256 == hashlib.sha256(content).hexdigest()
+    for output in OUTPUTS:
+        content = dataset.storage.read(file_path(JOB, output))
+        assert manifest.files[output.folder].bytes == len(content)
+        assert manifest.files[output.folder].sha256 == hashlib.sha256(content).hexdigest()
 
 
 def test_second_time_does_nothing(dataset: Dataset, runner: JobRunner) -> None:
@@ -86,10 +87,10 @@ def test_second_time_does_nothing(dataset: Dataset, runner: JobRunner) -> None:
 def test_same_job_same_bytes(dataset: Dataset, runner: JobRunner) -> None:
     """A picture that is made again is the same."""
     runner.run(dataset.message(JOB).encode())
-    first = dataset.storage.read(file_path(JOB, FileRole.IMAGE))
+    first = dataset.storage.read(file_path(JOB, IMAGE))
     dataset.storage.remove(manifest_path(JOB))
     runner.run(dataset.message(JOB).encode())
-    assert dataset.storage.read(file_path(JOB, FileRole.IMAGE)) == first
+    assert dataset.storage.read(file_path(JOB, IMAGE)) == first
 
 
 def test_claimed_elsewhere(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
@@ -469,7 +470,7 @@ def test_duplicates_are_no_starts(dataset: Dataset, runner: JobRunner) -> None:
     """However often a finished job is delivered again, it may be made again when its picture is damaged."""
     for _ in range(MAX_STARTS + 2):
         runner.run(dataset.message(JOB).encode())
-    dataset.storage.write(file_path(JOB, FileRole.MASK), b"damaged")
+    dataset.storage.write(file_path(JOB, MASK), b"damaged")
     assert runner.run(dataset.message(JOB).encode()).made
     assert given_up(dataset) == {}
 

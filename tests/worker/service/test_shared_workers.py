@@ -10,7 +10,8 @@ import pytest
 
 from farm.cli.mending import repair, retry
 from farm.dataset.dataset import Dataset
-from farm.dataset.paths import FileRole, file_path, manifest_path, quarantine_path
+from farm.dataset.outputs import IMAGE
+from farm.dataset.paths import file_path, manifest_path, quarantine_path
 from farm.dataset.quarantine import Quarantine, QuarantineRecord, put_in_quarantine
 from farm.dataset.verify import verify
 from farm.errors import RunCancelledError
@@ -149,7 +150,7 @@ def test_retry(farm: LiveFarm, capsys: pytest.CaptureFixture[str]) -> None:
 def test_repair_with_checksums(farm: LiveFarm, capsys: pytest.CaptureFixture[str]) -> None:
     """An image that rotted, as only its checksum tells, is made again by `farm repair --checksums`."""
     dataset = made(farm, "repaired")
-    path = file_path(Job.from_id("far-000002"), FileRole.IMAGE)
+    path = file_path(Job.from_id("far-000002"), IMAGE)
     whole = dataset.storage.read(path)
     altered = bytearray(whole)
     altered[-20] ^= 1
