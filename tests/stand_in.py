@@ -1,6 +1,6 @@
-"""A maker without Blender: draws noise from the job's own seed, so the queue can be tested in seconds.
+"""A renderer without Blender: draws noise from the job's own seed, so the queue can be tested in seconds.
 
-As a program it is a worker with this maker: `python -P tests/stand_in.py serve ...`. Environment variables make it
+As a program it is a worker with this renderer: `python -P tests/stand_in.py serve ...`. Environment variables make it
 slow or failing: `STAND_IN_DELAY_S`; `STAND_IN_UNFIT` with a reason why it can't be opened; and `STAND_IN_FAILS` with
 `job id=kind` pairs. The kinds: `permanent`; `passing`, which never passes; `once` in each process; `crash` of the
 process; `segfault`, a real one; `hang`; `bloat`, which takes 400 MiB and hangs; `asset`, which this machine lacks;

@@ -89,7 +89,7 @@ class BlenderRenderer:
         """
         if header.spec_sha256 != self._fingerprint:
             raise ValueError("this renderer was opened for another dataset")
-        watch = Stopwatch()
+        watch = Stopwatch()  # its stages have the names that manifests hold
         # Opening is paid once, by the first picture of the process.
         watch.stages_s["open"], self._open_s = self._open_s, 0.0
         spec, chosen = header.spec, _chosen_settings(header, job.category)

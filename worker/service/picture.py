@@ -1,4 +1,4 @@
-"""What a maker hands over for upload, and the port that workers call."""
+"""What a renderer hands over for upload, and the port that workers call."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
