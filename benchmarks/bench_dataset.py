@@ -1,4 +1,4 @@
-"""The dataset that a benchmark renders: so many images of every category, from the built-in assets."""
+"""The dataset that a benchmark renders: the same number of images of every category, from the built-in assets."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,4 @@
-"""A farm of real workers with the stand-in maker, on a Redis, a store and logs of its own."""
+"""A farm of real workers with the stand-in renderer, on a Redis, a store and logs of its own."""
 
 import os
 import signal

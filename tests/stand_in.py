@@ -123,7 +123,8 @@ def _made_labels(job: Job, header: DatasetHeader, outputs: list[Output], place: 
     """Labels of a straight cable that lies `place`, 0 to 1, of the picture's height below its top."""
     # They bring SciPy, which would slow the start of every stand-in.
     from worker.camera.view import View  # noqa: PLC0415
-    from worker.label.makers import LabelInputs, make_labels  # noqa: PLC0415
+    from worker.geometry import SettledGeometry  # noqa: PLC0415
+    from worker.label.makers import make_labels  # noqa: PLC0415
     from worker.simulate.shapes import CableShapes  # noqa: PLC0415
 
     scene = stand_in_scene(job)
@@ -139,7 +140,7 @@ def _made_labels(job: Job, header: DatasetHeader, outputs: list[Output], place: 
         fall_s=0.0,
         steps=0,
     )
-    return make_labels(LabelInputs(scene, shapes, CableDetail(), header.spec.resolution), outputs)
+    return make_labels(SettledGeometry(scene, shapes, CableDetail(), header.spec.resolution), outputs)
 
 
 class StandInRenderer:

@@ -22,7 +22,7 @@ from farm.dataset.verify import Fault, Finding, verify
 from farm.errors import RenderError
 from farm.spec.job import Job
 from tests.stand_in import StandInRenderer, stand_in_scene
-from worker.label.makers import LabelInputs
+from worker.geometry import SettledGeometry
 from worker.service.upload import upload
 
 JOB = Job.from_id("far-000001")
@@ -48,7 +48,7 @@ def _fewer_than_seen(content: Any, instances: Any) -> str | None:
     return "counts fewer cables than are seen" if content["cables"] < len(set(instances.flat) - {0}) else None
 
 
-def count_cables(geometry: LabelInputs) -> Mapping[str, Any]:
+def count_cables(geometry: SettledGeometry) -> Mapping[str, Any]:
     """Makes the label."""
     return {"cable_count": {"cables": len(geometry.scene.cables)}}
 

@@ -15,13 +15,13 @@ _SAME_SO_FAR = 128
 
 
 def render_coverage(camera: Camera, samples: int = SAMPLES) -> NDArray[np.float64]:
-    """Render the cables of the realized scene white on black.
+    """Render the cables of the built scene white on black.
 
     The lens is the picture's, depth of field included. The floor, the lamps and the world are left out, which changes
-    the open scene: realize it again before another picture.
+    the open scene: build it again before another picture.
 
     Args:
-        camera: of the realized scene; Blender knows all of it but the distortion.
+        camera: the built scene's camera; Blender knows all of it but the distortion.
         samples: Cycles samples a pixel.
 
     Returns:

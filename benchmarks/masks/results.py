@@ -31,10 +31,10 @@ class LabelledImage:
     """One picture's result.
 
     Attributes:
-        category: of the picture.
-        width_px: of the thinnest cable on the floor.
+        category: the picture's category.
+        width_px: width of the thinnest cable on the floor.
         label_ms: CPU milliseconds that labelling takes, on one core.
-        agreement: of the mask with the reference.
+        agreement: how the mask agrees with the reference.
     """
 
     category: Category

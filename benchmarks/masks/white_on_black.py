@@ -12,10 +12,10 @@ from worker.cable.piece import OCCLUDER
 
 @contextmanager
 def white_on_black() -> Iterator[Any]:
-    """Show the cables of the realized scene so inside `with`.
+    """Show the built scene's cables white on black inside `with`.
 
     The lens is the picture's, depth of field included. The floor, the lamps and the world are left out. Cables and
-    lamps stay as they are made here: realize the scene again before another picture. What hides cables is black.
+    lamps stay changed: build the scene again before another picture. What hides cables is black.
 
     Yields:
         The picture's scene.

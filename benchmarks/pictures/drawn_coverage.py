@@ -1,7 +1,7 @@
 """How much of a picture cables cover, over more scenes than are rendered: labels need no render.
 
-Pictures of a category differ by five points in a hundred, so that the mean of the thirty that a small dataset has of it
-is known to a point; what the published examples show is a range of two.
+Coverage differs by five percentage points between pictures of a category, so the mean of the thirty that a small
+dataset has of it is known to a point; the published examples range over two points.
 """
 
 from collections.abc import Iterator
@@ -12,6 +12,7 @@ from farm.spec.category import Category
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.spec.rendering import CableDetail
+from worker.geometry import SettledGeometry
 from worker.label.label import label_scene
 from worker.sample.scene import sample_scene
 from worker.simulate.rod.fall import drop_cables
@@ -21,9 +22,9 @@ def drawn_coverage(header: DatasetHeader, category: Category, scenes: int) -> It
     """The share of each of a category's first scenes that shows a cable, as rods settle in it.
 
     Args:
-        header: of the dataset.
-        category: one of its own.
-        scenes: how many; more than the dataset has images of it, if that is wanted.
+        header: the dataset's header.
+        category: one of the dataset's categories.
+        scenes: number of scenes; it may exceed the dataset's images of the category.
 
     Raises:
         SceneError: if a fall diverges.
@@ -31,5 +32,5 @@ def drawn_coverage(header: DatasetHeader, category: Category, scenes: int) -> It
     for index in range(scenes):
         scene = sample_scene(header, Job(category=category, index=index), 0)
         shapes = drop_cables(scene, header.spec.fall.rod)
-        labels = label_scene(scene, shapes, CableDetail(), header.spec.resolution)
-        yield float(np.mean(labels.mask > 0))
+        geometry = SettledGeometry(scene, shapes, CableDetail(), header.spec.resolution)
+        yield float(np.mean(label_scene(geometry).mask > 0))

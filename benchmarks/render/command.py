@@ -17,10 +17,10 @@ from farm.errors import VerificationError
 from farm.spec.category import Category
 
 DEFAULT_SCENES = 4
-"""Of each category."""
+"""Scenes of each category that all ladders of samples are rendered on."""
 
 DEFAULT_TURN_SCENES = 1
-"""Of each category, of which single settings are turned."""
+"""Scenes of each category that single settings are turned on."""
 
 RESOLUTION = 512
 
@@ -29,10 +29,10 @@ def run(out: Path, *, seed: int, scenes: int | None, turn_scenes: int | None) ->
     """Measure, print, write `render.json`, `render.png` and `calibration.json` into `out`.
 
     Args:
-        out: a folder that is there.
-        seed: of the scenes.
-        scenes: of each category, for the ladder of samples.
-        turn_scenes: of them, for the settings turned one at a time.
+        out: existing folder for the results.
+        seed: seed of the dataset whose scenes are used.
+        scenes: number of scenes of each category for the ladder of samples; None for `DEFAULT_SCENES`.
+        turn_scenes: number of these scenes for the settings turned one at a time; None for `DEFAULT_TURN_SCENES`.
 
     Raises:
         VerificationError: if a setting changed a picture that may not.
@@ -47,7 +47,7 @@ def run(out: Path, *, seed: int, scenes: int | None, turn_scenes: int | None) ->
     references = References(header, stage, RESOLUTION)
     missing = sum(not references.path(scene).exists() for scene in settled)
     if missing:
-        console.print(f"{missing} references are to be rendered first, a few minutes each; they are kept")
+        console.print(f"{missing} references are rendered first, a few minutes each; they are kept")
     climbing = Measurement(stage, references, log_file)
     turning = Measurement(stage, references, log_file)
     few = len(Category) * (DEFAULT_TURN_SCENES if turn_scenes is None else turn_scenes)
@@ -83,4 +83,4 @@ def run(out: Path, *, seed: int, scenes: int | None, turn_scenes: int | None) ->
 
 
 _BASE_FIRST = Variant("base first", Group.SAMPLES, BASE)
-"""Rendered before the turns and not counted, so that each of them follows the same."""
+"""Rendered before the turns and not counted, so that all turns follow the same picture."""

@@ -22,8 +22,10 @@ from farm.spec.rendering import CableDetail, PictureSettings
 from worker.curves import Points, smooth
 
 _FINE = CableDetail(sides=64, points_per_segment=10)
+"""The very fine tube that others are compared with."""
+
 _BEVEL_RESOLUTION = 8
-"""Of a curve: 20 sides."""
+"""Blender's resolution of a curve's bevel that gives 20 sides."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,8 +33,10 @@ class GeometryRow:
     """A kind of geometry on one scene.
 
     Attributes:
-        build_s: seconds to make the cables' geometry, and to set the rest of the scene.
-        render_s: seconds to render.
+        kind: name of the kind.
+        cables: number of cables in the scene.
+        build_s: seconds to build the scene with this geometry.
+        render_s: seconds to render it.
         flip: mean FLIP against a very fine tube at the same samples.
     """
 

@@ -19,9 +19,9 @@ class Measurement:
     """Renders scenes and keeps what was found.
 
     Args:
-        stage: the open template.
-        references: what pictures are compared with.
-        log_file: takes Blender's output.
+        stage: the open renderer.
+        references: pictures to compare with.
+        log_file: destination of Blender's output.
     """
 
     def __init__(self, stage: Stage, references: References, log_file: Path) -> None:
@@ -35,13 +35,13 @@ class Measurement:
             for variant in variants:
                 start = time.perf_counter()
                 self._stage.set(settled, variant.settings)
-                realized = time.perf_counter()
+                built = time.perf_counter()
                 picture = self._stage.render()
                 rendered = time.perf_counter()
                 shot = Shot(
                     scene=settled.job.id,
-                    realize_s=realized - start,
-                    render_s=rendered - realized,
+                    build_s=built - start,
+                    render_s=rendered - built,
                     errors=errors(middle(picture), reference),
                     sha256=hashlib.sha256(picture.tobytes()).hexdigest(),
                 )

@@ -1,4 +1,4 @@
-"""Pictures almost free of noise, with nothing left out, that others are compared with; rendered once and kept."""
+"""Pictures almost free of noise, with nothing left out, to compare others with; rendered once and kept."""
 
 import hashlib
 from pathlib import Path
@@ -18,17 +18,17 @@ from farm.spec.make_header import template_ref
 from farm.spec.quality import REFERENCE
 
 VERSION = 1
-"""To be raised when references must be rendered anew, since the farm shows the same scene otherwise."""
+"""Version of the references. A change of how the farm shows scenes raises it, so that they are rendered again."""
 
 SHARE = 0.5
-"""Of a picture's edge that its reference covers, about the middle, where the cables are: a quarter of the time."""
+"""Share of a picture's edge that its reference covers, about the middle, where cables are: a quarter of the time."""
 
 SEED = 0x5EED
-"""Of the references' sampling, so that they share no noise with what is compared."""
+"""Seed of the references' sampling, which no scene has: they share no noise with what is compared."""
 
 
 class References:
-    """A folder of reference pictures, each named by all that decides it."""
+    """A folder of reference pictures, each named by everything that decides it."""
 
     def __init__(self, header: DatasetHeader, stage: Stage, resolution: int, folder: Path | None = None) -> None:
         """Look up nothing yet; `folder` is the farm's cache if not given."""

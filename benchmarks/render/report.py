@@ -113,7 +113,7 @@ def verdicts(calibration: Calibration) -> Iterator[str]:
             seconds += category.traits.weight * chosen.seconds
             weights += category.traits.weight
         if weights == sum(category.traits.weight for category in Category):
-            yield f"{preset}: {seconds / weights:.2f} s over the published mix, realizing and rendering"
+            yield f"{preset}: {seconds / weights:.2f} s over the published mix, building and rendering"
 
 
 def write_json(path: Path, rows: Sequence[Row], shapes: Sequence[GeometryRow], *, seed: int) -> None:
@@ -135,7 +135,7 @@ def write_json(path: Path, rows: Sequence[Row], shapes: Sequence[GeometryRow], *
                 "shots": [
                     {
                         "scene": shot.scene,
-                        "realize_s": shot.realize_s,
+                        "realize_s": shot.build_s,
                         "render_s": shot.render_s,
                         "flip": shot.errors.flip,
                         "psnr_db": shot.errors.psnr_db,
@@ -172,7 +172,7 @@ def write_plot(path: Path, rows: Sequence[Row]) -> None:
         axes.set_yticks(_FLIPS, [f"{flip:g}" for flip in _FLIPS])
         axes.minorticks_off()
         axes.grid(visible=True, color="0.92")
-        axes.set_xlabel("seconds, realizing and rendering")
+        axes.set_xlabel("seconds, building and rendering")
         axes.set_ylabel("mean FLIP")
     panels.flat[0].legend(title="numbers: samples a pixel", fontsize="small")
     figure.savefig(path, dpi=110)

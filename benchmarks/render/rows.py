@@ -15,13 +15,15 @@ class Shot:
     """One scene rendered with a variant.
 
     Attributes:
-        realize_s: seconds to set the scene.
+        scene: id of the scene's job.
+        build_s: seconds to build the scene.
         render_s: seconds to render it.
-        sha256: of the picture.
+        errors: the picture's errors against the scene's reference.
+        sha256: checksum of the picture.
     """
 
     scene: str
-    realize_s: float
+    build_s: float
     render_s: float
     errors: Errors
     sha256: str
@@ -37,8 +39,8 @@ class Row:
 
     @property
     def seconds(self) -> float:
-        """Of realizing and rendering, mean."""
-        return float(np.mean([shot.realize_s + shot.render_s for shot in self.shots]))
+        """Mean seconds of building and rendering."""
+        return float(np.mean([shot.build_s + shot.render_s for shot in self.shots]))
 
     @property
     def flip(self) -> float:
@@ -67,7 +69,7 @@ def idle_settings(rows: Sequence[Row]) -> list[str]:
     Either nothing in these scenes is touched by them, or they did not act.
 
     Args:
-        rows: of all categories, with those of the variant called "base".
+        rows: rows of all categories, among them those of the variant called "base".
     """
     return [variant.name for variant, same in _against_base(rows) if same and not variant.same_picture]
 

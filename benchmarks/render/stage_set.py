@@ -2,23 +2,22 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
+import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from blend.build import TEMPLATE
-from blend.contract import open_template
+from blend import names
 from farm.errors import RenderError
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
-from farm.spec.rendering import PictureSettings
-from worker.backdrop.matte import Backdrop
-from worker.blender.asset_files import AssetLibrary
-from worker.blender.build_scene import build_scene
-from worker.blender.image_cache import ImageCache
-from worker.blender.render import configure_cycles, configure_picture, render_scene
+from farm.spec.rendering import CableDetail, PictureSettings
+from worker.blender.build_scene import BuiltScene
+from worker.blender.renderer import open_renderer
+from worker.geometry import SettledGeometry
 from worker.sample.scene import sample_scene
 from worker.simulate.shapes import CableShapes
 from worker.simulate.simulate import simulate
@@ -32,6 +31,10 @@ class SettledScene:
     scene: Scene
     shapes: CableShapes
 
+    def geometry(self, detail: CableDetail, resolution: int) -> SettledGeometry:
+        """Its geometry in a picture of some detail and resolution."""
+        return SettledGeometry(self.scene, self.shapes, detail, resolution)
+
 
 def settle(header: DatasetHeader, categories: tuple[Category, ...], count: int) -> Iterator[SettledScene]:
     """Let the cables of `count` scenes of each category fall, the categories taking turns."""
@@ -43,58 +46,60 @@ def settle(header: DatasetHeader, categories: tuple[Category, ...], count: int) 
 
 
 class Stage:
-    """The farm's template, open, with the assets that a header names."""
+    """The farm's renderer on the CPU, with one scene at a time built in it."""
 
     def __init__(self, header: DatasetHeader, resolution: int) -> None:
-        """Open it in this process."""
-        open_template(TEMPLATE)
-        self._library = AssetLibrary(header, None)
-        self._image_cache = ImageCache()
+        """Open the template that a header names, with the header's assets, in this process."""
+        self._renderer = open_renderer(header, device="cpu", threads=0, assets=None)
         self._resolution = resolution
-        self._behind: Backdrop | None = None
-        self._scene: Scene | None = None
+        self._set: tuple[SettledGeometry, BuiltScene] | None = None
 
     def set(
         self,
         settled: SettledScene,
         settings: PictureSettings,
         *,
-        threads: int = 0,
         seed: int | None = None,
         resolution: int | None = None,
         share: float = 1.0,
     ) -> None:
-        """Realize a scene and set how it renders, on the CPU.
+        """Build a scene and set how it renders.
 
         Args:
             settled: the scene.
-            settings: of the picture.
-            threads: 0 takes all cores.
-            seed: of the sampling, instead of the scene's.
-            resolution: instead of the stage's.
-            share: of the picture's edge that is rendered, about its middle.
+            settings: all settings of the picture.
+            seed: number that starts the sampling pattern; None for the scene's own.
+            resolution: pixels along an edge; None for the stage's.
+            share: share of the picture's edge that is rendered, about its middle.
         """
         resolution = resolution or self._resolution
-        self._scene = settled.scene
-        self._behind = build_scene(
-            settled.scene,
-            settled.shapes,
-            self._library,
-            self._image_cache,
-            traits=settled.job.category.traits,
-            resolution=resolution,
-            detail=settings.detail,
-            economy=settings.economy,
-        )
-        scene = configure_picture(resolution, threads)
-        configure_cycles(scene, settings, "cpu", settled.scene.render_seed if seed is None else seed)
-        render = scene.render
+        geometry = settled.geometry(settings.detail, resolution)
+        self._set = geometry, self._renderer.build(geometry, settings.economy)
+        self._renderer.use_cycles(settings, resolution, settled.scene.render_seed if seed is None else seed)
+        render = bpy.data.scenes[names.PICTURE_SCENE].render
         render.use_border = render.use_crop_to_border = share < 1.0
         render.border_min_x = render.border_min_y = 0.5 - share / 2
         render.border_max_x = render.border_max_y = 0.5 + share / 2
 
     def render(self) -> NDArray[np.uint8]:
-        """The picture (H, W, 3) as set."""
-        if self._scene is None:
-            raise RenderError("nothing is set to be rendered")
-        return render_scene(self._scene, self._behind)
+        """The picture (H, W, 3) as set.
+
+        Raises:
+            RenderError: if nothing is set, or Blender gives no picture.
+        """
+        _, built = self._what_is_set()
+        return self._renderer.render(built)
+
+    def label(self) -> dict[str, Any]:
+        """The labels of the scene as set, by role.
+
+        Raises:
+            RenderError: if nothing is set.
+        """
+        geometry, _ = self._what_is_set()
+        return self._renderer.label(geometry)
+
+    def _what_is_set(self) -> tuple[SettledGeometry, BuiltScene]:
+        if self._set is None:
+            raise RenderError("no scene is set")
+        return self._set

@@ -19,12 +19,12 @@ LADDER = (2, 4, 6, 8, 12, 16)
 """Samples a pixel, with the denoiser."""
 
 PLAIN_LADDER = (16, 32)
-"""Without it."""
+"""Samples without a denoiser."""
 
 BASE = PictureSettings(
     cycles=CyclesSettings(samples=8, caustics=True, pattern=Pattern.BLUE_NOISE, prefilter=Prefilter.FAST)
 )
-"""From which one setting at a time is turned."""
+"""The settings from which one at a time is turned."""
 
 
 class Group(StrEnum):

@@ -25,12 +25,12 @@ mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first
 
 DEFAULT_SCENES = 2
-"""Of each category."""
+"""Scenes of each category."""
 
 RESOLUTION = 512
 
 _REPEATS = 2
-"""Of each way, in turns; the faster counts, as nothing but other work on the machine makes one slower."""
+"""Repeats of each way, in turns; the fastest counts, as nothing but other work on the machine makes one slower."""
 
 
 def run(
@@ -44,11 +44,11 @@ def run(
     """Measure, print the table, write `skips.json` and `skips.png` into `out`.
 
     Args:
-        out: a folder that is there.
-        seed: of the scenes.
-        scenes: of each category.
+        out: existing folder for the results.
+        seed: seed of the dataset whose scenes are used.
+        scenes: number of scenes of each category; None for `DEFAULT_SCENES`.
         resolution: pixels along an edge.
-        categories: of the scenes.
+        categories: categories of the scenes.
 
     Raises:
         VerificationError: if leaving something out changed a picture that it may not change.

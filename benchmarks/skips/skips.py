@@ -29,12 +29,13 @@ Action = Callable[[], NDArray[np.uint8] | None]
 """What is timed; it returns the picture, where it makes one."""
 
 PUBLISHED_S = 4.0
-"""What the published 100 frames last."""
+"""Seconds that the 100 frames of the published fall last."""
 
 BLENDER_COMPRESSION = 15
-"""Of PNG files, in percent, where Blender is told nothing."""
+"""Compression of PNG files in percent that Blender takes if it is told nothing."""
 
 _BREATH_M_S = 1e-9
+"""Speed of a wind that is computed and moves nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,10 +43,11 @@ class Skip:
     """Something that is left out.
 
     Attributes:
-        stages: of the picture, that are timed.
-        categories: whose pictures do without it.
+        name: what is left out, in words.
+        stages: stages of the picture that are timed.
+        categories: categories whose pictures do without it.
         same_picture: whether a picture must be the same to the byte with it.
-        prepare: given a settled scene and whether it is left out, what is to be timed.
+        prepare: gives what to time, for a settled scene and whether it is left out.
     """
 
     name: str
@@ -73,9 +75,9 @@ class Skips:
     """All that is left out of the benchmark's scenes.
 
     Args:
-        stage: the open template.
-        header: of the scenes.
-        crowded: the same with as many cables in each scene as can be drawn.
+        stage: the open renderer.
+        header: header of the scenes.
+        crowded: the same header with as many cables in each scene as can be drawn.
     """
 
     def __init__(self, stage: Stage, header: DatasetHeader, crowded: DatasetHeader) -> None:
@@ -83,7 +85,7 @@ class Skips:
         self._library, self._image_cache = AssetLibrary(header, None), ImageCache()
 
     def all(self) -> Iterator[Skip]:
-        """Them, in the order of a picture's stages."""
+        """Everything that is left out, in the order of a picture's stages."""
         yield Skip("cables that are not shown", "simulate", ALL, False, self._unshown_cables)
         yield Skip("the fall after the cables rest", "simulate", ALL, False, self._rest)
         yield Skip("wind where it is still", "simulate", ALL, False, self._wind)

@@ -25,9 +25,9 @@ def run(out: Path, *, seed: int, starts: int | None) -> int:
     """Measure, print, write `startup.json` and `startup.png` into `out`.
 
     Args:
-        out: a folder that is there.
-        seed: of the picture.
-        starts: how often a worker is started.
+        out: existing folder for the results.
+        seed: seed of the picture's dataset.
+        starts: number of times that a worker is started.
 
     Raises:
         VerificationError: if a start made no picture.

@@ -60,9 +60,9 @@ def start_once(header: DatasetHeader, job: Job, folder: Path) -> Start:
     """Start a process that makes a picture twice.
 
     Args:
-        header: of the picture's dataset.
-        job: the picture.
-        folder: takes the result and the process's output.
+        header: header of the picture's dataset.
+        job: the picture's job.
+        folder: destination of the result and the process's output.
 
     Raises:
         VerificationError: if it made no picture, or not the same twice.

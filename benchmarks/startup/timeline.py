@@ -27,10 +27,10 @@ def main(spawned_s: float, result: str) -> None:
 
     header, job = watch.read_task(sys.stdin.read())
     pause_s = time.perf_counter() - marks[-1]
-    with watch.asset_checks() as assets:
-        renderer = worker.blender.renderer.open_renderer(header, device="auto", threads=0, assets=None)
-        marks.append(time.perf_counter())
-        pictures = [watch.make(renderer, job, header, assets) for _ in range(2)]
+    library = watch.TimedLibrary(header)
+    renderer = worker.blender.renderer.BlenderRenderer(header, library, device="auto", threads=0)
+    marks.append(time.perf_counter())
+    pictures = [watch.make(renderer, job, header, library) for _ in range(2)]
     watch.write(result, marks, pause_s, pictures)
 
 

@@ -4,10 +4,8 @@ import hashlib
 import json
 import sys
 import time
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from unittest.mock import patch
 
 from numba.core.dispatcher import Dispatcher
 
@@ -15,8 +13,7 @@ from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from worker.blender.asset_files import AssetLibrary, SurfaceFiles
 from worker.service.picture import Renderer
-
-Seconds = dict[str, float]
+from worker.stopwatch import Stopwatch
 
 
 def read_task(text: str) -> tuple[DatasetHeader, Job]:
@@ -25,41 +22,44 @@ def read_task(text: str) -> tuple[DatasetHeader, Job]:
     return DatasetHeader.model_validate_json(header), Job.from_id(job_id)
 
 
-@contextmanager
-def asset_checks() -> Iterator[Seconds]:
-    """Seconds that a studio opened inside has spent so far on finding and checking asset files, under `assets`."""
-    seconds = {"assets": 0.0}
+class TimedLibrary(AssetLibrary):
+    """A library that counts the time it takes.
 
-    class TimedLibrary(AssetLibrary):
-        """A library that notes its time."""
+    Attributes:
+        watch: seconds spent on finding and checking asset files, under `assets`.
+    """
 
-        def surface(self, name: str) -> SurfaceFiles:
-            """Files of a surface."""
-            start = time.perf_counter()
-            files = super().surface(name)
-            seconds["assets"] += time.perf_counter() - start
-            return files
+    def __init__(self, header: DatasetHeader) -> None:
+        super().__init__(header, None)
+        self.watch = Stopwatch()
 
-        def hdri(self, name: str) -> Path:
-            """File of an HDRI."""
-            start = time.perf_counter()
-            path = super().hdri(name)
-            seconds["assets"] += time.perf_counter() - start
-            return path
+    def surface(self, name: str) -> SurfaceFiles:
+        """Files of a surface."""
+        with self.watch.stage("assets"):
+            return super().surface(name)
 
-    with patch("worker.blender.renderer.AssetLibrary", TimedLibrary):
-        yield seconds
+    def hdri(self, name: str) -> Path:
+        """File of an HDRI."""
+        with self.watch.stage("assets"):
+            return super().hdri(name)
 
 
-def make(renderer: Renderer, job: Job, header: DatasetHeader, assets: Seconds) -> Mapping[str, object]:
-    """Make a picture; its seconds by stage, `all` of them together, and a checksum of what was made."""
-    assets["assets"] = 0.0
+def make(renderer: Renderer, job: Job, header: DatasetHeader, library: TimedLibrary) -> Mapping[str, object]:
+    """Make a picture; its seconds by stage, and a checksum of what was made.
+
+    Args:
+        renderer: the open renderer.
+        job: the picture's job.
+        header: its dataset's header.
+        library: the renderer's own library.
+    """
+    library.watch = Stopwatch()
     start = time.perf_counter()
     made = renderer.make(job, header)
     all_s = time.perf_counter() - start
     stages = {stage: seconds for stage, seconds in made.timings_s.items() if stage != "open"}
-    stages["realize"] -= assets["assets"]
-    stages |= assets
+    stages["assets"] = library.watch.stages_s.get("assets", 0.0)
+    stages["realize"] -= stages["assets"]
     stages["other"] = all_s - sum(stages.values())
     digest = hashlib.sha256(made.files["image"].tobytes() + made.files["mask"].tobytes()).hexdigest()
     return {"seconds": stages, "sha256": digest, "device": made.render.device}
@@ -69,10 +69,10 @@ def write(result: str, marks: Sequence[float], pause_s: float, pictures: Sequenc
     """Write what was measured.
 
     Args:
-        result: the JSON file.
+        result: path of the JSON file.
         marks: the clock at spawning, at the first line, after both imports, and when the template was open.
-        pause_s: of the time between the last two, what the measurement itself took.
-        pictures: as made.
+        pause_s: seconds between the last two marks that the measurement itself took.
+        pictures: what `make` returned for each picture.
     """
     spawned, begun, farm, renderer, opened = marks
     content = {
@@ -85,7 +85,7 @@ def write(result: str, marks: Sequence[float], pause_s: float, pictures: Sequenc
 
 
 def _compiled_now() -> dict[str, int]:
-    """How many compiled functions that Python called were read from disk, and how many had to be compiled."""
+    """Number of compiled functions that were read from disk, and of those that had to be compiled."""
     ours = [vars(module).values() for name, module in sys.modules.items() if name.startswith("worker.")]
     # A function has its name in every module that imports it.
     functions = {id(member): member for members in ours for member in members if isinstance(member, Dispatcher)}

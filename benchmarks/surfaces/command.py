@@ -34,7 +34,7 @@ RESOLUTION = 512
 CATEGORY = Category.CLOSE_CONCENTRATED
 
 DEFAULT_SCENES = 1
-"""Each is measured twice: as new, and with wear."""
+"""Scenes that each surface is tried on, once as new and once with wear."""
 
 _WEAR = Wear(
     brightness=1.0,
@@ -48,15 +48,16 @@ _WEAR = Wear(
     pattern_seed=0,
     joints=JointFill(albedo=(0.2, 0.18, 0.15), cover=0.8, spread_m=0.0003),
 )
-"""The middle of the wide style's ranges, all of it at once."""
+"""All kinds of wear at once, each at the middle of its range in the style `wide`."""
 
 _REPEATS = 2
-"""Of each render, the plain one in turns with it; the cheapest counts."""
+"""Repeats of each render, in turns with that of the plain surface; the cheapest counts."""
 
 _MORE_REPEATS = 6
-"""Of one that seems too costly: other work on the machine makes a render dearer, never cheaper."""
+"""Repeats of a render that seems too costly: other work on the machine makes one dearer, never cheaper."""
 
 _PLAIN_LEVEL = 150
+"""Grey level of the plain surface."""
 
 
 def run(out: Path, *, seed: int, scenes: int | None, only: Sequence[str] = ()) -> int:
@@ -65,10 +66,10 @@ def run(out: Path, *, seed: int, scenes: int | None, only: Sequence[str] = ()) -
     Processor time is measured, not the clock's, as other work on the machine touches it less.
 
     Args:
-        out: a folder that is there.
-        seed: of the scenes.
-        scenes: on which each surface is tried.
-        only: surfaces to try; all if empty.
+        out: existing folder for the results.
+        seed: seed of the dataset whose scenes are used.
+        scenes: number of scenes that each surface is tried on; None for `DEFAULT_SCENES`.
+        only: names of the surfaces to try; all if empty.
 
     Raises:
         FarmError: if a scene can't be made.
@@ -101,7 +102,7 @@ def run(out: Path, *, seed: int, scenes: int | None, only: Sequence[str] = ()) -
 
 
 def _header_with_plain(header: DatasetHeader, folder: Path) -> DatasetHeader:
-    """With all of our surfaces, and one more, the last one, of one grey."""
+    """A header with all of our surfaces and, as the last one, a surface of one grey."""
     cv2.imwrite(str(folder / "plain_colour.png"), np.full((64, 64, 3), _PLAIN_LEVEL, np.uint8))
     assets = InstalledAssets()
     surfaces = (*assets.builtin_surfaces(Style.WIDE), *assets.surfaces_in(folder))
@@ -112,18 +113,18 @@ def _measure(stage: Stage, settled: Sequence[SettledScene], name: str, plain: st
     cost, settings = SurfaceCost(name, (), (), (), ()), settings_for(Preset.STANDARD, CATEGORY).settings
     for scene in settled:
         render: dict[str, list[float]] = {name: [], plain: []}
-        build_scene: dict[str, list[float]] = {name: [], plain: []}
+        build: dict[str, list[float]] = {name: [], plain: []}
         for _ in range(repeats):
             for texture in (name, plain):
                 shown = _with_floor(scene, texture=texture)
-                build_scene[texture].append(_cpu_s(partial(stage.set, shown, settings)))
+                build[texture].append(_cpu_s(partial(stage.set, shown, settings)))
                 render[texture].append(_cpu_s(stage.render))
         cost = replace(
             cost,
             render_s=(*cost.render_s, min(render[name])),
             plain_render_s=(*cost.plain_render_s, min(render[plain])),
-            realize_s=(*cost.realize_s, min(build_scene[name])),
-            plain_realize_s=(*cost.plain_realize_s, min(build_scene[plain])),
+            build_s=(*cost.build_s, min(build[name])),
+            plain_build_s=(*cost.plain_build_s, min(build[plain])),
         )
     return cost
 

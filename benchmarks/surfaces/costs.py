@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 MOST = 1.10
-"""A surface may cost so many times what a plain one does at render time."""
+"""Most CPU seconds of rendering a surface, over those of a plain one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,15 +14,18 @@ class SurfaceCost:
     """CPU seconds of one surface and of a plain one, in the same scenes.
 
     Attributes:
-        render_s: of rendering, for each scene; the same for `plain_render_s`.
-        realize_s: of setting the scene.
+        name: the surface.
+        render_s: seconds of rendering each scene with the surface.
+        plain_render_s: seconds of rendering each scene with the plain one.
+        build_s: seconds of building each scene with the surface.
+        plain_build_s: seconds of building each scene with the plain one.
     """
 
     name: str
     render_s: Sequence[float]
     plain_render_s: Sequence[float]
-    realize_s: Sequence[float]
-    plain_realize_s: Sequence[float]
+    build_s: Sequence[float]
+    plain_build_s: Sequence[float]
 
     @property
     def ratio(self) -> float:
@@ -31,9 +34,9 @@ class SurfaceCost:
 
     @property
     def whole_ratio(self) -> float:
-        """Setting the scene and rendering, likewise."""
-        plain = np.sum(self.plain_render_s) + np.sum(self.plain_realize_s)
-        return float((np.sum(self.render_s) + np.sum(self.realize_s)) / plain)
+        """Building and rendering over building and rendering the plain one."""
+        plain = np.sum(self.plain_render_s) + np.sum(self.plain_build_s)
+        return float((np.sum(self.render_s) + np.sum(self.build_s)) / plain)
 
 
 def too_costly(costs: Sequence[SurfaceCost]) -> list[SurfaceCost]:

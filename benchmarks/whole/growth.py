@@ -13,15 +13,15 @@ from benchmarks.physics.scenes import MOST_CABLES, crowd
 from benchmarks.render.stage_set import SettledScene, Stage
 from benchmarks.whole.plan import Plan
 from benchmarks.whole.rows import STAGES
-from benchmarks.whole.stopwatch import Stopwatch
 from benchmarks.whole.writing import write_files
+from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
-from worker.label.label import label_scene
 from worker.sample.scene import sample_scene
-from worker.simulate.checks.measure import measure
+from worker.simulate.settle import let_fall
 from worker.simulate.simulate import simulate
+from worker.stopwatch import Stopwatch
 
 
 class Axis(StrEnum):
@@ -62,13 +62,13 @@ def measure_growth(
 ) -> tuple[Point, ...]:
     """Make the same scenes at every resolution with the cables drawn, and with every number of cables.
 
-    Textures are read before a scene's clock runs. Scenes are not checked, as one with many cables might fail.
+    Textures are read before a scene's clock runs. No scene is rejected, as one with many cables might be.
 
     Args:
-        plan: which points, and how many scenes for each.
+        plan: the points, and the number of scenes for each.
         stage: the open template, with the assets of any header of the benchmark.
-        folder: takes the pictures.
-        on_picture: told after each.
+        folder: destination of the pictures.
+        on_picture: called after each picture.
 
     Raises:
         FarmError: if a picture can't be made.
@@ -100,13 +100,11 @@ def points(plan: Plan) -> Iterator[tuple[Axis, int]]:
 
 
 def _settle(header: DatasetHeader, job: Job, cables: int | None, watch: Stopwatch) -> SettledScene:
-    with watch.stage("randomize"):
-        scene = sample_scene(header, job, 0) if cables is None else crowd(header, job.category, job.index, cables)
-    with watch.stage("simulate"):
-        shapes = simulate(scene, header.spec.simulator, header.spec.fall)
-    with watch.stage("check"):
-        measure(shapes)
-    return SettledScene(job, scene, shapes)
+    def draw(attempt: int) -> Scene:
+        return sample_scene(header, job, attempt) if cables is None else crowd(header, job.category, job.index, cables)
+
+    fall = let_fall(0, draw, lambda scene: simulate(scene, header.spec.simulator, header.spec.fall), watch)
+    return SettledScene(job, fall.scene, fall.shapes)
 
 
 def _make(
@@ -119,7 +117,7 @@ def _make(
     with watch.stage("render"):
         image = stage.render()
     with watch.stage("mask"):
-        labels = label_scene(settled.scene, settled.shapes, settings.detail, resolution)
+        labels = stage.label()
     with watch.stage("write"):
-        write_files(folder, image=image, mask=labels.mask, instances=labels.instances)
+        write_files(folder, image=image, **labels)
     return watch.stages_s

@@ -10,16 +10,16 @@ class Plan:
     """What is measured.
 
     Attributes:
-        seed: of the scenes.
-        images: standard pictures of each category.
-        slow_images: of them, those whose scenes are made in the slow ways, too; at most `images`.
-        growth_images: scenes a point of the growth with resolution and with cables; 0 leaves it out.
-        resolution: pixels along an edge, but for the growth with it.
+        seed: seed of the dataset whose scenes are used.
+        images: number of standard pictures of each category.
+        slow_images: number of these whose scenes are made in the slow ways, too; at most `images`.
+        growth_images: number of scenes for each point of the growth with resolution and cables; 0 leaves it out.
+        resolution: pixels along an edge, except where growth with resolution is measured.
         errors: whether pictures are compared with references, which take minutes each where they are not kept.
-        categories: of the standard and the slow pictures.
-        growth_categories: one far and one close.
-        resolutions: of the growth, pixels along an edge.
-        counts: of the growth, cables.
+        categories: categories of the standard and the slow pictures.
+        growth_categories: categories of the scenes that growth is measured on, one far and one close.
+        resolutions: resolutions that growth is measured at, pixels along an edge.
+        counts: numbers of cables that growth is measured at.
     """
 
     seed: int = 0

@@ -11,19 +11,20 @@ from benchmarks.masks.white_on_black import white_on_black
 from benchmarks.render.stage_set import SettledScene, Stage
 from benchmarks.whole.renderings import BLENDER, set_picture
 from benchmarks.whole.rows import STAGES, Shot
-from benchmarks.whole.stopwatch import Stopwatch
 from benchmarks.whole.writing import write_files
-from farm.errors import SceneError, VerificationError
+from farm.errors import VerificationError
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.spec.simulation import Simulator
 from worker.blender.render import render_picture
 from worker.label.label import label_scene
 from worker.sample.scene import sample_scene
+from worker.simulate.settle import first_accepted
 from worker.simulate.simulate import simulate
+from worker.stopwatch import Stopwatch
 
 LEAST_AGREEMENT = 0.9
-"""Share of the pixels, of the rendered mask and of the cables' insides, that must be in the other within two pixels."""
+"""Least share of the rendered mask near the cables, and of the cables' insides in the rendered mask."""
 
 
 def make_published(stage: Stage, header: DatasetHeader, job: Job, folder: Path) -> Shot:
@@ -32,10 +33,10 @@ def make_published(stage: Stage, header: DatasetHeader, job: Job, folder: Path) 
     Nothing is checked between the fall and the picture. A fall that diverges is drawn again, and its seconds count.
 
     Args:
-        stage: the open template.
-        header: names the assets.
-        job: whose scene is drawn.
-        folder: takes the picture and the mask.
+        stage: the open renderer.
+        header: header that names the assets.
+        job: job whose scene is drawn.
+        folder: destination of the picture and the mask.
 
     Raises:
         SceneError: if no drawn scene came to an end.
@@ -58,16 +59,14 @@ def make_published(stage: Stage, header: DatasetHeader, job: Job, folder: Path) 
 
 
 def _settle(header: DatasetHeader, job: Job, watch: Stopwatch) -> SettledScene:
-    fault = ""
-    for attempt in range(header.spec.fall.max_attempts):
+    def attempt(number: int) -> SettledScene:
         with watch.stage("randomize"):
-            scene = sample_scene(header, job, attempt)
-        try:
-            with watch.stage("simulate"):
-                return SettledScene(job, scene, simulate(scene, Simulator.CLOTH_PUBLISHED, header.spec.fall))
-        except SceneError as error:
-            fault = str(error)
-    raise SceneError(f"{job.id}: the published set-up diverged in every drawn scene; the last: {fault}")
+            scene = sample_scene(header, job, number)
+        with watch.stage("simulate"):
+            return SettledScene(job, scene, simulate(scene, Simulator.CLOTH_PUBLISHED, header.spec.fall))
+
+    settled, _ = first_accepted(job, attempt, header.spec.fall.max_attempts)
+    return settled
 
 
 def render_mask() -> NDArray[np.uint8]:
@@ -88,7 +87,7 @@ def verify_mask(mask: NDArray[np.uint8], settled: SettledScene) -> None:
     Raises:
         VerificationError: if they are of different cables.
     """
-    drawn = label_scene(settled.scene, settled.shapes, BLENDER.settings.detail, len(mask)).mask
+    drawn = label_scene(settled.geometry(BLENDER.settings.detail, len(mask))).mask
     # Cables of a pixel or two, in small pictures, are lost in the filter of the render: they have no inside.
     inside, near = cv2.erode(drawn, np.ones((3, 3), np.uint8)), cv2.dilate(drawn, np.ones((5, 5), np.uint8))
     agreement = min(_share_within(inside, mask), _share_within(mask, near))

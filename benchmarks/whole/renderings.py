@@ -17,7 +17,8 @@ class Rendering:
     """Settings of a picture, and those that the farm leaves nobody to choose.
 
     Attributes:
-        more: properties of Cycles by name, set after all others.
+        settings: the settings that the farm has.
+        more: further properties of Cycles by name, set after all others.
     """
 
     settings: PictureSettings
@@ -25,7 +26,7 @@ class Rendering:
 
 
 def set_picture(stage: Stage, settled: SettledScene, rendering: Rendering) -> None:
-    """Realize a scene and set how it renders."""
+    """Build a scene and set how it renders."""
     stage.set(settled, rendering.settings)
     cycles = bpy.data.scenes[names.PICTURE_SCENE].cycles
     for name, value in rendering.more.items():

@@ -11,7 +11,7 @@ from farm.spec.category import Category
 from farm.spec.job import Job
 
 STAGES = ("randomize", "simulate", "check", "realize", "render", "mask", "write")
-"""Of a picture, in their order."""
+"""Stages of a picture in their order, by the names that manifests give them; `realize` builds the scene."""
 
 
 class Way(StrEnum):
@@ -106,7 +106,7 @@ class Ratio:
 
     Attributes:
         slow_s: seconds an image in the published mix.
-        standard_s: of the standard, over the same scenes and stages.
+        standard_s: the same of the standard, over the same scenes and stages.
         by_category: ratio in each category.
     """
 

@@ -14,16 +14,16 @@ from benchmarks.whole.published import make_published
 from benchmarks.whole.renderings import BLENDER, BLENDERPROC, Rendering, set_picture
 from benchmarks.whole.rows import Row, Shot, Way
 from benchmarks.whole.standard import settled_again, written_picture
-from benchmarks.whole.stopwatch import Stopwatch
 from farm.dataset.dataset import Dataset
 from farm.errors import VerificationError
 from farm.spec.job import Job
 from farm.spec.rendering import CyclesSettings, PictureSettings
+from worker.stopwatch import Stopwatch
 
 RENDERINGS: Mapping[Way, Rendering] = {Way.BLENDERPROC: BLENDERPROC, Way.BLENDER: BLENDER}
 
 MOST_FLIP = 0.3
-"""Of a standard picture against its reference; above, they show different scenes."""
+"""Most FLIP of a standard picture against its reference; above, they show different scenes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,9 +32,9 @@ class Comparison:
 
     Attributes:
         dataset: the standard pictures.
-        stage: the open template.
-        references: what pictures are compared with; None to compare none.
-        folder: takes the published method's files.
+        stage: the open renderer.
+        references: pictures to compare with; None to compare none.
+        folder: destination of the published method's files.
     """
 
     dataset: Dataset
@@ -97,5 +97,5 @@ class Comparison:
         return Shot(settled.job, watch.stages_s, self._errors(settled, picture))
 
     def _errors(self, settled: SettledScene, picture: NDArray[np.uint8]) -> Errors | None:
-        """Of the middle of a picture, which is what a reference covers."""
+        """Errors of the middle of a picture, which is what a reference covers."""
         return None if self.references is None else errors(middle(picture), self.references.picture(settled))

@@ -25,7 +25,7 @@ from worker.service.upload import upload
 from worker.simulate.simulate import simulate
 
 _BYTES_PER_UNIT = 1 if sys.platform == "darwin" else 1024
-"""Of the kernel's peak memory."""
+"""Unit in which the kernel tells a process's peak memory."""
 
 
 _WARM_UP = 1_000_000

@@ -1,1 +1,1 @@
-"""What stands behind far cables: an HDRI, or a photograph, and how cables are laid over it."""
+"""The backdrop, which is what the camera sees behind far cables: part of an HDRI, or of a photograph."""

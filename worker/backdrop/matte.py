@@ -1,4 +1,4 @@
-"""How much of each pixel cables cover, and laying them over what is behind them. Numpy and OpenCV.
+"""How much of each pixel cables cover, and laying them over the backdrop. Numpy and OpenCV.
 
 Cycles counts a pixel's coverage in samples and denoises colours alone: with few samples edges are ragged. From the
 geometry it is exact.
@@ -12,48 +12,49 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from worker.backdrop.panorama import Panorama
 from worker.cable.piece import Piece
 from worker.camera.view import View
 from worker.label.coverage import covered_share
 from worker.label.silhouette import silhouettes
 
 _RING_PX = 0.75
-"""Between places on the lens, by how far apart what is most out of focus is seen from them: below a pixel, which is
-what each of them blurs it by."""
+"""Distance of neighbouring places on the lens, in pixels by which they see apart what is most out of focus.
+
+Below 1, which is what each place blurs by, so that no edge shows twice."""
 
 _MOST_RINGS = 4
-"""61 places: seen from any side, no two of them lie in line, and steps between them are a few percent."""
+"""Most rings of places on the lens, 61 places in all: no two lie in line from any side, and steps are a few percent."""
 
 _SPREAD_PX = 0.8
-"""Standard deviation of the Gaussian that carries cables' colours to their edges, for which few samples were taken."""
+"""Standard deviation in pixels of the Gaussian that carries cables' colours to their edges, which few samples hit."""
 
 _NO_COVER = 1e-3
+"""Least share of a pixel that colours are divided by: where no cable is near, both are 0."""
 
 
 @dataclass(frozen=True, slots=True)
-class Backdrop:
-    """What is behind all that is rendered.
+class Matte:
+    """How a render of cables alone and their backdrop make one picture.
 
     Attributes:
-        light: (H, W, 3), linear.
-        covered: (H, W), how much of each pixel cables cover, 0 to 1.
+        covered: (H, W), the share of each pixel that cables cover, 0 to 1.
+        backdrop: (H, W, 3) of linear light, what is behind them.
     """
 
-    light: Panorama
     covered: NDArray[np.float32]
+    backdrop: NDArray[np.float32]
 
 
 def covered_by(pieces: Sequence[Piece], view: View, lens_radius_m: float, sides: int) -> NDArray[np.float32]:
-    """How much of each pixel cables and what is on them cover, seen through a lens.
+    """The share of each pixel that cables and what is on them cover, seen through a lens.
 
-    It is the mean over places spread evenly over the lens, each of which sees as a pinhole does; so many of them that
-    no edge shows twice.
+    It is the mean over places spread evenly over the lens, each of which sees as a pinhole does; there are enough of
+    them that no edge shows twice.
 
     Args:
-        pieces: all that is rendered.
+        pieces: everything that is rendered.
         view: the camera.
-        lens_radius_m: half the width of its aperture.
+        lens_radius_m: radius of its aperture.
         sides: corners of the rendered tubes' cross-section.
 
     Returns:
@@ -75,7 +76,7 @@ def _blur_px_per_m(view: View, highest_m: float) -> float:
 
     Args:
         view: the camera.
-        highest_m: of all points above the floor.
+        highest_m: height of the highest point above the floor.
     """
     floor_m = view.depths_m(view.floor_corners_m())
     # Along a line of sight depth falls as height rises. A cable that reaches up to the camera has no picture.
@@ -93,20 +94,21 @@ def _on_disc(rings: int) -> Iterator[tuple[float, float]]:
             yield ring / (rings + 0.5) * math.cos(angle), ring / (rings + 0.5) * math.sin(angle)
 
 
-def lay_over(cables: NDArray[np.float32], backdrop: Backdrop) -> NDArray[np.float32]:
-    """Lay rendered cables over what is behind them.
+def lay_over(cables: NDArray[np.float32], matte: Matte) -> NDArray[np.float32]:
+    """Lay rendered cables over their backdrop.
 
     Args:
-        cables: (H, W, 3), linear light, black where no cable is, in mixed pixels by the share of what was sampled.
-        backdrop: what is behind them.
+        cables: (H, W, 3) of linear light, black where no cable is; a pixel that cables cover in part has the light of
+            the samples that hit them.
+        matte: the backdrop, and the share of each pixel that hides it.
 
     Returns:
-        (H, W, 3), linear light. A pixel that cables cover in part takes their colour from around it, as their own
-        light was found by no more samples than their share.
+        (H, W, 3) of linear light. A pixel that cables cover in part takes their colour from the pixels around it, since
+        few of its own samples hit them.
     """
-    covered = backdrop.covered[:, :, None]
+    covered = matte.covered[:, :, None]
     near = cv2.GaussianBlur(cables, (0, 0), _SPREAD_PX)
-    share = cv2.GaussianBlur(backdrop.covered, (0, 0), _SPREAD_PX)[:, :, None]
+    share = cv2.GaussianBlur(matte.covered, (0, 0), _SPREAD_PX)[:, :, None]
     colour = near / np.maximum(share, np.float32(_NO_COVER))
-    laid: NDArray[np.float32] = np.where(covered < 1.0, covered * colour, cables) + (1.0 - covered) * backdrop.light
+    laid: NDArray[np.float32] = np.where(covered < 1.0, covered * colour, cables) + (1.0 - covered) * matte.backdrop
     return laid

@@ -1,4 +1,4 @@
-"""HDRIs as arrays: light from above, turned as a scene wants it, and the view behind the cables. Numpy and OpenCV.
+"""HDRIs as arrays: the light from above, turned as a scene wants it, and the backdrop. Numpy and OpenCV.
 
 A panorama is (H, 2H, 3) of linear light, equirectangular, the zenith's row first, in float32.
 """
@@ -10,17 +10,17 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from farm.scene.camera import SENSOR_MM, Camera
+from farm.scene.camera import SENSOR_MM
 from worker.camera.view import View
 
 UPPER_WIDTH_PX = 512
-"""Texels around the horizon of light from above: 0.7 degrees each, sharper than any reflection on floors and cables."""
+"""Texels around the horizon of the light from above, 0.7 degrees each: finer than reflections on floors and cables."""
 
 _SUBTEXELS = 3
-"""Samples along an edge of a texel when a panorama is turned, so that a sun a few texels wide keeps its light."""
+"""Samples along an edge of a texel when a panorama is turned: a sun a few texels wide keeps its light."""
 
 BELOW = math.sin(math.radians(2.0))
-"""How far below the horizon is left in: what is seen past the edge of the floor from a pile's height."""
+"""Sine of 2 degrees, down to which the light from below the horizon is kept: a pile sees it past the floor's edge."""
 
 Panorama = NDArray[np.float32]
 
@@ -50,7 +50,9 @@ def upper_world(panorama: Panorama, turn: NDArray[np.float64]) -> Panorama:
     return lit
 
 
-def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, resolution: int) -> Panorama:
+def panorama_backdrop(
+    panorama: Panorama, turn: NDArray[np.float64], view: View, lens_radius_m: float
+) -> NDArray[np.float32]:
     """What a camera sees of a panorama, out of focus as it is, before its lens distorts it.
 
     The world is infinitely far. A ray through the lens at l goes through the point in focus at distance D, so it points
@@ -59,18 +61,17 @@ def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, reso
     Args:
         panorama: the HDRI.
         turn: (3, 3), takes a direction in the world to one in the panorama.
-        camera: it gives the direction, the angle of view and the distance in focus.
-        resolution: pixels along an edge.
+        view: the camera's direction, angle of view and distance in focus.
+        lens_radius_m: radius of its aperture.
 
     Returns:
-        (resolution, resolution, 3), the top row first.
+        (H, W, 3) of linear light, the top row first.
     """
-    view = View.of(camera, resolution)
-    pixel = SENSOR_MM / camera.focal_length_mm / resolution
-    lens_disc = disc(lens_radius_m(camera) / view.focus_m / pixel)
+    pixel = SENSOR_MM / view.focal_length_mm / view.resolution
+    lens_disc = disc(lens_radius_m / view.focus_m / pixel)
     margin = lens_disc.shape[0] // 2
     fine = _samples_per_pixel(pixel, panorama.shape[1])
-    edge = resolution + 2 * margin
+    edge = view.resolution + 2 * margin
     offset = ((np.arange(edge * fine) + 0.5) / fine - edge / 2) * pixel
     towards = np.empty((edge * fine, edge * fine, 3), np.float32)
     towards[..., 0], towards[..., 1], towards[..., 2] = offset[None, :], -offset[:, None], -1.0
@@ -78,22 +79,17 @@ def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, reso
     if fine > 1:
         sharp = cv2.resize(sharp, (edge, edge), interpolation=cv2.INTER_AREA).astype(np.float32, copy=False)
     blurred = cv2.filter2D(sharp, -1, lens_disc)
-    seen: Panorama = blurred[margin : edge - margin, margin : edge - margin].astype(np.float32, copy=False)
+    seen: NDArray[np.float32] = blurred[margin : edge - margin, margin : edge - margin].astype(np.float32, copy=False)
     return seen
 
 
-def lens_radius_m(camera: Camera) -> float:
-    """Of the lens's aperture."""
-    return 0.5e-3 * camera.focal_length_mm / camera.f_number
-
-
 def _samples_per_pixel(pixel: float, columns: int) -> int:
-    """How many along an edge, so that no texel is stepped over; 8 at most."""
+    """Samples along an edge of a pixel, enough to step over no texel; 8 at most."""
     return min(8, max(1, math.ceil(pixel / (2 * math.pi / columns))))
 
 
 def disc(radius_px: float) -> NDArray[np.float32]:
-    """A disc of unit sum, (N, N) with N odd; the share of each pixel that it covers counts."""
+    """A disc of unit sum, (N, N) with N odd, whose pixels weigh as much as the disc covers of them."""
     reach, fine = math.ceil(radius_px), 8
     place = (np.arange((2 * reach + 1) * fine) + 0.5) / fine - (reach + 0.5)
     inside = (place[:, None] ** 2 + place[None, :] ** 2 <= max(radius_px, 0.5) ** 2).astype(np.float32)

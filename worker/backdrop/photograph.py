@@ -1,4 +1,4 @@
-"""A photograph as the view behind the cables. Numpy and OpenCV."""
+"""A photograph as the backdrop. Numpy and OpenCV."""
 
 from functools import cache
 
@@ -11,24 +11,25 @@ from farm.scene.backdrop import Plate
 from worker.backdrop.panorama import disc
 
 DARKEST = 1e-3
-"""Mean luminance, of white's 1, that a crop is taken to have at least: brightening less would show its 256 levels."""
+"""Least mean luminance that a crop is taken to have, white having 1: a darker one, brightened, shows its levels."""
 
 _STRIP_ROWS = 512
+"""Rows of a photograph that are converted to floats at once."""
 
 
-def plate_backdrop(
+def photograph_backdrop(
     pixels: NDArray[np.uint8], plate: Plate, resolution: int, blur_px: float, luminance: float
 ) -> NDArray[np.float32]:
     """A square of a photograph, out of focus and as bright as is wanted.
 
-    All is reckoned in linear light. At the edges the blur sees the picture mirrored.
+    It is computed in linear light. At the edges the blur sees the picture mirrored.
 
     Args:
         pixels: (H, W, 3) of sRGB, the top row first.
-        plate: which square of it.
+        plate: the square to take.
         resolution: pixels along an edge of the picture.
         blur_px: radius of the lens's disc, in pixels of the picture.
-        luminance: mean to scale to, in scene-linear units; a crop darker than `DARKEST` stays darker than that.
+        luminance: mean luminance of the result, in scene-linear units; a crop darker than `DARKEST` stays darker.
 
     Returns:
         (resolution, resolution, 3) of linear light, the top row first.
@@ -57,14 +58,14 @@ def _resample(square: NDArray[np.uint8], resolution: int) -> NDArray[np.float32]
         return light
     method = cv2.INTER_AREA if edge > resolution else cv2.INTER_CUBIC
     resized = cv2.resize(light, (resolution, resolution), interpolation=method)
-    # Beside a bright line the cubic falls below nothing.
+    # Beside a bright line the cubic falls below 0.
     return np.maximum(resized, 0.0).astype(np.float32, copy=False)
 
 
 def _shrunk(square: NDArray[np.uint8], factor: int) -> NDArray[np.float32]:
-    """Means of factor x factor pixels, a strip at a time, as a large photograph of floats would take a gigabyte.
+    """Means of factor x factor pixels, a strip at a time, since a large photograph takes a gigabyte in floats.
 
-    The last rows and columns that fill no such block are left out.
+    Rows and columns at the end that fill no such block are left out.
     """
     edge = len(square) // factor
     shrunk = np.empty((edge, edge, 3), np.float32)

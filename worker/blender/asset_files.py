@@ -1,4 +1,4 @@
-"""Where this machine has the surfaces, HDRIs and photographs that a dataset's header names, checked against it."""
+"""The files of the surfaces, HDRIs and photographs that a dataset's header names, checked against it."""
 
 import hashlib
 from collections.abc import Mapping
@@ -19,10 +19,13 @@ class SurfaceFiles:
 
     Attributes:
         size_m: edge of the square that the texture covers.
-        metallic: a map, or one value for all of the surface.
-        joints: where pieces meet (`assets.surfaces.kit.maps.joint_levels`); None where none do, or nobody knows.
-        flip_green: the normal map is in DirectX convention.
-        gloss: the roughness map holds glossiness.
+        colour: map of the sRGB colour.
+        roughness: map of the roughness; None if there is none.
+        normal: map of the normals; None if there is none.
+        metallic: map of the metallic share, or one value for the whole surface.
+        joints: map of the places where pieces meet (`assets.surfaces.kit.maps.joint_levels`); None if there is none.
+        flip_green: whether the normal map is in DirectX convention.
+        gloss: whether the roughness map holds glossiness.
     """
 
     size_m: float
@@ -42,8 +45,8 @@ class AssetLibrary:
         """Look up nothing yet.
 
         Args:
-            header: names what there is.
-            baked_folder: where the built-in surfaces were baked; None for the usual place.
+            header: the dataset's header.
+            baked_folder: folder of the baked built-in surfaces; None for the usual place.
         """
         self._surfaces = {surface.name: surface for surface in header.surfaces}
         self._hdris = {hdri.name: hdri for hdri in header.hdris}
@@ -93,7 +96,7 @@ class AssetLibrary:
         return self._once_checked(FileRef(path=reference.path, sha256=reference.sha256))
 
     def _environment(self, name: str, version: int) -> Path:
-        """One of our own, whose checksum this process reads when a scene first shows it."""
+        """An environment of our own. This process reads its checksum when a scene first shows it."""
         if name not in self._environments:
             self._environments[name] = load_environment(self._baked_folder, name)
         found = self._environments[name]
@@ -105,13 +108,13 @@ class AssetLibrary:
         return found.path
 
     def _once_checked(self, reference: FileRef) -> Path:
-        """A file whose checksum this process reads once, since pictures by the thousand use it."""
+        """A file whose checksum this process reads once, since thousands of pictures use it."""
         if reference.path not in self._checked:
             self._checked[reference.path] = checked(reference)
         return self._checked[reference.path]
 
     def _from_bakery(self, surface: BuiltinSurfaceRef) -> SurfaceFiles:
-        """One of our own, whose checksums this process reads when a scene first shows it: all of them take 0.4 s."""
+        """A surface of our own. Its checksums are read when a scene first shows it, as all together take 0.4 s."""
         if surface.name not in self._baked:
             self._baked[surface.name] = load_surface(self._baked_folder, surface.name)
         baked = self._baked[surface.name]
@@ -144,10 +147,10 @@ class AssetLibrary:
 
 
 def checked(reference: FileRef) -> Path:
-    """The file of a reference, if it is there and unchanged.
+    """The file of a reference.
 
     Raises:
-        AssetError: otherwise.
+        AssetError: if the file is not there, or has changed.
     """
     path = Path(reference.path)
     try:

@@ -1,97 +1,100 @@
-"""A scene made real in the open template: cables, floor, light, world and camera. Sets everything, every time."""
+"""The open template made into a settled scene: cables, floor, light, world and camera. Sets everything, every time."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
 
 from assets.scan.hdris import LUMINANCE
 from farm.scene.backdrop import HdriWorld
 from farm.scene.scene import Scene
-from farm.spec.category import Background, CategoryTraits
-from farm.spec.rendering import CableDetail, Economy
-from worker.backdrop.matte import Backdrop, covered_by
-from worker.backdrop.panorama import Panorama, lens_radius_m
-from worker.backdrop.photograph import plate_backdrop
+from farm.spec.rendering import Economy
+from worker.backdrop.matte import Matte, covered_by
+from worker.backdrop.photograph import photograph_backdrop
 from worker.blender.asset_files import AssetLibrary
-from worker.blender.cables import add_cables, remove_cables, shadow_slope
+from worker.blender.cables import add_cables, shadow_slope
 from worker.blender.camera import has_round_aperture, set_camera
 from worker.blender.clutter import add_clutter
 from worker.blender.floor import set_floor, set_unseen_floor
 from worker.blender.image_cache import ImageCache
-from worker.blender.world import backdrop_of, set_grey_world, set_hdri_world, set_lamps
-from worker.cable.pieces import pieces_of
-from worker.camera.view import View
-from worker.curves import smooth
-from worker.simulate.shapes import CableShapes
+from worker.blender.world import hdri_backdrop, set_grey_world, set_hdri_world, set_lamps
+from worker.geometry import SettledGeometry
 
 PLATE_LUMINANCE = 0.3
-"""Mean luminance of a photograph behind the cables, where the surroundings that light them tell none."""
+"""Mean luminance of a photograph behind the cables, if an artist changed how the template shows the HDRI around it."""
+
+
+@dataclass(frozen=True, slots=True)
+class BuiltScene:
+    """What the template now shows, and what a render of it lacks.
+
+    Attributes:
+        scene: the scene as drawn.
+        matte: the backdrop, which the render leaves out; None where Blender renders all there is.
+    """
+
+    scene: Scene
+    matte: Matte | None
 
 
 def build_scene(
-    scene: Scene,
-    shapes: CableShapes,
-    library: AssetLibrary,
-    image_cache: ImageCache,
-    *,
-    traits: CategoryTraits,
-    resolution: int,
-    detail: CableDetail,
-    economy: Economy,
-) -> Backdrop | None:
-    """Set the picture's scene to `scene`, with settled cables and clutter.
+    geometry: SettledGeometry, library: AssetLibrary, image_cache: ImageCache, economy: Economy
+) -> BuiltScene:
+    """Set the template's picture to a settled scene.
 
     Args:
-        scene: what was drawn.
-        shapes: its cables and sticks, settled.
-        library: where the textures and HDRIs are.
+        geometry: what stands where.
+        library: the files of textures and HDRIs.
         image_cache: the images that this process holds.
-        traits: of the scene's category.
-        resolution: pixels along an edge of the picture.
-        detail: how finely cables are modelled.
         economy: what is left out.
-
-    Returns:
-        What is behind the cables, if the renderer is to leave it out.
 
     Raises:
         AssetError: if a texture or HDRI can't be had.
     """
+    scene, view = geometry.scene, geometry.rendered_view
     image_cache.begin_picture()
     if not economy.keep_loaded:
         image_cache.forget()
-    remove_cables()
-    view = View.of(scene.camera, resolution).undistorted()
-    curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
-    pieces = pieces_of(scene, curves, shapes.sticks_m)
-    slope = shadow_slope(scene.lamps)
-    add_cables(pieces, detail.sides, view, image_cache, slope=slope, whole=not economy.cables_in_view)
+    add_cables(
+        geometry.pieces,
+        geometry.detail.sides,
+        view,
+        image_cache,
+        slope=shadow_slope(scene.lamps),
+        whole=not economy.cables_in_view,
+    )
     if scene.floor is None:
         set_unseen_floor(image_cache)
     else:
         # Wear is drawn on what is seen, so it needs a view whatever is left out.
         seen = view if economy.texture_window or scene.floor.wear is not None else None
         set_floor(scene.floor, library.surface(scene.floor.texture), image_cache, seen)
-    add_clutter(scene, shapes.sticks_m, curves, image_cache)
+    add_clutter(geometry, image_cache)
     set_lamps(scene.lamps)
-    set_camera(scene.camera)
+    set_camera(scene.camera, view)
     if scene.hdri_world is None:
         set_grey_world(scene.grey_world)
-        return None
-    light = _behind(scene, scene.hdri_world, library, image_cache, resolution, economy)
-    is_seen = traits.background is Background.HDRI and light is None
+        return BuiltScene(scene, None)
+    backdrop = _backdrop(geometry, scene.hdri_world, library, image_cache, economy)
+    is_seen = scene.floor is None and backdrop is None
     set_hdri_world(scene.hdri_world, library, image_cache, only_lights=economy.upper_world and not is_seen)
-    if light is None:
-        return None
-    return Backdrop(light, covered_by(pieces, view, lens_radius_m(scene.camera), detail.sides))
+    if backdrop is None:
+        return BuiltScene(scene, None)
+    covered = covered_by(geometry.pieces, view, geometry.lens_radius_m, geometry.detail.sides)
+    return BuiltScene(scene, Matte(covered, backdrop))
 
 
-def _behind(
-    scene: Scene, world: HdriWorld, library: AssetLibrary, image_cache: ImageCache, resolution: int, economy: Economy
-) -> Panorama | None:
-    """The view behind cables without a floor, where it is looked up: a photograph always is."""
+def _backdrop(
+    geometry: SettledGeometry, world: HdriWorld, library: AssetLibrary, image_cache: ImageCache, economy: Economy
+) -> NDArray[np.float32] | None:
+    """The backdrop of cables without a floor, where it is looked up: a photograph always is."""
+    scene = geometry.scene
     if scene.floor is not None or (scene.plate is None and not (economy.backdrop and has_round_aperture())):
         return None
-    seen = backdrop_of(world, scene.camera, resolution, library, image_cache)
+    seen = hdri_backdrop(world, geometry.rendered_view, geometry.lens_radius_m, library, image_cache)
     if scene.plate is None:
         return seen
-    # As bright as what would be seen of the surroundings that light the cables.
+    # As bright as what would be seen of the HDRI that lights the cables.
     luminance = PLATE_LUMINANCE if seen is None else float((seen @ LUMINANCE).mean())
     photograph = image_cache.photograph(library.plate(scene.plate.name))
-    return plate_backdrop(photograph, scene.plate, resolution, scene.plate.blur_px, luminance)
+    return photograph_backdrop(photograph, scene.plate, geometry.resolution, scene.plate.blur_px, luminance)

@@ -12,6 +12,7 @@ from farm.model import Rgb
 from farm.scene.cable import CableMaterial
 from farm.scene.light import Lamp, StudioLamp
 from worker.blender.image_cache import ImageCache
+from worker.blender.remove import remove_blocks
 from worker.cable.piece import Convex, Piece, Plain, Tubular
 from worker.cable.plain import draw_plain
 from worker.cable.skin import SkinImages, draw_skin
@@ -20,22 +21,14 @@ from worker.camera.view import View
 from worker.curves import parts_near
 
 DIRT_EDGE = 0.05
-"""Distance of the two stops of the dirt ramp: how soft the edge of a spot is."""
+"""Distance of the dirt ramp's two stops, which makes the edge of a spot that soft."""
 
 SHADOW_SLOPE = 3.0
-"""How far a shadow reaches, in the height of what throws it: that of the lowest published lamp, 15 m away at 5 m."""
-
-
-def remove_cables() -> None:
-    """Remove the cables of the picture before."""
-    prefix = f"{names.CABLE}."
-    for collection in (bpy.data.objects, bpy.data.meshes, bpy.data.materials):
-        for block in [block for block in collection if block.name.startswith(prefix)]:
-            collection.remove(block)
+"""Reach of a shadow over the height of what throws it, under the lowest published lamp: 15 m away and 5 m high."""
 
 
 def shadow_slope(lamps: Sequence[Lamp]) -> float:
-    """How far the longest shadow reaches, in the height of what throws it; a lamp at the horizon's is cut short."""
+    """Reach of the longest shadow over the height of what throws it; that of a lamp at the horizon is cut short."""
     elevations_deg = [max(lamp.elevation_deg, 1.0) for lamp in lamps if isinstance(lamp, StudioLamp)]
     return max([SHADOW_SLOPE, *(1.0 / math.tan(math.radians(elevation)) for elevation in elevations_deg)])
 
@@ -43,16 +36,17 @@ def shadow_slope(lamps: Sequence[Lamp]) -> float:
 def add_cables(
     pieces: Sequence[Piece], sides: int, view: View, image_cache: ImageCache, *, slope: float, whole: bool
 ) -> None:
-    """Add a settled scene's cables; of those that leave the view, what is seen or may throw a shadow into it.
+    """Add a settled scene's cables, after removing those of the picture before.
 
     Args:
-        pieces: of the cables.
+        pieces: the cables in pieces.
         sides: corners of a tube's cross-section.
         view: the camera.
-        image_cache: takes the images of skins.
-        slope: how far shadows reach, in the height of what throws them.
-        whole: whether to add them wholly, wherever they go.
+        image_cache: the holder of the images of skins.
+        slope: reach of shadows over the height of what throws them.
+        whole: whether to add cables that leave the view wholly, not only what is seen or may throw a shadow into it.
     """
+    remove_blocks(f"{names.CABLE}.")
     materials: dict[object, Any] = {}
     for number, piece in enumerate(pieces):
         name = f"{names.CABLE}.{piece.instance}.{number}"
@@ -67,14 +61,14 @@ def add_cables(
 
 
 def _identity(piece: Piece) -> object:
-    """What pieces of one material have in common: a sheath has one of its own, so as to be drawn in its own length."""
+    """What pieces of one material have in common. A sheath has a material of its own, drawn for its own length."""
     if isinstance(piece.surface, Plain):
         return piece.surface
     return piece.instance
 
 
 def _meshes(piece: Piece, sides: int, view: View | None, slope: float) -> list[tuple[int, Tube]]:
-    """The meshes of a piece, each with where in the piece it starts."""
+    """The meshes of a piece, each with the point of the piece's curve at which it starts."""
     if isinstance(piece, Convex):
         return [(0, loft(piece.rings))]
     curve, points = piece.curve, len(piece.curve)
@@ -131,9 +125,9 @@ def _published(name: str, wanted: CableMaterial) -> Any:
     nodes[names.CABLE_NOISE].inputs["W"].default_value = wanted.dirt_offset
     clean, dirty = nodes[names.CABLE_COLOUR_RAMP].color_ramp.elements
     clean.position = wanted.dirt_position
-    clean.color = _linear(wanted.colour)
+    clean.color = _pastel(wanted.colour)
     dirty.position = min(1.0, wanted.dirt_position + DIRT_EDGE)
-    dirty.color = _linear(wanted.dirt_colour)
+    dirty.color = _pastel(wanted.dirt_colour)
     nodes[names.CABLE_REFLECTION_RAMP].color_ramp.elements[1].position = wanted.reflection_position
     return material
 
@@ -142,15 +136,17 @@ def _drawn(name: str, images: SkinImages, image_cache: ImageCache) -> Any:
     material = bpy.data.materials[names.SKIN].copy()
     material.name = name
     tree = material.node_tree
-    tree.nodes[names.SKIN_COLOUR].image = image_cache.made(f"{name} colour", images.colour, colour=True)
-    tree.nodes[names.SKIN_ROUGHNESS].image = image_cache.made(f"{name} roughness", images.roughness, colour=False)
+    tree.nodes[names.SKIN_COLOUR].image = image_cache.for_picture(f"{name} colour", images.colour, colour=True)
+    tree.nodes[names.SKIN_ROUGHNESS].image = image_cache.for_picture(
+        f"{name} roughness", images.roughness, colour=False
+    )
     surface = tree.nodes[names.SKIN_SURFACE]
     if images.normal is None:
         # Tangents are worked out for every mesh whose material asks for them.
         for way in list(surface.inputs["Normal"].links):
             tree.links.remove(way)
     else:
-        tree.nodes[names.SKIN_NORMAL].image = image_cache.made(f"{name} normal", images.normal, colour=False)
+        tree.nodes[names.SKIN_NORMAL].image = image_cache.for_picture(f"{name} normal", images.normal, colour=False)
     surface.inputs["Metallic"].default_value = images.metallic
     surface.inputs["Coat Weight"].default_value = images.coat
     surface.inputs["Coat Roughness"].default_value = images.coat_roughness
@@ -158,7 +154,7 @@ def _drawn(name: str, images: SkinImages, image_cache: ImageCache) -> Any:
     return material
 
 
-def _linear(colour: Rgb) -> tuple[float, float, float, float]:
-    """Levels as shares of linear light, which is how the published set-up reads them: the colours come out pastel."""
+def _pastel(colour: Rgb) -> tuple[float, float, float, float]:
+    """Levels taken for shares of linear light, as the published set-up does: the colours come out pastel."""
     red, green, blue = (level / 255.0 for level in colour)
     return (red, green, blue, 1.0)

@@ -8,9 +8,13 @@ from farm.scene.camera import SENSOR_MM, Camera
 from worker.camera.view import View
 
 
-def set_camera(camera: Camera) -> None:
-    """Stand and look as drawn, whatever the template's does; distortion is left to the development."""
-    view = View.of(camera, 1)
+def set_camera(camera: Camera, view: View) -> None:
+    """Place and aim the template's camera as drawn; distortion is left to the development.
+
+    Args:
+        camera: the camera as drawn.
+        view: its geometry, at any resolution.
+    """
     camera_object = bpy.data.objects[names.CAMERA]
     camera_object.location = view.position_m
     camera_object.rotation_mode = "XYZ"

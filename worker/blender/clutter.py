@@ -1,4 +1,4 @@
-"""Clutter put into the open template's picture: sheets, sticks and parts, all of them gone before the next picture."""
+"""Clutter in the open template's picture: sheets, sticks and parts. The next picture removes them first."""
 
 from typing import Any
 
@@ -9,10 +9,8 @@ from blend import names
 from blend.nodes import add_node, link
 from farm.model import Rgb
 from farm.scene.clutter import Part, Sheet, Stick
-from farm.scene.scene import Scene
 from worker.blender.image_cache import ImageCache
-from worker.camera.view import View
-from worker.clutter.fit import parts_that_fit
+from worker.blender.remove import remove_blocks
 from worker.clutter.parts import part_solid
 from worker.clutter.print import Print
 from worker.clutter.sheet import print_sheet, sheet_corners
@@ -20,52 +18,43 @@ from worker.clutter.solid import Finish, Solid
 from worker.clutter.sticks import placed_on, stick_solid
 from worker.colour import light_of
 from worker.curves import Points
+from worker.geometry import SettledGeometry
 
 PREFIX = "clutter"
+"""First word of the names of everything that is added here."""
 
 LOWEST_SHEET_M = 20e-6
+"""Height of the lowest sheet above the floor: far less than a pixel, yet enough for rays to tell them apart."""
+
 SHEET_STEP_M = 10e-6
-"""Sheets lie so high, each above those before: far less than a pixel, yet enough for rays to tell them apart."""
+"""Height of each further sheet above the one before."""
 
 
-def add_clutter(scene: Scene, sticks_m: tuple[Points, ...], curves: list[Points], image_cache: ImageCache) -> None:
-    """Add what lies about on the floor.
+def add_clutter(geometry: SettledGeometry, image_cache: ImageCache) -> None:
+    """Add what lies about on the floor, after removing that of the picture before.
 
     A scene without a visible floor gets none.
 
     Args:
-        scene: what was drawn.
-        sticks_m: nodes (N, 3) of the settled sticks' axes; none where the simulator has none.
-        curves: the cables' settled centrelines (N, 3), which parts must not touch.
-        image_cache: keeps the sheets' images until the next picture.
+        geometry: the settled scene.
+        image_cache: the holder of the sheets' images.
     """
-    remove_clutter()
-    if scene.floor is None:
+    remove_blocks(f"{PREFIX}.")
+    if geometry.scene.floor is None:
         return
-    for number, sheet in enumerate(scene.sheets):
+    for number, sheet in enumerate(geometry.scene.sheets):
         _add_sheet(f"{PREFIX}.sheet.{number}", sheet, LOWEST_SHEET_M + number * SHEET_STEP_M, image_cache)
-    sticks = scene.sticks[: len(sticks_m)]
-    for number, (stick, nodes) in enumerate(zip(sticks, sticks_m, strict=True)):
+    for number, (stick, nodes) in enumerate(geometry.sticks):
         _add_stick(f"{PREFIX}.stick.{number}", stick, nodes)
-    diameters = [*(cable.diameter_m for cable in scene.cables), *(stick.diameter_m for stick in sticks)]
-    slope = View.of(scene.camera, 1).steepest_slope
-    kept = parts_that_fit(scene.parts, [*curves, *sticks_m], np.array(diameters) / 2, slope)
-    for number, part in enumerate(kept):
+    for number, part in enumerate(geometry.parts):
         _add_part(f"{PREFIX}.part.{number}", part)
-
-
-def remove_clutter() -> None:
-    """Remove that of the picture before."""
-    for collection in (bpy.data.objects, bpy.data.meshes, bpy.data.materials):
-        for block in [block for block in collection if block.name.startswith(f"{PREFIX}.")]:
-            collection.remove(block)
 
 
 def _add_stick(name: str, stick: Stick, nodes: Points) -> None:
     solid, finishes = stick_solid(stick)
     axes, origin = placed_on(nodes)
     placed = solid.turned(axes).moved(origin)
-    # Grain is to run along the stick, so it is looked up where the stick was turned.
+    # Grain runs along the stick, so it is looked up in the stick's own coordinates.
     _add_solid(name, placed, solid, finishes, stick.pattern_seed)
 
 
@@ -96,7 +85,7 @@ def _add_solid(name: str, placed: Solid, local: Solid, finishes: tuple[Finish, .
 
 
 def _solid_material(name: str, finish: Finish, seed: int) -> Any:
-    """Principled, its colour and roughness varied by noise: nothing that was ever touched is the same all over."""
+    """Principled, its colour and roughness varied by noise: nothing that was ever touched looks the same all over."""
     material = bpy.data.materials.new(name)
     material.use_nodes = True
     tree = material.node_tree
@@ -112,7 +101,7 @@ def _solid_material(name: str, finish: Finish, seed: int) -> Any:
     surface = add_node(tree, "ShaderNodeBsdfPrincipled", "surface", (0, 0))
     output = add_node(tree, "ShaderNodeOutputMaterial", "output", (300, 0))
     colour = add_node(tree, "ShaderNodeMix", "colour", (-200, 150), data_type="RGBA")
-    base = np.array(_linear(finish.colour)[:3])
+    base = np.array(_light(finish.colour)[:3])
     for slot, factor in (("A", 1 - finish.mottle), ("B", 1 + 0.5 * finish.mottle)):
         tint = (*np.minimum(base * factor, 1.0).tolist(), 1.0)
         next(i for i in colour.inputs if i.name == slot and i.type == "RGBA").default_value = tint
@@ -153,25 +142,25 @@ def _sheet_material(name: str, drawn: Print, image_cache: ImageCache) -> Any:
     surface.inputs["Metallic"].default_value = drawn.metallic
     surface.inputs["Specular IOR Level"].default_value = drawn.specular
     colour = add_node(tree, "ShaderNodeTexImage", "colour", (-600, 300), extension="EXTEND")
-    colour.image = image_cache.drawn(f"{name}.colour", drawn.colour, colour=True)
+    colour.image = image_cache.for_picture(f"{name}.colour", drawn.colour, colour=True)
     link(tree, colour, "Color", surface, "Base Color")
     roughness = add_node(tree, "ShaderNodeTexImage", "roughness", (-600, 0), extension="EXTEND")
-    roughness.image = image_cache.drawn(f"{name}.roughness", drawn.roughness, colour=False)
+    roughness.image = image_cache.for_picture(f"{name}.roughness", drawn.roughness, colour=False)
     link(tree, roughness, "Color", surface, "Roughness")
     if drawn.normal is not None:
         relief = add_node(tree, "ShaderNodeTexImage", "relief", (-600, -300), extension="EXTEND")
-        relief.image = image_cache.drawn(f"{name}.normal", drawn.normal, colour=False)
+        relief.image = image_cache.for_picture(f"{name}.normal", drawn.normal, colour=False)
         bump = add_node(tree, "ShaderNodeNormalMap", "normal map", (-300, -300))
         link(tree, relief, "Color", bump, "Color")
         link(tree, bump, "Normal", surface, "Normal")
     if drawn.alpha is not None:
         alpha = add_node(tree, "ShaderNodeTexImage", "alpha", (-600, -600), extension="EXTEND")
-        alpha.image = image_cache.drawn(f"{name}.alpha", drawn.alpha, colour=False)
+        alpha.image = image_cache.for_picture(f"{name}.alpha", drawn.alpha, colour=False)
         link(tree, alpha, "Color", surface, "Alpha")
     link(tree, surface, "BSDF", output, "Surface")
     return material
 
 
-def _linear(colour: Rgb) -> tuple[float, float, float, float]:
+def _light(colour: Rgb) -> tuple[float, float, float, float]:
     red, green, blue = (float(light) for light in light_of(np.array(colour, np.uint8)))
     return red, green, blue, 1.0

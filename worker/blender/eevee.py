@@ -12,27 +12,31 @@ from farm.spec.quality import ChosenSettings, Preset, Quality
 from farm.spec.rendering import CyclesSettings, Economy, PictureSettings
 
 _SAMPLES: Final[Mapping[Quality, int]] = {Preset.DRAFT: 8, Preset.STANDARD: 16, Preset.REFERENCE: 128}
+"""Samples a pixel of each preset."""
 
 CHOSEN: Final = ChosenSettings(
     settings=PictureSettings(cycles=CyclesSettings(samples=1), economy=Economy(upper_world=False, backdrop=False)),
     expected_flip=None,
 )
-"""How cables and textures are realized for it; what is for Cycles does not count."""
+"""How cables and textures are built for Eevee; its settings of Cycles are not used."""
 
 _NAME = f"{names.POINT_LAMP}.eevee"
+"""Name of the spot light that stands for the picture's lamp."""
 
 _DISTANCE_M = 2.0
-"""Far enough to light the view evenly. At the published distances a 2 mm cable threw no shadow, at 3 m it did."""
+"""Distance of the spot light from the origin. At the published distances a 2 mm cable throws no shadow, at 3 m it does;
+and 2 m are enough to light the view evenly."""
 
 _LIT_RADIUS_M = 0.4
-"""Half the width of the floor that the lamp lights: the view and what may throw shadows into it."""
+"""Half the width of the floor that the spot light reaches: the view, and what may throw shadows into it."""
 
 _AREA_TO_POINT = 4.0
-"""An area light of power P shines P / pi per steradian along its axis, a point light P / (4 pi)."""
+"""Power of a point light that shines along one axis as an area light of power 1 does: P / pi per steradian along its
+axis against P / (4 pi)."""
 
 
 def samples_of(quality: Quality) -> int:
-    """Samples a pixel of a preset; numbers are not calibrated for Eevee, and the spec refuses them."""
+    """Samples a pixel of a preset. A quality as a number is not calibrated for Eevee, and the spec refuses it."""
     return _SAMPLES[quality]
 
 
@@ -62,7 +66,7 @@ def _add_spot(scene: Any, lamp: Any) -> None:
     data.spot_size = 2 * float(np.arctan(_LIT_RADIUS_M / _DISTANCE_M))
     data.spot_blend = 0.0
     data.shadow_maximum_resolution = 0.0001
-    # Another point of the lamp at every sample. The alternative, marching through one shadow map, steps over cables.
+    # Each sample takes another point of the lamp. The alternative, marching through one shadow map, steps over cables.
     data.use_shadow_jitter = True
     data.shadow_jitter_overblur = 0.0
     spot = bpy.data.objects.new(_NAME, data)

@@ -17,12 +17,13 @@ from worker.floor.wear import turned_over, worn_colour, worn_roughness
 from worker.floor.window import TextureWindow, texels_to_floor, tile_coordinates, window_on
 
 UNSEEN_FLOOR = 0.4
-"""Albedo and roughness of a floor that only throws light back at the cables."""
+"""Albedo, and roughness, of a floor that is not seen and only throws light back at the cables."""
 
 UNKNOWN_ROUGHNESS = 0.6
+"""Roughness of a surface without a map of it, and of marks on one."""
 
 MOST_WORN_TILES = 4.0
-"""Of a texture along the edge of a window that is worn: marks are not to repeat with the tiles."""
+"""Most tiles along the edge of a worn window. More than 1, so that marks do not repeat with the tiles."""
 
 _UNTEXTURED = Floor(texture="", offset_x=0.0, offset_y=0.0, rotation_deg=0.0, scale=1.0)
 
@@ -43,14 +44,13 @@ def set_unseen_floor(image_cache: ImageCache) -> None:
 def set_floor(floor: Floor, files: SurfaceFiles, image_cache: ImageCache, view: View | None) -> None:
     """Show a surface.
 
-    What a floor has been through is drawn on the texels that are seen. A surface with a map in
-    floating point stays as it is.
+    Wear is drawn on the texels that are seen. A surface with a map in floating point has none.
 
     Args:
-        floor: how its texture lies.
-        files: its maps.
+        floor: the floor as drawn: its surface's place, turn and scale, and its wear.
+        files: the surface's maps.
         image_cache: the images that this process holds.
-        view: of the camera, beyond which no texel is needed; None for all of them.
+        view: the camera, beyond whose view no texel is needed; None to take all texels.
 
     Raises:
         AssetError: if a map can't be read.
@@ -84,11 +84,12 @@ def set_floor(floor: Floor, files: SurfaceFiles, image_cache: ImageCache, view: 
     nodes = bpy.data.materials[names.FLOOR].node_tree.nodes
     for node, file in maps.items():
         if node in worn:
-            nodes[node].image = image_cache.drawn(f"worn {node}", worn[node], colour=node == names.FLOOR_COLOUR)
+            nodes[node].image = image_cache.for_picture(f"worn {node}", worn[node], colour=node == names.FLOOR_COLOUR)
         elif file is None:
             nodes[node].image = plain[node]
         elif node in decoded:
-            nodes[node].image = image_cache.window(file, decoded[node], window)
+            part = window.cut(decoded[node], colour=file.colour)
+            nodes[node].image = image_cache.for_picture(file.path.name, part, colour=file.colour)
         else:
             nodes[node].image = image_cache.whole(file)
     _place_texture(floor_object.data, floor, files.size_m, window)
@@ -97,17 +98,17 @@ def set_floor(floor: Floor, files: SurfaceFiles, image_cache: ImageCache, view: 
 def _worn(
     floor: Floor, wear: Wear, size_m: float, maps: dict[str, Texels], joints: Texels | None, window: TextureWindow
 ) -> dict[str, Texels]:
-    """The maps' windows after what the floor has been through; a roughness of their own where marks need one.
+    """The windows of the maps with the floor's wear, and a map of roughness where marks need one.
 
-    Metal stays metal under them: stains and dust are films, that colour it and take its gloss.
+    Metal stays metal under marks: stains and dust are films, which colour it and take its gloss.
 
     Args:
-        floor: how its texture lies.
-        wear: of it.
+        floor: the floor as drawn.
+        wear: its wear.
         size_m: edge of a tile at scale 1.
-        maps: the tile's texels, by the name of their node.
-        joints: the tile's map of joints, of the colour's size.
-        window: of them that is seen.
+        maps: the tile's texels by the name of their node.
+        joints: the tile's map of joints, of the colour's size; None for a surface without joints.
+        window: the part of the tile that is seen.
     """
     seen = {node: _cut(pixels, wear, window, node) for node, pixels in maps.items()}
     rows, columns = seen[names.FLOOR_COLOUR].shape[:2]
@@ -122,13 +123,13 @@ def _worn(
 
 
 def _cut(pixels: Texels, wear: Wear, window: TextureWindow, node: str = "") -> Texels:
-    """What the window shows of a map, turned over if the floor is."""
+    """The part of a map in the window, mirrored if the floor is."""
     whole = turned_over(pixels, normal=node == names.FLOOR_NORMAL) if wear.mirrored else pixels
     return window.cut(whole, colour=node == names.FLOOR_COLOUR)
 
 
 def _place_texture(mesh: Any, floor: Floor, size_m: float, window: TextureWindow) -> None:
-    """Write offset, turn and scale into the UV map."""
+    """Write the texture's offset, turn and scale into the floor's UV map."""
     coordinates = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.vertices.foreach_get("co", coordinates)
     corners = np.empty(len(mesh.loops), np.int32)

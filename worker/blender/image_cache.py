@@ -1,4 +1,4 @@
-"""The images that a process holds: each file read once, the least used let go when there are too many."""
+"""The images that a process holds: each file is read once, and the least used are let go when there are too many."""
 
 from collections import OrderedDict
 from dataclasses import dataclass
@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 from assets.files import read_bounded
 from assets.scan.photographs import decode_plate
 from farm.errors import AssetError
+from worker.blender.pixels import rgb_of
 from worker.colour import Texels
-from worker.floor.window import TextureWindow
 
 Pixels = NDArray[np.uint8] | NDArray[np.float32]
 
 _FLOAT_SUFFIXES = frozenset({".exr", ".hdr"})
 
 _IN_USE = 6
-"""A picture needs six images of files at most; those stay, however large."""
+"""Images from files that one picture needs at most. The last six used stay, however large."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,9 +29,10 @@ class TextureFile:
     """A floor's map in a file, and how to read it.
 
     Attributes:
-        colour: sRGB, as against plain numbers.
-        invert: turn glossiness into roughness.
-        flip_green: turn a normal map from DirectX to OpenGL convention.
+        path: the file.
+        colour: whether it holds sRGB colours, not plain numbers.
+        invert: whether to turn glossiness into roughness.
+        flip_green: whether to turn a normal map from DirectX to OpenGL convention.
     """
 
     path: Path
@@ -44,7 +45,7 @@ class ImageCache:
     """Images by file, up to a number of bytes in all.
 
     Args:
-        capacity_bytes: of what is kept for later pictures.
+        capacity_bytes: most bytes that are kept for later pictures.
     """
 
     def __init__(self, capacity_bytes: int = 2**30) -> None:
@@ -55,13 +56,13 @@ class ImageCache:
         self._scratch = np.empty(0, np.float32)
 
     def begin_picture(self) -> None:
-        """Let go what was made for the picture before alone."""
+        """Let go the images of the picture before."""
         for image in self._of_picture:
             bpy.data.images.remove(image)
         self._of_picture.clear()
 
     def forget(self) -> None:
-        """Let go all that is kept for later pictures."""
+        """Let go everything that is kept for later pictures."""
         while self._held:
             _release(self._held.popitem()[1][0])
 
@@ -82,9 +83,7 @@ class ImageCache:
 
         def read() -> tuple[NDArray[np.float32], int]:
             image = _load(path)
-            pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
-            image.pixels.foreach_get(pixels)
-            rgb = np.ascontiguousarray(pixels.reshape(image.size[1], image.size[0], 4)[::-1, :, :3])
+            rgb = rgb_of(image)
             bpy.data.images.remove(image)
             return rgb, rgb.nbytes
 
@@ -109,11 +108,11 @@ class ImageCache:
         """A map's texels, (H, W) or (H, W, 3) with red first, the top row first; don't write to them.
 
         Args:
-            file: of the map.
-            reduced: take what has 16 bits, or alpha, without them.
+            file: the map.
+            reduced: whether to reduce 16 bits to 8 and to leave out alpha.
 
         Returns:
-            None if the file is none of grey or RGB with 8 bits a channel.
+            None if the file then is neither grey nor RGB with 8 bits a channel.
 
         Raises:
             AssetError: if it can't be read.
@@ -144,32 +143,14 @@ class ImageCache:
 
         return self._hold((str(file.path), ("whole", file)), read)
 
-    def window(self, file: TextureFile, texels: Texels, window: TextureWindow) -> Any:
-        """A part of a map as a Blender image, for this picture alone."""
-        part = window.cut(texels, colour=file.colour)
-        return self._new(file.path.name, part, colour=file.colour)
+    def for_picture(self, name: str, pixels: Pixels, *, colour: bool) -> Any:
+        """Pixels as a Blender image that goes with the present picture.
 
-    def drawn(self, name: str, texels: Texels, *, colour: bool) -> Any:
-        """Texels (H, W) or (H, W, 3) as a Blender image, for this picture alone."""
-        return self._new(name, texels, colour=colour)
-
-    def light(self, name: str, radiance: NDArray[np.float32]) -> Any:
-        """A panorama (H, W, 3) of linear light, the top row first, as a Blender image for this picture alone."""
-        return self._new(name, radiance, colour=True)
-
-    def made(self, name: str, pixels: NDArray[np.uint8], *, colour: bool) -> Any:
-        """Pixels (H, W) or (H, W, 3), the top row first, as a Blender image for this picture alone."""
-        return self._new(name, pixels, colour=colour)
-
-    def constant(self, value: float, *, colour: bool = False) -> Any:
-        """An image of one grey value, linear."""
-        return self._constant(f"constant {value:.4f}", (value, value, value), colour=colour)
-
-    def flat_normal(self) -> Any:
-        """A normal map without relief."""
-        return self._constant("flat normal", (0.5, 0.5, 1.0), colour=False)
-
-    def _new(self, name: str, pixels: Pixels, *, colour: bool) -> Any:
+        Args:
+            name: name of the image.
+            pixels: (H, W) or (H, W, 3) with red first, the top row first: 8 bits as a file has them, or linear floats.
+            colour: whether they are colours, not plain numbers such as roughness.
+        """
         rows, columns = pixels.shape[:2]
         is_float = pixels.dtype == np.float32
         image = bpy.data.images.new(name, columns, rows, float_buffer=is_float, is_data=not colour)
@@ -182,8 +163,16 @@ class ImageCache:
         self._of_picture.append(image)
         return image
 
+    def constant(self, value: float, *, colour: bool = False) -> Any:
+        """An image of one grey value, linear."""
+        return self._constant(f"constant {value:.4f}", (value, value, value), colour=colour)
+
+    def flat_normal(self) -> Any:
+        """A normal map without relief."""
+        return self._constant("flat normal", (0.5, 0.5, 1.0), colour=False)
+
     def _scratch_like(self, array: NDArray[Any]) -> NDArray[np.float32]:
-        """Room in single precision for as many numbers, until the next call: fresh memory costs more than the sums."""
+        """Room in single precision for an array, until the next call: fresh memory costs more than the arithmetic."""
         if self._scratch.size < array.size:
             self._scratch = np.empty(array.size, np.float32)
         room: NDArray[np.float32] = self._scratch[: array.size].reshape(array.shape)
@@ -213,7 +202,7 @@ def _release(held: Any) -> None:
 
 
 def _sized(image: Any) -> tuple[Any, int]:
-    """With its bytes: four channels of a byte or a float. Asked once, since asking later decodes the file again."""
+    """An image with its bytes: four channels of a byte or a float. Asking later would decode the file again."""
     width, height = image.size
     return image, int(width * height * 4 * (4 if image.is_float else 1))
 
@@ -245,7 +234,7 @@ def _decode(file: TextureFile, *, reduced: bool) -> tuple[Texels | None, int]:
 
 
 def _alter(pixels: NDArray[Any], most: float, *, invert: bool, flip_green: bool) -> None:
-    """Change pixels (H, W), or (H, W, channels) of which three are colours, from 0 to `most`, in place."""
+    """Change pixels in place: (H, W), or (H, W, channels) with three colours first, of values from 0 to `most`."""
     colours = pixels if pixels.ndim == 2 else pixels[..., :3]
     if invert:
         colours[...] = most - colours

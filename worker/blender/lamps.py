@@ -1,6 +1,7 @@
 """Round lamps that face the cables: made for a picture, and removed before the next."""
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import bpy
@@ -8,25 +9,21 @@ from mathutils import Vector
 
 from blend import names
 from farm.scene.light import StudioLamp
+from worker.blender.remove import remove_blocks
 from worker.camera.black_body import black_body
 
 _PREFIX = "studio_lamp."
 
 
-def remove_studio_lamps() -> None:
-    """Remove those of the picture before."""
-    for light in [light for light in bpy.data.lights if light.name.startswith(_PREFIX)]:
-        bpy.data.lights.remove(light)  # and what shows it
+def add_studio_lamps(lamps: Sequence[StudioLamp]) -> None:
+    """Add a picture's studio lamps, after removing those of the picture before."""
+    remove_blocks(_PREFIX)
+    for number, lamp in enumerate(lamps, start=1):
+        _add(lamp, f"{_PREFIX}{number}")
 
 
-def add_studio_lamp(lamp: StudioLamp, number: int) -> None:
-    """Add a lamp.
-
-    Args:
-        lamp: as drawn.
-        number: of the lamp in its picture.
-    """
-    data = bpy.data.lights.new(f"{_PREFIX}{number}", "AREA")
+def _add(lamp: StudioLamp, name: str) -> None:
+    data = bpy.data.lights.new(name, "AREA")
     data.shape, data.size = "DISK", lamp.size_m
     data.energy = power_w(lamp)
     data.color = black_body(lamp.temperature_k)

@@ -1,4 +1,4 @@
-"""Rendering the picture's scene into an array."""
+"""Rendering the template's picture into an array, by Cycles or Eevee."""
 
 import tempfile
 from pathlib import Path
@@ -12,27 +12,30 @@ from numpy.typing import NDArray
 from blend import names
 from farm.errors import RenderError
 from farm.scene.camera import Development
-from farm.scene.scene import Scene
 from farm.spec.rendering import CyclesSettings, Denoiser, Pattern, PictureSettings
-from worker.backdrop.matte import Backdrop, lay_over
-from worker.backdrop.panorama import Panorama
+from worker.backdrop.matte import Matte, lay_over
+from worker.blender.build_scene import BuiltScene
 from worker.blender.eevee import light_with_a_spot
+from worker.blender.pixels import rgb_of
 from worker.camera.develop import develop
 from worker.camera.distortion import Distortion
 from worker.camera.illuminant import NEUTRAL, illuminant
 
 ADAPTIVE_LEAST_SAMPLES = 4
-"""Taken of every pixel before noise is looked at."""
+"""Samples of every pixel before adaptive sampling may stop."""
 
 _NOTHING_WRITTEN = "Blender ended a render without writing a picture; see the worker's log"
 
 
 def configure_picture(resolution: int, threads: int) -> Any:
-    """Set what does not depend on the engine; returns the picture's scene.
+    """Set everything about a render that does not depend on the engine.
 
     Args:
         resolution: pixels along an edge.
-        threads: CPU threads; 0 takes all.
+        threads: CPU threads; 0 takes one for each core.
+
+    Returns:
+        Blender's scene of the picture.
     """
     scene = bpy.data.scenes[names.PICTURE_SCENE]
     render = scene.render
@@ -64,10 +67,10 @@ def configure_cycles(scene: Any, settings: PictureSettings, device: str, seed: i
     """Render the configured scene with Cycles.
 
     Args:
-        scene: the picture's.
-        settings: are all set, every time.
-        device: as chosen by `blend.devices.choose_device`.
-        seed: of the sampling pattern.
+        scene: Blender's scene of the picture.
+        settings: all of Cycles' settings; each of them is set, every time.
+        device: device as chosen by `blend.devices.choose_device`.
+        seed: number that starts the sampling pattern.
     """
     scene.render.engine = "CYCLES"
     scene.render.use_persistent_data = settings.economy.persistent_data
@@ -104,26 +107,26 @@ def _limit_paths(cycles: Any, wanted: CyclesSettings) -> None:
 
 
 def _find_bright_parts(world: Any, map_px: int) -> None:
-    """Set the map that Cycles makes of the world at each render; its own choice takes 0.8 s for an HDRI of 1,024."""
+    """Set the size of the map that Cycles makes of the world; its own choice takes 0.8 s for an HDRI 1,024 wide."""
     world.cycles.sampling_method = "MANUAL" if map_px else "AUTOMATIC"
     if map_px:
         world.cycles.sample_map_resolution = map_px
 
 
 def render_picture(
-    behind: Backdrop | None = None,
+    matte: Matte | None = None,
     *,
     distortion: float = 0.0,
     development: Development | None = None,
     lit_by: NDArray[np.float64] = NEUTRAL,
 ) -> NDArray[np.uint8]:
-    """Render the picture's scene as configured.
+    """Render the picture as configured.
 
     Args:
-        behind: what is behind all that is rendered; None if the scene has it all.
-        distortion: of the lens, which Blender's has none of; see `farm.scene.camera.Camera`.
-        development: what the camera makes of the light; None for the scene's view transform.
-        lit_by: colour of the scene's light, (3,), for the development.
+        matte: the backdrop to lay the render over; None if the render has everything.
+        distortion: the lens's distortion, which Blender's lens lacks; see `farm.scene.camera.Camera`.
+        development: what the camera makes of the light; None for Blender's view transform.
+        lit_by: (3,), colour of the scene's light, for the development.
 
     Returns:
         (H, W, 3) uint8 sRGB.
@@ -133,23 +136,24 @@ def render_picture(
     """
     scene = bpy.data.scenes[names.PICTURE_SCENE]
     with tempfile.TemporaryDirectory(prefix="cable-farm-") as folder:
-        if behind is None and distortion == 0.0 and development is None:
+        if matte is None and distortion == 0.0 and development is None:
             target = Path(folder) / "picture.png"
             _render_into(scene, target)
             return _read(target)
-        light = _render_light(scene, behind, Path(folder))
+        light = _render_light(scene, matte, Path(folder))
         if development is not None:
             return develop(light, development, distortion=distortion, lit_by=lit_by)
         return _view(scene, Distortion(distortion).distort(light), Path(folder))
 
 
-def render_scene(drawn: Scene, behind: Backdrop | None) -> NDArray[np.uint8]:
-    """Render a realized scene as its own camera takes it; see `render_picture`."""
+def render_scene(built: BuiltScene) -> NDArray[np.uint8]:
+    """Render a built scene as its own camera takes it; see `render_picture`."""
+    scene = built.scene
     return render_picture(
-        behind,
-        distortion=drawn.camera.distortion,
-        development=drawn.development,
-        lit_by=illuminant(drawn.lamps, drawn.grey_world),
+        built.matte,
+        distortion=scene.camera.distortion,
+        development=scene.development,
+        lit_by=illuminant(scene.lamps, scene.grey_world),
     )
 
 
@@ -161,11 +165,11 @@ def _render_into(scene: Any, target: Path) -> None:
         raise RenderError(f"Blender failed to render: {' '.join(str(error).split())}") from error
 
 
-def _render_light(scene: Any, behind: Backdrop | None, folder: Path) -> Panorama:
-    """Render linear light (H, W, 3), with what is behind laid behind; the world is left out then."""
+def _render_light(scene: Any, matte: Matte | None, folder: Path) -> NDArray[np.float32]:
+    """Render linear light (H, W, 3); with a matte the world is left out, and the backdrop is laid behind."""
     target = folder / "light.exr"
     settings = scene.render.image_settings
-    scene.render.film_transparent = behind is not None
+    scene.render.film_transparent = matte is not None
     settings.file_format, settings.color_mode, settings.color_depth, settings.exr_codec = (
         "OPEN_EXR",
         "RGBA",
@@ -178,28 +182,25 @@ def _render_light(scene: Any, behind: Backdrop | None, folder: Path) -> Panorama
         scene.render.film_transparent = False
         settings.file_format, settings.color_mode, settings.color_depth, settings.compression = "PNG", "RGB", "8", 0
     light = _pixels(target)
-    if behind is None:
+    if matte is None:
         return light
-    if light.shape[:2] != behind.covered.shape:
+    if light.shape[:2] != matte.covered.shape:
         raise RenderError(_NOTHING_WRITTEN)
-    return lay_over(light, behind)
+    return lay_over(light, matte)
 
 
-def _pixels(path: Path) -> Panorama:
+def _pixels(path: Path) -> NDArray[np.float32]:
     image = bpy.data.images.load(str(path))
     try:
-        columns, rows = image.size
-        if not columns:
+        if not image.size[0]:
             raise RenderError(_NOTHING_WRITTEN)
-        pixels = np.empty(rows * columns * 4, np.float32)
-        image.pixels.foreach_get(pixels)
+        return rgb_of(image)
     finally:
         bpy.data.images.remove(image)
-    return np.ascontiguousarray(pixels.reshape(rows, columns, 4)[::-1, :, :3])  # Blender's rows go up
 
 
-def _view(scene: Any, light: Panorama, folder: Path) -> NDArray[np.uint8]:
-    """Light through the scene's view transform."""
+def _view(scene: Any, light: NDArray[np.float32], folder: Path) -> NDArray[np.uint8]:
+    """Light (H, W, 3) through the scene's view transform."""
     target = folder / "picture.png"
     rows, columns = light.shape[:2]
     image = bpy.data.images.new("light", columns, rows, float_buffer=True)

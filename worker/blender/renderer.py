@@ -1,50 +1,54 @@
-"""An open template that makes picture after picture: the real maker, one a process."""
+"""The renderer: an open template in this process that makes one picture after another.
+
+A picture's steps are methods (settle, build, render, label), so that what measures or tests one of them calls the very
+step that pictures go through.
+"""
 
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import bpy
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from blend.build import TEMPLATE
 from blend.contract import open_template
 from blend.devices import choose_device
-from farm.dataset.manifest import RejectedAttempt, RenderSettings, SettleFigures
-from farm.dataset.outputs import IMAGE, outputs_of
-from farm.errors import SceneError, SpecError
+from farm.dataset.manifest import RejectedAttempt, RenderSettings
+from farm.dataset.outputs import IMAGE, OUTPUTS, Output, outputs_of
+from farm.errors import SpecError
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.dataset_spec import DatasetSpec, Engine
 from farm.spec.header import DatasetHeader, FileRef
 from farm.spec.job import Job
-from farm.spec.quality import ChosenSettings
-from farm.spec.rendering import PictureSettings
-from worker.backdrop.matte import Backdrop
+from farm.spec.quality import ChosenSettings, Quality
+from farm.spec.rendering import Economy, PictureSettings
 from worker.blender import eevee
 from worker.blender.asset_files import AssetLibrary, checked
-from worker.blender.build_scene import build_scene
+from worker.blender.build_scene import BuiltScene, build_scene
 from worker.blender.image_cache import ImageCache
 from worker.blender.render import configure_cycles, configure_eevee, configure_picture, render_scene
-from worker.label.makers import LabelInputs, make_labels
+from worker.geometry import SettledGeometry
+from worker.label.makers import make_labels
 from worker.sample.scene import sample_scene
 from worker.service.picture import Picture
-from worker.simulate.checks.accept import find_fault
-from worker.simulate.checks.measure import measure
-from worker.simulate.shapes import CableShapes
+from worker.simulate.settle import MeasuredFall, settle
 from worker.simulate.simulate import simulate
+from worker.stopwatch import Stopwatch
 
 
 def open_renderer(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> "BlenderRenderer":
     """Open the dataset's template in this process and make it ready.
 
     Args:
-        header: names the template and the assets.
+        header: the dataset's header, which names the template and the assets.
         device: one of `blend.devices.CHOICES`.
-        threads: of the renderer on the CPU; 0 takes all cores.
+        threads: CPU threads of a render; 0 takes one for each core.
         assets: folder of the baked surfaces; None for the usual place.
 
     Raises:
@@ -52,14 +56,17 @@ def open_renderer(header: DatasetHeader, *, device: str, threads: int, assets: P
         AssetError: if the template's file can't be read.
         MachineError: if there is no such device.
     """
-    return BlenderRenderer(header, device=device, threads=threads, assets=assets)
+    return BlenderRenderer(header, AssetLibrary(header, assets), device=device, threads=threads)
 
 
 class BlenderRenderer:
-    """A Blender with the template open."""
+    """Blender with a dataset's template open.
 
-    def __init__(self, header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> None:
-        """See `open_renderer`."""
+    There is one for a process: opening another replaces the template.
+    """
+
+    def __init__(self, header: DatasetHeader, library: AssetLibrary, *, device: str, threads: int) -> None:
+        """Open the template; see `open_renderer`."""
         start = time.perf_counter()
         path = header.template.path or str(TEMPLATE)
         open_template(checked(FileRef(path=path, sha256=header.template.sha256)))
@@ -69,7 +76,7 @@ class BlenderRenderer:
         self._device = choose_device(device)
         self._threads = threads
         cv2.setNumThreads(threads or -1)
-        self._library = AssetLibrary(header, assets)
+        self._library = library
         self._image_cache = ImageCache()
         self._fingerprint = header.spec_sha256
         self._open_s = time.perf_counter() - start
@@ -79,58 +86,92 @@ class BlenderRenderer:
 
         Raises:
             SpecError: if the header does not say how the category is rendered.
-            SceneError: if no drawn scene passed the checks.
+            SceneError: if no drawn scene passes the checks.
             AssetError: if a texture or HDRI can't be had.
             RenderError: if Blender gives no picture.
         """
         if header.spec_sha256 != self._fingerprint:
-            raise ValueError("this studio was opened for another dataset")
+            raise ValueError("this renderer was opened for another dataset")
+        watch = Stopwatch()  # its stages have the names that manifests hold
         # Opening is paid once, by the first picture of the process.
-        timings = {"open": self._open_s, "randomize": 0.0, "simulate": 0.0, "check": 0.0}
-        self._open_s = 0.0
+        watch.stages_s["open"], self._open_s = self._open_s, 0.0
         spec, chosen = header.spec, _chosen_settings(header, job.category)
-        scene, shapes, settled, rejected = self._settle(job, header, timings)
-        with _timed(timings, "realize"):
-            behind = self._realize(job, spec, chosen.settings, scene, shapes)
-            rendering = self._configure(spec, chosen, scene)
-        with _timed(timings, "render"):
-            image = render_scene(scene, behind)
-        with _timed(timings, "mask"):
-            geometry = LabelInputs(scene, shapes, chosen.settings.detail, spec.resolution)
-            labels = make_labels(geometry, outputs_of(spec))
+        fall, rejected = self.settle(job, header, watch)
+        geometry = SettledGeometry(fall.scene, fall.shapes, chosen.settings.detail, spec.resolution)
+        with watch.stage("realize"):
+            built = self.build(geometry, chosen.settings.economy)
+            rendering = self._configure(spec, chosen, fall.scene)
+        with watch.stage("render"):
+            image = self.render(built)
+        with watch.stage("mask"):
+            labels = self.label(geometry, outputs_of(spec))
         return Picture(
             files={IMAGE.role: image, **labels},
-            scene=scene,
-            settled=settled,
+            scene=fall.scene,
+            settled=fall.figures,
             rejected=rejected,
             render=rendering,
-            timings_s=timings,
+            timings_s=watch.stages_s,
             versions=_versions(),
         )
 
-    def _realize(
-        self, job: Job, spec: DatasetSpec, settings: PictureSettings, scene: Scene, shapes: CableShapes
-    ) -> Backdrop | None:
-        """Set the scene; returns what is behind it, if the renderer is to leave that out."""
-        return build_scene(
-            scene,
-            shapes,
-            self._library,
-            self._image_cache,
-            traits=job.category.traits,
-            resolution=spec.resolution,
-            detail=settings.detail,
-            economy=settings.economy,
+    def settle(
+        self, job: Job, header: DatasetHeader, watch: Stopwatch
+    ) -> tuple[MeasuredFall, tuple[RejectedAttempt, ...]]:
+        """Draw scenes of a job and let them fall until one may be shipped; see `worker.simulate.settle.settle`.
+
+        Raises:
+            SceneError: if no drawn scene passes the checks.
+        """
+        return settle(
+            job,
+            lambda attempt: sample_scene(header, job, attempt),
+            lambda scene: simulate(scene, header.spec.simulator, header.spec.fall),
+            header.spec.fall.max_attempts,
+            watch,
         )
+
+    def build(self, geometry: SettledGeometry, economy: Economy) -> BuiltScene:
+        """Set the template's picture to a settled scene; see `worker.blender.build_scene.build_scene`.
+
+        Raises:
+            AssetError: if a texture or HDRI can't be had.
+        """
+        return build_scene(geometry, self._library, self._image_cache, economy)
+
+    def use_cycles(self, settings: PictureSettings, resolution: int, seed: int) -> None:
+        """Let the next renders be Cycles'.
+
+        Args:
+            settings: all of its settings.
+            resolution: pixels along an edge.
+            seed: number that starts the sampling pattern.
+        """
+        configure_cycles(configure_picture(resolution, self._threads), settings, self._device, seed)
+
+    def use_eevee(self, quality: Quality, resolution: int) -> None:
+        """Let the next renders be Eevee's."""
+        configure_eevee(configure_picture(resolution, self._threads), eevee.samples_of(quality))
+
+    def render(self, built: BuiltScene) -> NDArray[np.uint8]:
+        """Render a scene that `build` has set, by the engine that was chosen after it: (H, W, 3) sRGB.
+
+        Raises:
+            RenderError: if Blender gives no picture.
+        """
+        return render_scene(built)
+
+    def label(self, geometry: SettledGeometry, outputs: Iterable[Output] = OUTPUTS) -> dict[str, Any]:
+        """Make a settled scene's labels; see `worker.label.makers.make_labels`."""
+        return make_labels(geometry, outputs)
 
     def _configure(self, spec: DatasetSpec, chosen: ChosenSettings, scene: Scene) -> RenderSettings:
         """Set how the scene renders; returns it for the manifest."""
-        picture = configure_picture(spec.resolution, self._threads)
         if spec.engine is Engine.EEVEE:
+            self.use_eevee(spec.quality, spec.resolution)
             samples = eevee.samples_of(spec.quality)
-            configure_eevee(picture, samples)
             return RenderSettings(engine="eevee", device="opengl", resolution=spec.resolution, samples=samples)
-        configure_cycles(picture, chosen.settings, self._device, scene.render_seed)
+        self.use_cycles(chosen.settings, spec.resolution, scene.render_seed)
         return RenderSettings(
             engine="cycles",
             device=self._device,
@@ -141,30 +182,6 @@ class BlenderRenderer:
             expected_flip=chosen.expected_flip if scene.development is None else None,
         )
 
-    @staticmethod
-    def _settle(
-        job: Job, header: DatasetHeader, timings: dict[str, float]
-    ) -> tuple[Scene, CableShapes, SettleFigures, tuple[RejectedAttempt, ...]]:
-        rejected: list[RejectedAttempt] = []
-        for attempt in range(header.spec.fall.max_attempts):
-            with _timed(timings, "randomize"):
-                scene = sample_scene(header, job, attempt)
-            try:
-                with _timed(timings, "simulate"):
-                    shapes = simulate(scene, header.spec.simulator, header.spec.fall)
-            except SceneError as error:
-                rejected.append(RejectedAttempt(attempt=attempt, reason=str(error)))
-                continue
-            with _timed(timings, "check"):
-                settled = measure(shapes)
-            fault = find_fault(settled)
-            if fault is None:
-                return scene, shapes, settled, tuple(rejected)
-            rejected.append(RejectedAttempt(attempt=attempt, reason=fault))
-        raise SceneError(
-            f"{job.id}: none of {len(rejected)} drawn scenes passed the checks; the last: {rejected[-1].reason}"
-        )
-
 
 def _chosen_settings(header: DatasetHeader, category: Category) -> ChosenSettings:
     if header.spec.engine is Engine.EEVEE:
@@ -172,16 +189,6 @@ def _chosen_settings(header: DatasetHeader, category: Category) -> ChosenSetting
     if category not in header.rendering:
         raise SpecError(f"dataset.json does not say how {category} is rendered; submit a new dataset")
     return header.rendering[category]
-
-
-@contextmanager
-def _timed(timings: dict[str, float], stage: str) -> Iterator[None]:
-    """Add the seconds spent inside to a stage; they are told in the manifest and decide nothing."""
-    start = time.perf_counter()
-    try:
-        yield
-    finally:
-        timings[stage] = timings.get(stage, 0.0) + time.perf_counter() - start
 
 
 def _versions() -> dict[str, str]:

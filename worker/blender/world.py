@@ -1,4 +1,4 @@
-"""What lights the picture, and what is behind the cables: lamps in a grey world, or an HDRI."""
+"""What lights the picture, lamps in a grey world or an HDRI; and the backdrop that an HDRI gives."""
 
 from typing import Any
 
@@ -10,30 +10,28 @@ from numpy.typing import NDArray
 from blend import names
 from blend.world import is_as_built
 from farm.scene.backdrop import HdriWorld
-from farm.scene.camera import Camera
 from farm.scene.light import AreaLamp, GreyWorld, Lamp, PointLamp, StudioLamp
-from worker.backdrop.panorama import Panorama, backdrop, upper_world
+from worker.backdrop.panorama import panorama_backdrop, upper_world
 from worker.blender.asset_files import AssetLibrary
 from worker.blender.image_cache import ImageCache
-from worker.blender.lamps import add_studio_lamp, remove_studio_lamps
+from worker.blender.lamps import add_studio_lamps
 from worker.camera.black_body import black_body
+from worker.camera.view import View
 
 _TEMPLATES_GREY = "farm_templates_grey"
-"""Under this name the node itself keeps its colour and strength as they came with the template."""
+"""Name of the property in which the node keeps the colour and strength that it has in the template."""
 
 
 def set_lamps(lamps: tuple[Lamp, ...]) -> None:
-    """Light the lamps that a scene has, and no other."""
+    """Switch on the lamps that a scene has, and no other."""
     bpy.data.objects[names.POINT_LAMP].hide_render = bpy.data.objects[names.AREA_LAMP].hide_render = True
-    remove_studio_lamps()
-    for number, lamp in enumerate(lamps, start=1):
-        if isinstance(lamp, StudioLamp):
-            add_studio_lamp(lamp, number)
-        else:
-            _light(lamp)
+    add_studio_lamps([lamp for lamp in lamps if isinstance(lamp, StudioLamp)])
+    for lamp in lamps:
+        if not isinstance(lamp, StudioLamp):
+            _switch_on(lamp)
 
 
-def _light(lamp: PointLamp | AreaLamp) -> None:
+def _switch_on(lamp: PointLamp | AreaLamp) -> None:
     point, area = bpy.data.objects[names.POINT_LAMP], bpy.data.objects[names.AREA_LAMP]
     if isinstance(lamp, PointLamp):
         point.hide_render = False
@@ -48,7 +46,7 @@ def _light(lamp: PointLamp | AreaLamp) -> None:
 
 
 def set_grey_world(grey: GreyWorld | None = None) -> None:
-    """Set the world to grey; None is the template's own."""
+    """Set the world to a grey, the template's own if None is given."""
     nodes = bpy.data.worlds[names.WORLD].node_tree.nodes
     nodes[names.WORLD_SWITCH].inputs["Fac"].default_value = 1.0
     nodes[names.WORLD_IMAGE].image = None
@@ -71,9 +69,9 @@ def set_hdri_world(world: HdriWorld, library: AssetLibrary, image_cache: ImageCa
 
     Args:
         world: the HDRI.
-        library: where it is.
+        library: the files of HDRIs.
         image_cache: the images that this process holds.
-        only_lights: the camera sees nothing of it, and a floor hides its lower half.
+        only_lights: whether the camera sees nothing of it and a floor hides its lower half.
 
     Raises:
         AssetError: if the HDRI can't be had.
@@ -84,8 +82,9 @@ def set_hdri_world(world: HdriWorld, library: AssetLibrary, image_cache: ImageCa
     nodes[names.WORLD_BRIGHTNESS].inputs["Fac"].default_value = world.brightness
     image, path = nodes[names.WORLD_IMAGE], library.hdri(world.hdri)
     if only_lights and is_as_built(bpy.data.worlds[names.WORLD]):
-        image.image = image_cache.light(path.name, upper_world(image_cache.radiance(path), _turn(world)))
-        # The map of bright parts has a place for each texel; between texels it would be wrong.
+        light = upper_world(image_cache.radiance(path), _turn(world))
+        image.image = image_cache.for_picture(path.name, light, colour=True)
+        # The map of bright parts has one place for each texel, so between texels it is wrong.
         image.interpolation = "Closest"
         nodes[names.WORLD_MAPPING].inputs["Rotation"].default_value = (0.0, 0.0, 0.0)
     else:
@@ -94,17 +93,27 @@ def set_hdri_world(world: HdriWorld, library: AssetLibrary, image_cache: ImageCa
         nodes[names.WORLD_MAPPING].inputs["Rotation"].default_value = _euler(world)
 
 
-def backdrop_of(
-    world: HdriWorld, camera: Camera, resolution: int, library: AssetLibrary, image_cache: ImageCache
-) -> Panorama | None:
-    """What the camera sees of an HDRI, (resolution, resolution, 3); None if the template shows it in its own way.
+def hdri_backdrop(
+    world: HdriWorld, view: View, lens_radius_m: float, library: AssetLibrary, image_cache: ImageCache
+) -> NDArray[np.float32] | None:
+    """What the camera sees of an HDRI, as bright as the template shows it.
+
+    Args:
+        world: the HDRI.
+        view: the camera.
+        lens_radius_m: radius of its aperture.
+        library: the files of HDRIs.
+        image_cache: the images that this process holds.
+
+    Returns:
+        (H, W, 3) of linear light; None if an artist changed how the template shows an HDRI.
 
     Raises:
         AssetError: if the HDRI can't be had.
     """
     if not is_as_built(bpy.data.worlds[names.WORLD]):
         return None
-    seen = backdrop(image_cache.radiance(library.hdri(world.hdri)), _turn(world), camera, resolution)
+    seen = panorama_backdrop(image_cache.radiance(library.hdri(world.hdri)), _turn(world), view, lens_radius_m)
     return seen * np.float32(1.0 + world.brightness)
 
 

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 SCANLINES = 5
-"""Scanlines of a pixel. Odd, so that the middle one tells, exactly as the area does, on which side of a straight edge
-more of the pixel lies; more than five change nothing but the time."""
+"""Scanlines of a pixel. The number is odd, so that the middle one tells, exactly as the area does, on which side of a
+straight edge more of the pixel lies; more than five change nothing but the time."""
 
 STEPS = 256
-"""Places in a pixel's width where a scanline may be cut."""
+"""Places across a pixel where a scanline may be cut."""
 
 _FULL = SCANLINES * STEPS
+"""Steps of a pixel that is wholly covered."""
 
 Ints = NDArray[np.int64]
 
@@ -26,10 +27,10 @@ class _Stretches:
     """Pieces of scanlines, each with the number of what covers it.
 
     Attributes:
-        rows: (N,) scanline, counted from the top.
-        starts: (N,) steps from the left edge of the picture.
-        ends: (N,) likewise; after the start.
-        numbers: (N,) of the quads, 0 for what only hides.
+        rows: (N,) scanlines, counted from the top.
+        starts: (N,) steps from the left edge of the picture to the piece's start.
+        ends: (N,) steps from the left edge of the picture to the piece's end, after its start.
+        numbers: (N,) numbers of the quads, 0 for what only hides.
     """
 
     rows: Ints
@@ -45,8 +46,8 @@ def cover(quads_px: NDArray[np.float64], numbers: Ints, rows: int, width: int) -
         quads_px: (N, 4, 2) corners x, y of convex quads in order around each; a later quad hides an earlier one.
         numbers: (N,) number of the thing that each quad is a part of, 1 to 65,535; or 0 for what hides things and is
             none itself.
-        rows: height of the picture, whose top left corner is (0, 0).
-        width: of the picture.
+        rows: height of the picture, pixels; its top left corner is (0, 0).
+        width: width of the picture, pixels.
 
     Returns:
         (rows, width): the number of the thing that covers most of a pixel, 0 where what is seen of all things together

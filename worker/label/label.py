@@ -12,17 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from farm.dataset.outputs import INSTANCES, MASK
-from farm.scene.scene import Scene
-from farm.spec.rendering import CableDetail
 from worker.cable.piece import Piece
-from worker.cable.pieces import pieces_of
 from worker.camera.view import View
-from worker.curves import smooth
+from worker.geometry import SettledGeometry
 from worker.label.coverage import cover
-from worker.label.makers import LabelInputs
 from worker.label.occluders import hiding_pieces
 from worker.label.silhouette import silhouettes
-from worker.simulate.shapes import CableShapes
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,31 +33,23 @@ class Labels:
     instances: NDArray[np.uint16]
 
 
-def make_mask_and_instances(geometry: LabelInputs) -> Mapping[str, NDArray[np.uint8] | NDArray[np.uint16]]:
+def make_mask_and_instances(geometry: SettledGeometry) -> Mapping[str, NDArray[np.uint8] | NDArray[np.uint16]]:
     """Make the mask and the instances of a picture; see `worker.label.makers.Maker`."""
-    labels = label_scene(geometry.scene, geometry.shapes, geometry.detail, geometry.resolution)
+    labels = label_scene(geometry)
     return {MASK.role: labels.mask, INSTANCES.role: labels.instances}
 
 
-def label_scene(scene: Scene, shapes: CableShapes, detail: CableDetail, resolution: int) -> Labels:
-    """Label a settled scene's cables as they are rendered.
-
-    Args:
-        scene: what was drawn.
-        shapes: it settled.
-        detail: how finely cables are modelled.
-        resolution: pixels along an edge of the picture.
-    """
-    curves = [smooth(nodes, detail.points_per_segment) for nodes in shapes.nodes_m]
-    pieces = [*pieces_of(scene, curves, shapes.sticks_m), *hiding_pieces(scene, shapes)]
-    return label_cables(pieces, View.of(scene.camera, resolution), detail.sides)
+def label_scene(geometry: SettledGeometry) -> Labels:
+    """Label a settled scene's cables as they are rendered."""
+    pieces = [*geometry.pieces, *hiding_pieces(geometry)]
+    return label_cables(pieces, geometry.view, geometry.detail.sides)
 
 
 def label_cables(pieces: Sequence[Piece], view: View, sides: int) -> Labels:
     """Label a picture.
 
     Args:
-        pieces: of the cables, and what hides them.
+        pieces: the cables in pieces, and what hides them.
         view: the camera.
         sides: corners of the rendered tubes' cross-section, an even number; 20 are up to 0.6 % wider or narrower than
             a circle.

@@ -2,33 +2,12 @@
 
 import pkgutil
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from farm.dataset.outputs import Output
-from farm.scene.scene import Scene
-from farm.spec.rendering import CableDetail
-from worker.simulate.shapes import CableShapes
+from worker.geometry import SettledGeometry
 
-
-@dataclass(frozen=True, slots=True)
-class LabelInputs:
-    """What labels are made from.
-
-    Attributes:
-        scene: the scene as it was drawn.
-        shapes: the shapes in which its cables settled.
-        detail: how finely cables are modelled.
-        resolution: pixels along an edge of the picture.
-    """
-
-    scene: Scene
-    shapes: CableShapes
-    detail: CableDetail
-    resolution: int
-
-
-Maker: TypeAlias = Callable[[LabelInputs], Mapping[str, Any]]
+Maker: TypeAlias = Callable[[SettledGeometry], Mapping[str, Any]]
 """Makes one label, or several that come from one computation: contents by role. It draws no random number, so that the
 same geometry gives the same contents."""
 
@@ -44,7 +23,7 @@ def find_maker(name: str) -> Maker:
     return maker
 
 
-def make_labels(geometry: LabelInputs, outputs: Iterable[Output]) -> dict[str, Any]:
+def make_labels(geometry: SettledGeometry, outputs: Iterable[Output]) -> dict[str, Any]:
     """Make every label among the outputs; each maker is called once.
 
     Args:

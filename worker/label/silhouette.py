@@ -12,7 +12,7 @@ from worker.camera.view import View
 from worker.curves import Points, tangents
 
 _BAND_PIXELS = 2**18
-"""Pixels that are looked at together."""
+"""Most pixels of a band of rows, whose quads are cut into scanlines at once; it bounds the memory."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class Silhouettes:
 
     Attributes:
         quads_px: (N, 4, 2) corners in order around each.
-        instances: (N,) of the pieces; `worker.cable.piece.OCCLUDER` for what is no cable.
+        instances: (N,) numbers of the pieces; `worker.cable.piece.OCCLUDER` for what is no cable.
     """
 
     quads_px: NDArray[np.float64]
@@ -49,7 +49,7 @@ def silhouettes(pieces: Sequence[Piece], view: View, sides: int) -> Silhouettes:
     """The silhouettes of the rendered pieces.
 
     Args:
-        pieces: of the cables.
+        pieces: the cables in pieces, and what hides them.
         view: the camera.
         sides: corners of the rendered tubes' cross-section, an even number; 20 are up to 0.6 % wider or narrower than
             a circle.
@@ -67,7 +67,7 @@ def silhouettes(pieces: Sequence[Piece], view: View, sides: int) -> Silhouettes:
 def _outline(solid: Convex, view: View) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The convex hull of a solid's corners as seen, in quads that share a corner, all at the distance of the solid.
 
-    Of one around cables that is the distance of its farthest corner; what is seen of its side lies before the cables.
+    A solid around cables has the distance of its farthest corner; the part of its side that is seen lies before them.
     """
     corners = solid.rings.reshape(-1, 3)
     if corners[:, 2].max() >= view.position_m[2]:

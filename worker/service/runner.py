@@ -84,11 +84,11 @@ class Outcome(NamedTuple):
 
 
 class JobRunner:
-    """Runs jobs in one process, with the maker of the last dataset kept open.
+    """Runs jobs in one process, with the renderer of the last dataset kept open.
 
     Args:
         store: folder or URL below which the datasets lie.
-        open_renderer: opens what makes a dataset's pictures; called in this process, at its first job.
+        open_renderer: opens a dataset's renderer; called in this process, at the dataset's first job.
         open_ledger: opens the ledger of a dataset.
         logs: folder for what jobs print; None leaves their output alone.
     """
@@ -134,7 +134,7 @@ class JobRunner:
             ledger.give_back(message.job_id, this_process())
             raise
         except (SoftTimeLimitExceeded, OSError) as error:
-            # Outside of the maker there is nothing that takes long but the store.
+            # Outside of the renderer nothing but the store takes long.
             ledger.give_back(message.job_id, this_process())
             raise DestinationError(f"{message.task_id}: {type(error).__name__}: {error}") from error
         finally:

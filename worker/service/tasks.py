@@ -28,7 +28,7 @@ def _broker_pause_s(process: int) -> float:
 def register_tasks(app: Any, runner: JobRunner, supervisor: Supervisor) -> Any:
     """Give the application its task, which hands every message to the runner.
 
-    The runner opens its maker at the first job, so in the pool's child and never before the fork.
+    The runner opens its renderer at the first job, so in the pool's child and never before the fork.
 
     Args:
         app: the Celery application.

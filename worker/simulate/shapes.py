@@ -1,4 +1,4 @@
-"""Cables as curves: what the fall produces, and what checking, rendering and labelling read."""
+"""Cables as curves: what the fall produces, and what checking, building and labelling read."""
 
 from dataclasses import dataclass, field
 
@@ -16,13 +16,13 @@ class CableShapes:
     Attributes:
         nodes_m: per cable (N, 3), nodes of the centreline from end to end.
         radii_m: (cables,), radius of each cable.
-        lengths_m: (cables,), length of each at rest.
+        lengths_m: (cables,), unstretched length of each cable.
         speeds_m_s: per cable (N,), speed of each node when the shape was captured.
-        start_order: the cables from the lowest start to the highest; sticks among them, numbered on after the cables.
+        start_order: numbers of cables, and after them of sticks, from the lowest start to the highest.
         fall_s: true seconds from the start to the capture.
         steps: time steps of the rod solver, or frames of the cloth.
         sticks_m: per stick (N, 3), nodes of its axis from end to end; none where the simulator has none.
-        stick_radii_m: (sticks,), radius of each.
+        stick_radii_m: (sticks,), radius of each stick.
     """
 
     nodes_m: tuple[Points, ...]
@@ -40,9 +40,9 @@ def bent_rod(length_m: float, bends_per_m: tuple[float, ...], nodes: int) -> NDA
     """A plane polyline of given length and curvature, its middle at the origin and its mean bearing along x.
 
     Args:
-        length_m: of the polyline.
+        length_m: length of the polyline.
         bends_per_m: curvature at equally spaced points from end to end, interpolated smoothly between them.
-        nodes: how many points to return, >= 2, all at the same distance from the next.
+        nodes: number of points, at least 2, at equal distances along it.
 
     Returns:
         (nodes, 2) coordinates in metres.

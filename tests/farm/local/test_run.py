@@ -1,4 +1,4 @@
-"""Whole runs with a private Redis and real Celery workers, whose maker needs no Blender; and their faults."""
+"""Whole runs with a private Redis and real Celery workers, whose renderer needs no Blender; and their faults."""
 
 import os
 import signal
@@ -85,7 +85,7 @@ def test_run(destination: Destination, header: DatasetHeader, how: LocalRun) -> 
 def test_chatter_goes_to_the_log(
     destination: Destination, header: DatasetHeader, how: LocalRun, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    """What a maker prints is in the job's log, not in the terminal."""
+    """What a renderer prints is in the job's log, not in the terminal."""
     run_locally(destination, header, how)
     assert "noise of Blender" not in "".join(capfd.readouterr())
     assert any("noise of Blender" in log.read_text() for log in how.logs.glob("jobs/*/*.log"))

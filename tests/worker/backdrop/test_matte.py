@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tests.worker.scenes import tubular
-from worker.backdrop.matte import Backdrop, covered_by, lay_over
+from worker.backdrop.matte import Matte, covered_by, lay_over
 from worker.camera.view import View
 from worker.curves import Points
 
@@ -68,36 +68,36 @@ def test_what_lies_in_focus_stays_sharp() -> None:
 
 
 @pytest.fixture
-def backdrop() -> Backdrop:
+def matte() -> Matte:
     """A cable before a bright wall."""
     share = covered(bar(shift=0.0003), 0.0)
-    return Backdrop(np.full((*share.shape, 3), 4.0, np.float32), share)
+    return Matte(share, np.full((*share.shape, 3), 4.0, np.float32))
 
 
-def test_cables_hide_what_is_behind(backdrop: Backdrop) -> None:
+def test_cables_hide_what_is_behind(matte: Matte) -> None:
     """Where a cable covers all it is seen as rendered, where none is, the backdrop is."""
-    cables = backdrop.covered[:, :, None] * np.array([0.2, 0.1, 0.4], np.float32)
-    laid = lay_over(cables, backdrop)
-    assert (laid[backdrop.covered == 1.0] == cables[backdrop.covered == 1.0]).all()
-    assert (laid[backdrop.covered == 0.0] == 4.0).all()
+    cables = matte.covered[:, :, None] * np.array([0.2, 0.1, 0.4], np.float32)
+    laid = lay_over(cables, matte)
+    assert (laid[matte.covered == 1.0] == cables[matte.covered == 1.0]).all()
+    assert (laid[matte.covered == 0.0] == 4.0).all()
 
 
-def test_an_edge_is_mixed_by_its_share(backdrop: Backdrop) -> None:
+def test_an_edge_is_mixed_by_its_share(matte: Matte) -> None:
     """A pixel that is covered in part is a mix of a cable's colour and the backdrop."""
     colour = np.array([0.2, 0.1, 0.4], np.float32)
-    share = backdrop.covered[:, :, None]
-    laid = lay_over(share * colour, backdrop)
+    share = matte.covered[:, :, None]
+    laid = lay_over(share * colour, matte)
     assert np.allclose(laid, share * colour + (1 - share) * 4.0, atol=1e-4)
 
 
-def test_ragged_samples_leave_the_edge_straight(backdrop: Backdrop) -> None:
+def test_ragged_samples_leave_the_edge_straight(matte: Matte) -> None:
     """Edge pixels of which all samples or none met the cable, row by row, come out between, and nearer each other."""
     colour = np.array([0.2, 0.1, 0.4], np.float32)
-    edge = (backdrop.covered > 0.0) & (backdrop.covered < 1.0)
-    found = np.where(edge, np.arange(VIEW.resolution)[:, None] % 2, backdrop.covered)
-    laid = lay_over((found[:, :, None] * colour).astype(np.float32), backdrop)
+    edge = (matte.covered > 0.0) & (matte.covered < 1.0)
+    found = np.where(edge, np.arange(VIEW.resolution)[:, None] % 2, matte.covered)
+    laid = lay_over((found[:, :, None] * colour).astype(np.float32), matte)
     column = np.flatnonzero(edge[64])[0]
-    share = backdrop.covered[64, column]
+    share = matte.covered[64, column]
     rows = laid[20:100, column, 2]
     assert np.ptp(rows) < 0.25 * colour[2] * share
     assert rows.mean() == pytest.approx(share * colour[2] + (1 - share) * 4.0, rel=0.05)

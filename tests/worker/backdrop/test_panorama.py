@@ -1,4 +1,4 @@
-"""HDRIs as arrays: what lights from above, and what is seen behind."""
+"""HDRIs as arrays: the light from above, and the backdrop."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from farm.scene.camera import Camera
-from worker.backdrop.panorama import UPPER_WIDTH_PX, Panorama, backdrop, upper_world
+from worker.backdrop.panorama import UPPER_WIDTH_PX, Panorama, panorama_backdrop, upper_world
+from worker.camera.lens import lens_radius_m
+from worker.camera.view import View
 
 UPRIGHT = np.eye(3)
 QUARTER_TURN: NDArray[np.float64] = Rotation.from_euler("x", 90, degrees=True).as_matrix()
@@ -29,6 +31,11 @@ def spot(azimuth_deg: float, elevation_deg: float, rows: int = 256) -> Panorama:
     a, e = np.radians([azimuth_deg, elevation_deg])
     cosine = np.sin(elevation)[:, None] * np.sin(e) + np.cos(elevation)[:, None] * np.cos(e) * np.cos(azimuth - a)
     return np.repeat((cosine > np.cos(np.radians(3.0)))[..., None], 3, axis=2).astype(np.float32)
+
+
+def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, resolution: int) -> NDArray[np.float32]:
+    """What a camera sees of a panorama."""
+    return panorama_backdrop(panorama, turn, View.of(camera, resolution), lens_radius_m(camera))
 
 
 def irradiance(panorama: Panorama) -> float:

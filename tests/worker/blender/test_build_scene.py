@@ -10,8 +10,6 @@ bpy = pytest.importorskip("bpy")
 
 from assets.surfaces.bake import bake_surfaces  # noqa: E402  # after importorskip
 from blend import names  # noqa: E402
-from blend.build import TEMPLATE  # noqa: E402
-from blend.contract import open_template  # noqa: E402
 from blend.world import is_as_built  # noqa: E402
 from farm.cli.installed_assets import InstalledAssets  # noqa: E402
 from farm.scene.camera import Camera  # noqa: E402
@@ -21,12 +19,10 @@ from farm.spec.job import Job  # noqa: E402
 from farm.spec.make_header import Inputs, make_header  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
 from farm.spec.quality import REFERENCE  # noqa: E402
-from farm.spec.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
-from worker.backdrop.matte import Backdrop  # noqa: E402
-from worker.blender.asset_files import AssetLibrary  # noqa: E402
-from worker.blender.build_scene import build_scene  # noqa: E402
-from worker.blender.image_cache import ImageCache  # noqa: E402
-from worker.blender.render import configure_cycles, configure_picture, render_picture  # noqa: E402
+from farm.spec.rendering import CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
+from worker.blender.build_scene import BuiltScene  # noqa: E402
+from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
+from worker.geometry import SettledGeometry  # noqa: E402
 from worker.sample.scene import sample_scene  # noqa: E402
 from worker.simulate.simulate import simulate  # noqa: E402
 
@@ -55,51 +51,41 @@ def header() -> DatasetHeader:
 
 
 @pytest.fixture
-def library(header: DatasetHeader, tmp_path: Path) -> AssetLibrary:
-    """The surfaces, small, and a fresh template open."""
+def renderer(header: DatasetHeader, tmp_path: Path) -> BlenderRenderer:
+    """One with a fresh template and the surfaces, small."""
     bake_surfaces(tmp_path, pixels=512, names=SURFACES, processes=1)
-    open_template(TEMPLATE)
-    return AssetLibrary(header, tmp_path)
+    return open_renderer(header, device="cpu", threads=0, assets=tmp_path)
 
 
 def set_up(
     header: DatasetHeader,
-    library: AssetLibrary,
+    renderer: BlenderRenderer,
     job: Job,
     samples: int,
     economy: Economy,
     camera: Camera | None = None,
-) -> Backdrop | None:
+) -> BuiltScene:
     """Make a job's scene ready to render, as seen by another camera if one is given."""
     scene = sample_scene(header, job, 0)
     scene = scene.model_copy(update={"camera": camera or scene.camera})
     shapes = simulate(scene, header.spec.simulator, header.spec.fall)
     settings = PictureSettings(cycles=CyclesSettings(samples=samples, denoiser=Denoiser.NONE), economy=economy)
-    behind = build_scene(
-        scene,
-        shapes,
-        library,
-        ImageCache(),
-        traits=job.category.traits,
-        resolution=RESOLUTION,
-        detail=CableDetail(),
-        economy=economy,
-    )
-    configure_cycles(configure_picture(RESOLUTION, 0), settings, "cpu", scene.render_seed)
-    return behind
+    built = renderer.build(SettledGeometry(scene, shapes, settings.detail, RESOLUTION), economy)
+    renderer.use_cycles(settings, RESOLUTION, scene.render_seed)
+    return built
 
 
 def picture(
     header: DatasetHeader,
-    library: AssetLibrary,
+    renderer: BlenderRenderer,
     category: Category,
     samples: int,
     economy: Economy,
     camera: Camera | None = None,
 ) -> NDArray[np.float64]:
     """The first picture of a category, levels 0 to 255."""
-    behind = set_up(header, library, Job(category=category, index=0), samples, economy, camera)
-    return render_picture(behind).astype(np.float64)
+    built = set_up(header, renderer, Job(category=category, index=0), samples, economy, camera)
+    return renderer.render(built).astype(np.float64)
 
 
 def psnr_db(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
@@ -110,35 +96,35 @@ def psnr_db(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
 @pytest.mark.parametrize("camera", [None, TILTED], ids=["down", "tilted"])
 @pytest.mark.parametrize("field", ["texture_window", "cables_in_view"])
 def test_what_is_out_of_view_is_not_missed(
-    header: DatasetHeader, library: AssetLibrary, field: str, camera: Camera | None
+    header: DatasetHeader, renderer: BlenderRenderer, field: str, camera: Camera | None
 ) -> None:
     """With the same samples, a lamp's picture is the same to 45 dB, which is a level and a half."""
     whole = REFERENCE.economy
     without = whole.model_copy(update={field: True})
-    less, more = (picture(header, library, Category.CLOSE_CONCENTRATED, 8, each, camera) for each in (without, whole))
+    less, more = (picture(header, renderer, Category.CLOSE_CONCENTRATED, 8, each, camera) for each in (without, whole))
     assert psnr_db(less, more) > 45
 
 
 @pytest.mark.parametrize("camera", [None, TILTED], ids=["down", "tilted"])
 def test_what_is_behind_is_what_paths_would_find(
-    header: DatasetHeader, library: AssetLibrary, camera: Camera | None
+    header: DatasetHeader, renderer: BlenderRenderer, camera: Camera | None
 ) -> None:
     """A far picture with the HDRI looked up is that of 256 samples to 35 dB, which leaves their noise."""
-    looked_up = picture(header, library, Category.FAR, 64, Economy(), camera)
-    sampled = picture(header, library, Category.FAR, 256, REFERENCE.economy, camera)
+    looked_up = picture(header, renderer, Category.FAR, 64, Economy(), camera)
+    sampled = picture(header, renderer, Category.FAR, 256, REFERENCE.economy, camera)
     assert psnr_db(looked_up, sampled) > 35
     assert looked_up.mean() == pytest.approx(sampled.mean(), rel=0.01)
 
 
-def test_the_upper_world_lights_as_the_whole_does(header: DatasetHeader, library: AssetLibrary) -> None:
+def test_the_upper_world_lights_as_the_whole_does(header: DatasetHeader, renderer: BlenderRenderer) -> None:
     """A floor under an HDRI is as bright, within 2 %, and alike to 30 dB at samples that leave noise."""
-    upper = picture(header, library, Category.CLOSE_DISTRIBUTED, 64, Economy())
-    whole = picture(header, library, Category.CLOSE_DISTRIBUTED, 256, REFERENCE.economy)
+    upper = picture(header, renderer, Category.CLOSE_DISTRIBUTED, 64, Economy())
+    whole = picture(header, renderer, Category.CLOSE_DISTRIBUTED, 256, REFERENCE.economy)
     assert upper.mean() == pytest.approx(whole.mean(), rel=0.02)
     assert psnr_db(upper, whole) > 30
 
 
-def test_a_world_that_an_artist_changed_is_sampled(header: DatasetHeader, library: AssetLibrary) -> None:
+def test_a_world_that_an_artist_changed_is_sampled(header: DatasetHeader, renderer: BlenderRenderer) -> None:
     """With a node of theirs between HDRI and background, nothing is looked up in the HDRI alone."""
     tree = bpy.data.worlds[names.WORLD].node_tree
     assert is_as_built(bpy.data.worlds[names.WORLD])
@@ -146,10 +132,10 @@ def test_a_world_that_an_artist_changed_is_sampled(header: DatasetHeader, librar
     tree.links.new(tree.nodes[names.WORLD_IMAGE].outputs["Color"], tint.inputs["Color"])
     tree.links.new(tint.outputs["Color"], tree.nodes["plain"].inputs["Color"])
     assert not is_as_built(bpy.data.worlds[names.WORLD])
-    assert set_up(header, library, Job(category=Category.FAR, index=0), 1, Economy()) is None
+    assert set_up(header, renderer, Job(category=Category.FAR, index=0), 1, Economy()).matte is None
 
 
-def test_a_lens_that_an_artist_changed_is_sampled(header: DatasetHeader, library: AssetLibrary) -> None:
+def test_a_lens_that_an_artist_changed_is_sampled(header: DatasetHeader, renderer: BlenderRenderer) -> None:
     """Six blades blur to hexagons, which the disc does not."""
     bpy.data.objects[names.CAMERA].data.dof.aperture_blades = 6
-    assert set_up(header, library, Job(category=Category.FAR, index=0), 1, Economy()) is None
+    assert set_up(header, renderer, Job(category=Category.FAR, index=0), 1, Economy()).matte is None

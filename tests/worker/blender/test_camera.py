@@ -8,23 +8,16 @@ bpy = pytest.importorskip("bpy")
 
 from benchmarks.masks.agreement import compare  # noqa: E402
 from benchmarks.masks.reference import render_coverage  # noqa: E402
-from blend.build import TEMPLATE  # noqa: E402  # after importorskip
-from blend.contract import open_template  # noqa: E402
+from farm.dataset.outputs import INSTANCES  # noqa: E402
 from farm.scene.camera import Camera  # noqa: E402
 from farm.scene.scene import Scene  # noqa: E402
 from farm.spec.category import Category  # noqa: E402
-from farm.spec.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
+from farm.spec.make_header import template_ref  # noqa: E402
+from farm.spec.rendering import CableDetail, CyclesSettings, Denoiser, PictureSettings  # noqa: E402
 from tests.worker.scenes import make_header, make_scene  # noqa: E402
 from worker.backdrop.matte import covered_by  # noqa: E402
-from worker.backdrop.panorama import lens_radius_m  # noqa: E402
-from worker.blender.asset_files import AssetLibrary  # noqa: E402
-from worker.blender.build_scene import build_scene  # noqa: E402
-from worker.blender.image_cache import ImageCache  # noqa: E402
-from worker.blender.render import configure_cycles, configure_picture  # noqa: E402
-from worker.cable.pieces import pieces_of  # noqa: E402
-from worker.camera.view import View  # noqa: E402
-from worker.curves import smooth  # noqa: E402
-from worker.label.label import label_scene  # noqa: E402
+from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
+from worker.geometry import SettledGeometry  # noqa: E402
 from worker.simulate.shapes import CableShapes  # noqa: E402
 from worker.simulate.simulate import simulate  # noqa: E402
 
@@ -63,53 +56,53 @@ def settled() -> tuple[Scene, CableShapes]:
     return scene, simulate(scene, header.spec.simulator, header.spec.fall)
 
 
-@pytest.fixture(autouse=True)
-def template() -> None:
-    """A fresh one."""
-    open_template(TEMPLATE)
+@pytest.fixture
+def renderer() -> BlenderRenderer:
+    """One with a fresh template and no assets."""
+    header = make_header().model_copy(update={"template": template_ref(None)})
+    return open_renderer(header, device="cpu", threads=0, assets=None)
 
 
-def render_white(scene: Scene, shapes: CableShapes) -> NDArray[np.float64]:
+def seen_by(camera: Camera, settled: tuple[Scene, CableShapes]) -> SettledGeometry:
+    """The cables without a floor, before another camera."""
+    scene, shapes = settled
+    return SettledGeometry(
+        scene.model_copy(update={"camera": camera, "floor": None}), shapes, CableDetail(), RESOLUTION
+    )
+
+
+def render_white(renderer: BlenderRenderer, geometry: SettledGeometry) -> NDArray[np.float64]:
     """Coverage by the scene's cables as Cycles finds it."""
     settings = PictureSettings(cycles=CyclesSettings(samples=64, denoiser=Denoiser.NONE))
-    build_scene(
-        scene,
-        shapes,
-        AssetLibrary(make_header(), None),
-        ImageCache(),
-        traits=Category.CLOSE_CONCENTRATED.traits,
-        resolution=RESOLUTION,
-        detail=CableDetail(),
-        economy=Economy(),
-    )
-    configure_cycles(configure_picture(RESOLUTION, 0), settings, "cpu", 0)
-    return render_coverage(scene.camera, samples=128)
+    renderer.build(geometry, settings.economy)
+    renderer.use_cycles(settings, RESOLUTION, seed=0)
+    return render_coverage(geometry.scene.camera, samples=128)
 
 
 @pytest.mark.parametrize("name", CAMERAS)
-def test_a_mask_agrees_with_a_render_through_any_lens(settled: tuple[Scene, CableShapes], name: str) -> None:
+def test_a_mask_agrees_with_a_render_through_any_lens(
+    renderer: BlenderRenderer, settled: tuple[Scene, CableShapes], name: str
+) -> None:
     """White cables on black, tilted, rolled, distorted: edges within a fifth of a pixel, area within a hundredth."""
-    drawn, shapes = settled
-    scene = drawn.model_copy(update={"camera": CAMERAS[name], "floor": None})
-    coverage = render_white(scene, shapes)
-    agreement = compare(label_scene(scene, shapes, CableDetail(), RESOLUTION).instances, coverage)
+    geometry = seen_by(CAMERAS[name], settled)
+    coverage = render_white(renderer, geometry)
+    agreement = compare(renderer.label(geometry)[INSTANCES.role], coverage)
     assert agreement.iou > 0.97
     assert agreement.edge_error_px <= 0.2
     assert agreement.gap_pixels < 20
     assert agreement.area_ratio == pytest.approx(1.0, abs=0.01)
 
 
-def test_what_is_out_of_focus_covers_as_it_does_in_a_render(settled: tuple[Scene, CableShapes]) -> None:
+def test_what_is_out_of_focus_covers_as_it_does_in_a_render(
+    renderer: BlenderRenderer, settled: tuple[Scene, CableShapes]
+) -> None:
     """A wide open lens, tilted and in focus above the floor: its coverage is Cycles' within a few samples' noise."""
-    drawn, shapes = settled
     camera = CAMERAS["long"].model_copy(update={"f_number": 4.0, "focus_offset_m": 0.02, "distortion": 0.0})
-    scene = drawn.model_copy(update={"camera": camera, "floor": None})
-    coverage = render_white(scene, shapes)
-    curves = [smooth(nodes, CableDetail().points_per_segment) for nodes in shapes.nodes_m]
-    view = View.of(camera, RESOLUTION)
-    pieces = pieces_of(scene, curves, shapes.sticks_m)
-    found = covered_by(pieces, view, lens_radius_m(camera), CableDetail().sides)
-    sharp = covered_by(pieces, view, 0.0, CableDetail().sides)
+    geometry = seen_by(camera, settled)
+    coverage = render_white(renderer, geometry)
+    pieces, view, sides = geometry.pieces, geometry.view, geometry.detail.sides
+    found = covered_by(pieces, view, geometry.lens_radius_m, sides)
+    sharp = covered_by(pieces, view, 0.0, sides)
     error = np.abs(found - coverage).mean()
     assert error < 0.01
     assert error < 0.25 * np.abs(sharp - coverage).mean()

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 bpy = pytest.importorskip("bpy")
 
 from assets.surfaces.bake import bake_surfaces  # noqa: E402  # after importorskip
-from blend.build import TEMPLATE  # noqa: E402
-from blend.contract import open_template  # noqa: E402
 from farm.cli.installed_assets import InstalledAssets  # noqa: E402
 from farm.scene.clutter import PartKind, SheetKind, StickKind  # noqa: E402
 from farm.scene.floor import Wear  # noqa: E402
@@ -21,13 +19,11 @@ from farm.spec.job import Job  # noqa: E402
 from farm.spec.make_header import Inputs  # noqa: E402
 from farm.spec.make_header import make_header as catalogue_header  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
-from farm.spec.rendering import CableDetail, CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
+from farm.spec.rendering import CyclesSettings, Denoiser, PictureSettings  # noqa: E402
 from tests.worker.clutter.things import make_part, make_sheet, make_stick  # noqa: E402
-from worker.blender.asset_files import AssetLibrary  # noqa: E402
-from worker.blender.build_scene import build_scene  # noqa: E402
 from worker.blender.clutter import PREFIX  # noqa: E402
-from worker.blender.image_cache import ImageCache  # noqa: E402
-from worker.blender.render import configure_cycles, configure_picture, render_picture  # noqa: E402
+from worker.blender.renderer import open_renderer  # noqa: E402
+from worker.geometry import SettledGeometry  # noqa: E402
 from worker.sample.scene import sample_scene  # noqa: E402
 from worker.simulate.simulate import simulate  # noqa: E402
 
@@ -48,7 +44,7 @@ NEUTRAL = Wear(
 
 
 class Stage:
-    """An open template over one small surface."""
+    """An open renderer with one small surface."""
 
     def __init__(self, folder: Path) -> None:
         bake_surfaces(folder, pixels=256, names=("concrete_smooth",), processes=1)
@@ -57,26 +53,18 @@ class Stage:
         self.header = made.model_copy(
             update={"surfaces": tuple(each for each in made.surfaces if each.name == "concrete_smooth")}
         )
-        open_template(TEMPLATE)
-        self.library, self.image_cache = AssetLibrary(self.header, folder), ImageCache()
+        self._renderer = open_renderer(self.header, device="cpu", threads=1, assets=folder)
         self.job = Job(category=Category.CLOSE_CONCENTRATED, index=0)
         self.plain = sample_scene(self.header, self.job, 0)
 
     def picture(self, scene: Scene) -> NDArray[np.uint8]:
         """Fallen and rendered."""
-        build_scene(
-            scene,
-            simulate(scene, self.header.spec.simulator, self.header.spec.fall),
-            self.library,
-            self.image_cache,
-            traits=self.job.category.traits,
-            resolution=RESOLUTION,
-            detail=CableDetail(),
-            economy=Economy(),
-        )
-        settings = PictureSettings(cycles=CyclesSettings(samples=4, denoiser=Denoiser.NONE), economy=Economy())
-        configure_cycles(configure_picture(RESOLUTION, 1), settings, "cpu", 0)
-        return render_picture()
+        shapes = simulate(scene, self.header.spec.simulator, self.header.spec.fall)
+        settings = PictureSettings(cycles=CyclesSettings(samples=4, denoiser=Denoiser.NONE))
+        geometry = SettledGeometry(scene, shapes, settings.detail, RESOLUTION)
+        built = self._renderer.build(geometry, settings.economy)
+        self._renderer.use_cycles(settings, RESOLUTION, seed=0)
+        return self._renderer.render(built)
 
 
 @pytest.fixture(scope="module")

@@ -50,7 +50,7 @@ def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def renderer(baked: Path) -> BlenderRenderer:
-    """A studio that no other test has opened a file under."""
+    """One whose template no other test has used."""
     return open_renderer(small_header(), device="cpu", threads=0, assets=baked)
 
 
@@ -84,7 +84,7 @@ def test_a_cable_pixel_looks_unlike_the_picture_without_cables(renderer: Blender
 
 
 def test_a_picture_does_not_depend_on_those_before_it(renderer: BlenderRenderer, baked: Path) -> None:
-    """The same bytes from a studio that has made pictures of other categories and from a fresh one."""
+    """The same bytes from a renderer that has made pictures of other categories and from a fresh one."""
     header = small_header()
     jobs = [Job(category=category, index=2) for category in Category]
     used = [renderer.make(job, header) for job in jobs]
@@ -161,7 +161,7 @@ def test_a_job_whose_scenes_all_fail_ends_in_a_scene_error(baked: Path) -> None:
 def test_a_rejected_scene_is_drawn_again_and_told_in_the_manifest(baked: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The next sub-seed's scene is shipped, with the reason against the first."""
     faults = iter(["length error 0.02 is above 0.01", None])
-    monkeypatch.setattr("worker.blender.renderer.find_fault", lambda _: next(faults))
+    monkeypatch.setattr("worker.simulate.settle.find_fault", lambda _: next(faults))
     header = small_header()
     made = open_renderer(header, device="cpu", threads=0, assets=baked).make(
         Job(category=Category.FAR, index=0), header

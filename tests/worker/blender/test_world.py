@@ -18,6 +18,7 @@ from worker.blender.camera import set_camera  # noqa: E402
 from worker.blender.render import configure_cycles, configure_picture, render_picture  # noqa: E402
 from worker.blender.world import set_grey_world, set_lamps  # noqa: E402
 from worker.camera.black_body import black_body  # noqa: E402
+from worker.camera.view import View  # noqa: E402
 
 pytestmark = pytest.mark.blender
 
@@ -51,7 +52,8 @@ def white_floor() -> None:
     output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
     tree.links.new(white.outputs["BSDF"], output.inputs["Surface"])
     bpy.data.objects[names.CABLE].hide_render = True
-    set_camera(Camera(height_m=0.1, f_number=8.0))
+    camera = Camera(height_m=0.1, f_number=8.0)
+    set_camera(camera, View.of(camera, RESOLUTION))
     scene = configure_picture(RESOLUTION, 0)
     scene.view_settings.view_transform = "Raw"
     settings = PictureSettings(cycles=CyclesSettings(samples=64, denoiser=Denoiser.NONE, diffuse_bounces=0))

@@ -10,20 +10,21 @@ from farm.dataset.formats import PNG
 from farm.dataset.outputs import IMAGE, INSTANCES, MASK, OUTPUTS, Output
 from farm.spec.rendering import CableDetail
 from tests.worker.scenes import make_scene
+from worker.geometry import SettledGeometry
 from worker.label.label import label_scene
-from worker.label.makers import LabelInputs, find_maker, make_labels
+from worker.label.makers import find_maker, make_labels
 from worker.simulate.shapes import CableShapes
 
-CALLS: list[LabelInputs] = []
+CALLS: list[SettledGeometry] = []
 
 
-def make_pair(geometry: LabelInputs) -> Mapping[str, Any]:
+def make_pair(geometry: SettledGeometry) -> Mapping[str, Any]:
     """Makes two labels at once."""
     CALLS.append(geometry)
     return {"right": 2, "left": 1}
 
 
-def straight_inputs() -> LabelInputs:
+def straight_inputs() -> SettledGeometry:
     """A far scene whose cables lie straight, side by side."""
     scene = make_scene()
     along = np.linspace(-0.2, 0.2, 51)
@@ -37,7 +38,7 @@ def straight_inputs() -> LabelInputs:
         fall_s=0.0,
         steps=0,
     )
-    return LabelInputs(scene, shapes, CableDetail(), 64)
+    return SettledGeometry(scene, shapes, CableDetail(), 64)
 
 
 @pytest.mark.parametrize("name", sorted({output.maker for output in OUTPUTS if output.maker is not None}))
@@ -54,7 +55,7 @@ def test_the_renderer_makes_the_image_alone() -> None:
 def test_labels_of_the_table() -> None:
     """The makers of mask and instances give what labelling the scene gives; the image is left to the renderer."""
     geometry = straight_inputs()
-    expected = label_scene(geometry.scene, geometry.shapes, geometry.detail, geometry.resolution)
+    expected = label_scene(geometry)
     made = make_labels(geometry, (IMAGE, MASK, INSTANCES))
     assert list(made) == ["mask", "instances"]
     assert np.array_equal(made["mask"], expected.mask)

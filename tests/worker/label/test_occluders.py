@@ -5,10 +5,12 @@ from numpy.typing import NDArray
 
 from farm.scene.clutter import StickKind
 from farm.spec.category import Category
+from farm.spec.rendering import CableDetail
 from tests.worker.clutter.things import make_stick
 from tests.worker.scenes import make_scene, tubular
 from worker.camera.view import View
 from worker.curves import Points
+from worker.geometry import SettledGeometry
 from worker.label.label import label_cables
 from worker.label.occluders import hiding_pieces
 from worker.simulate.shapes import CableShapes
@@ -39,7 +41,8 @@ def settled(stick_height_m: float) -> CableShapes:
 def labelled(shapes: CableShapes, category: Category = Category.CLOSE_CONCENTRATED) -> NDArray[np.bool_]:
     """Where a picture of the cable and the pipe shows the cable."""
     scene = make_scene(category).model_copy(update={"sticks": (make_stick(StickKind.PIPE, length_m=0.1),)})
-    pieces = [tubular(shapes.nodes_m[0], 0.001), *hiding_pieces(scene, shapes)]
+    hiding = hiding_pieces(SettledGeometry(scene, shapes, CableDetail(), 256))
+    pieces = [tubular(shapes.nodes_m[0], 0.001), *hiding]
     return label_cables(pieces, View(height_m=0.2, resolution=256), 20).mask > 0
 
 

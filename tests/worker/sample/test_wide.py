@@ -52,15 +52,15 @@ def test_every_kind_of_clutter_occurs() -> None:
 def test_lamps_vary_in_number_size_and_colour() -> None:
     """One to three, from hard to soft, from warm to cold; some pictures have the published lamp."""
     scenes = [wide(Category.CLOSE_CONCENTRATED, index) for index in range(200)]
-    renderer = [[lamp for lamp in scene.lamps if isinstance(lamp, StudioLamp)] for scene in scenes]
-    assert {len(lamps) for lamps in renderer} == {0, 1, 2, 3}
-    sizes = [lamp.size_m / lamp.distance_m for lamps in renderer for lamp in lamps]
-    warmth = [lamp.temperature_k for lamps in renderer for lamp in lamps]
+    studio = [[lamp for lamp in scene.lamps if isinstance(lamp, StudioLamp)] for scene in scenes]
+    assert {len(lamps) for lamps in studio} == {0, 1, 2, 3}
+    sizes = [lamp.size_m / lamp.distance_m for lamps in studio for lamp in lamps]
+    warmth = [lamp.temperature_k for lamps in studio for lamp in lamps]
     assert min(sizes) < 0.03
     assert max(sizes) > 0.4
     assert min(warmth) < 3000
     assert max(warmth) > 7000
-    assert all((scene.grey_world is not None) == bool(lamps) for scene, lamps in zip(scenes, renderer, strict=True))
+    assert all((scene.grey_world is not None) == bool(lamps) for scene, lamps in zip(scenes, studio, strict=True))
 
 
 def test_light_floors_are_exposed_for_light() -> None:

@@ -199,7 +199,7 @@ def test_maker_that_cannot_be_opened(
 
 
 def test_blender_that_does_not_load(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
-    """A library that is missing when the maker is opened is a fault of the machine, too."""
+    """A library that is missing when the renderer is opened is a fault of the machine, too."""
 
     def open_renderer(_header: object) -> Renderer:
         raise ImportError("libXi.so.6")
@@ -279,7 +279,7 @@ def test_bad_message(dataset: Dataset, runner: JobRunner, payload: object) -> No
 
 
 def test_maker_is_kept(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
-    """One maker serves all jobs of a dataset."""
+    """One renderer serves all jobs of a dataset."""
     opened: list[Renderer] = []
 
     def open_renderer(_header: object) -> Renderer:

@@ -50,7 +50,7 @@ def ledger(redis_client: "redis.Redis", dataset: Dataset) -> RedisLedger:
 def worker(
     worker_command: list[str], redis_url: str, tmp_path: Path, queue: CeleryQueue
 ) -> Iterator["subprocess.Popen[bytes]"]:
-    """A worker with the stand-in maker, on the store of the `dataset` fixture."""
+    """A worker with the stand-in renderer, on the store of the `dataset` fixture."""
     del queue  # emptied before the worker listens
     command = [*worker_command, "serve", "--store", str(tmp_path / "store"), "--name", "test", "--min-free-mib", "0"]
     process = subprocess.Popen(
@@ -154,7 +154,7 @@ def test_unfit_worker_takes_itself_out(
     dataset: Dataset,
     ledger: RedisLedger,
 ) -> None:
-    """A worker that can't open its maker gives its job back and ends, with the reason and its code."""
+    """A worker that can't open its renderer gives its job back and ends, with the reason and its code."""
     queue.submit(run, [dataset.message(JOB)])
     result = serve(worker_command, tmp_path / "store", redis_url, STAND_IN_UNFIT="--device optix: no such device")
     assert result.returncode == MachineError.exit_code

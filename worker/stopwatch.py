@@ -1,4 +1,4 @@
-"""Seconds by stage."""
+"""Seconds by stage of a picture. A manifest tells them; they decide nothing."""
 
 import time
 from collections.abc import Iterator
@@ -9,7 +9,7 @@ class Stopwatch:
     """Adds up the seconds of each stage.
 
     Attributes:
-        stages_s: by stage, in the order in which they began.
+        stages_s: seconds by stage, in the order in which the stages began.
     """
 
     def __init__(self) -> None:
@@ -17,7 +17,7 @@ class Stopwatch:
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
-        """Count what is done inside `with`."""
+        """Count what is done inside `with`, also when it raises."""
         start = time.perf_counter()
         try:
             yield

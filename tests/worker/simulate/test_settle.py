@@ -1,0 +1,89 @@
+"""Attempts at a job: which scene is taken, and what is told of those before it. No simulator runs."""
+
+from collections.abc import Callable
+
+import pytest
+
+from farm.errors import SceneError
+from farm.scene.scene import Scene
+from farm.spec.category import Category
+from farm.spec.job import Job
+from tests.worker.scenes import make_scene
+from tests.worker.settled import RADIUS, rod, shapes
+from worker.simulate.settle import first_accepted, let_fall, settle
+from worker.simulate.shapes import CableShapes
+from worker.stopwatch import Stopwatch
+
+JOB = Job(category=Category.FAR, index=0)
+SOUND = shapes(rod())
+FLOATING = shapes(rod(z=2 * RADIUS))
+
+
+def draw(attempt: int) -> Scene:
+    """The scene of an attempt at the job."""
+    return make_scene(attempt=attempt)
+
+
+def falling(*ends: CableShapes | None) -> Callable[[Scene], CableShapes]:
+    """A simulator whose falls end as given, one after the other; None stands for one that diverges."""
+    left = iter(ends)
+
+    def drop(_: Scene) -> CableShapes:
+        end = next(left)
+        if end is None:
+            raise SceneError("the solver diverged")
+        return end
+
+    return drop
+
+
+def test_the_first_sound_scene_is_taken() -> None:
+    """No further scene is drawn after it."""
+    fall, rejected = settle(JOB, draw, falling(SOUND), 3, Stopwatch())
+    assert (fall.scene.attempt, fall.shapes, rejected) == (0, SOUND, ())
+
+
+def test_a_fault_has_the_next_scene_drawn() -> None:
+    """The rejected attempt is told with its reason."""
+    fall, rejected = settle(JOB, draw, falling(FLOATING, SOUND), 3, Stopwatch())
+    assert fall.scene.attempt == 1
+    assert [(each.attempt, each.reason) for each in rejected] == [(0, "gap below a cable over radius 1 is above 0.5")]
+
+
+def test_a_fall_that_diverges_has_the_next_scene_drawn() -> None:
+    """The simulator's own message is the reason."""
+    fall, rejected = settle(JOB, draw, falling(None, SOUND), 3, Stopwatch())
+    assert fall.scene.attempt == 1
+    assert [each.reason for each in rejected] == ["the solver diverged"]
+
+
+def test_a_job_without_a_sound_scene_ends_in_a_scene_error() -> None:
+    """It names the job, the number of attempts and the last reason."""
+    with pytest.raises(SceneError, match=r"far-000000: none of 2 drawn scenes .*the last: the solver diverged"):
+        settle(JOB, draw, falling(FLOATING, None), 2, Stopwatch())
+
+
+def test_the_stages_of_all_attempts_are_counted() -> None:
+    """A fall that diverges has no check."""
+    watch = Stopwatch()
+    settle(JOB, draw, falling(None, SOUND), 2, watch)
+    assert list(watch.stages_s) == ["randomize", "simulate", "check"]
+
+
+def test_a_fall_alone_is_measured_and_not_judged() -> None:
+    """A cable in the air comes back with its figures."""
+    fall = let_fall(0, draw, falling(FLOATING), Stopwatch())
+    assert fall.figures.support_gap == pytest.approx(1.0)
+
+
+def test_attempts_end_at_the_first_that_is_accepted() -> None:
+    """Whatever an attempt makes."""
+
+    def attempt(number: int) -> str:
+        if number < 2:
+            raise SceneError(f"no {number}")
+        return f"yes {number}"
+
+    made, rejected = first_accepted(JOB, attempt, 5)
+    assert made == "yes 2"
+    assert [each.reason for each in rejected] == ["no 0", "no 1"]
