@@ -53,7 +53,7 @@ def redis_client(redis_url: str) -> Iterator["redis.Redis"]:
 
 @pytest.fixture
 def worker_command() -> list[str]:
-    """Starts a worker whose maker needs no Blender."""
+    """Starts a worker whose renderer needs no Blender."""
     return [sys.executable, "-P", str(Path(__file__).parent / "stand_in.py")]
 
 

@@ -1,6 +1,6 @@
-"""A maker without Blender: draws noise from the job's own seed, so the queue can be tested in seconds.
+"""A renderer without Blender: draws noise from the job's own seed, so the queue can be tested in seconds.
 
-As a program it is a worker with this maker: `python -P tests/stand_in.py serve ...`. Environment variables make it
+As a program it is a worker with this renderer: `python -P tests/stand_in.py serve ...`. Environment variables make it
 slow or failing: `STAND_IN_DELAY_S`; `STAND_IN_UNFIT` with a reason why it can't be opened; and `STAND_IN_FAILS` with
 `job id=kind` pairs. The kinds: `permanent`; `passing`, which never passes; `once` in each process; `crash` of the
 process; `segfault`, a real one; `hang`; `bloat`, which takes 400 MiB and hangs; `asset`, which this machine lacks;
@@ -32,6 +32,7 @@ from farm.spec.category import Category
 from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
 from farm.spec.job import Job
 from farm.spec.parse import parse_spec
+from farm.worker_settings import RendererSettings
 from worker.cli import main
 from worker.sample.seeds import Stage, generator
 from worker.service.picture import Picture, Renderer
@@ -167,13 +168,13 @@ def _fail_if_told(job: Job) -> None:
         os.kill(os.getpid(), signal.SIGKILL)
 
 
-def open_stand_in(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> Renderer:
+def open_stand_in(header: DatasetHeader, settings: RendererSettings) -> Renderer:
     """Takes what the real one takes, and needs none of it.
 
     Raises:
         MachineError: if told to.
     """
-    del header, device, threads, assets
+    del header, settings
     if reason := os.environ.get("STAND_IN_UNFIT"):
         raise MachineError(reason)
     return StandInRenderer()

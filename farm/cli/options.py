@@ -5,7 +5,6 @@ import inspect
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -17,19 +16,9 @@ from farm.spec.parse import Description, describe, parse_quotas
 from farm.spec.quality import read_quality
 from farm.spec.simulation import Simulator
 from farm.spec.styles import Style
+from farm.worker_settings import DeviceChoice
 
 _DATASET = "What to make"
-
-
-class DeviceChoice(StrEnum):
-    """Where Cycles renders."""
-
-    AUTO = "auto"
-    CPU = "cpu"
-    OPTIX = "optix"
-    CUDA = "cuda"
-    HIP = "hip"
-    ONEAPI = "oneapi"
 
 
 Broker = Annotated[

@@ -11,7 +11,6 @@ from farm.cli.options import (
     Assets,
     DatasetOptions,
     Device,
-    DeviceChoice,
     Logs,
     MinFree,
     Out,
@@ -25,8 +24,8 @@ from farm.dataset.report import write_overview
 from farm.errors import IncompleteError
 from farm.local.run import LocalRun, default_workers, run_locally
 from farm.machine import usable_cores
-from farm.run.queue.settings import MIN_FREE_MIB
 from farm.spec.make_header import make_header
+from farm.worker_settings import MIN_FREE_MIB, DeviceChoice, RendererSettings
 
 
 @takes_dataset_options
@@ -60,14 +59,9 @@ def run(
     if description.inputs.template is not None:
         ask_worker(["check"], header, log_folder(logs))
     workers = workers or default_workers()
-    how = LocalRun(
-        workers=workers,
-        device=device,
-        threads=threads or max(1, usable_cores() // workers),
-        assets=assets,
-        logs=log_folder(logs),
-        min_free_mib=min_free_mib,
-    )
+    threads = threads or max(1, usable_cores() // workers)
+    renderer = RendererSettings(device=device, threads=threads, assets=assets)
+    how = LocalRun(workers=workers, renderer=renderer, logs=log_folder(logs), min_free_mib=min_free_mib)
     with ProgressDisplay(screen) as display:
         try:
             progress = run_locally(destination, header, how, display.show)

@@ -9,12 +9,20 @@ import typer
 from assets.surfaces.catalogue import SURFACES
 from farm.cli.baking import bake
 from farm.cli.display import console
-from farm.cli.options import Assets, Broker, Device, DeviceChoice, Logs, MinFree, log_folder
+from farm.cli.options import Assets, Broker, Device, Logs, MinFree, log_folder
 from farm.cli.worker_program import become_worker, check_device, require_blender
 from farm.machine import usable_cores
 from farm.run.queue.broker import broker_url, wait_for
-from farm.run.queue.settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
 from farm.storage import open_storage
+from farm.worker_settings import (
+    HARD_LIMIT_S,
+    MEMORY_PER_CHILD_KIB,
+    MIN_FREE_MIB,
+    TASKS_PER_CHILD,
+    DeviceChoice,
+    RendererSettings,
+    WorkerSettings,
+)
 
 
 def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
@@ -48,12 +56,16 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
     open_storage(store).is_empty()  # it may be empty or not there yet, but must be readable
     check_device(device, log_folder(logs))
     bake(SURFACES, assets, console())
-    arguments = ["serve", "--store", store]
-    arguments += ["--name", name or f"worker-{os.getpid()}", "--device", device]
-    arguments += ["--threads", str(threads or max(1, usable_cores() // concurrency))]
-    arguments += ["--concurrency", str(concurrency), "--tasks-per-child", str(tasks_per_child)]
-    arguments += ["--memory-per-child-kib", str(memory_per_child_mib * 1024), "--logs", str(log_folder(logs))]
-    arguments += ["--time-limit-s", str(time_limit_s), "--min-free-mib", str(min_free_mib)]
-    if assets is not None:
-        arguments += ["--assets", str(assets)]
-    become_worker(arguments, url)
+    threads = threads or max(1, usable_cores() // concurrency)
+    settings = WorkerSettings(
+        store=store,
+        name=name or f"worker-{os.getpid()}",
+        logs=log_folder(logs),
+        renderer=RendererSettings(device=device, threads=threads, assets=assets),
+        concurrency=concurrency,
+        tasks_per_child=tasks_per_child,
+        memory_per_child_kib=memory_per_child_mib * 1024,
+        time_limit_s=time_limit_s,
+        min_free_mib=min_free_mib,
+    )
+    become_worker(settings, url)

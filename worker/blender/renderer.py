@@ -4,7 +4,6 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.metadata import version
-from pathlib import Path
 
 import bpy
 import cv2
@@ -22,6 +21,7 @@ from farm.spec.header import DatasetHeader, FileRef
 from farm.spec.job import Job
 from farm.spec.quality import ChosenSettings
 from farm.spec.rendering import PictureSettings
+from farm.worker_settings import RendererSettings
 from worker.backdrop.matte import Backdrop
 from worker.blender import eevee
 from worker.blender.asset_files import AssetLibrary, checked
@@ -37,27 +37,25 @@ from worker.simulate.shapes import CableShapes
 from worker.simulate.simulate import simulate
 
 
-def open_renderer(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> "BlenderRenderer":
+def open_renderer(header: DatasetHeader, settings: RendererSettings) -> "BlenderRenderer":
     """Open the dataset's template in this process and make it ready.
 
     Args:
         header: names the template and the assets.
-        device: one of `blend.devices.CHOICES`.
-        threads: of the renderer on the CPU; 0 takes all cores.
-        assets: folder of the baked surfaces; None for the usual place.
+        settings: device, threads, and folder of the baked surfaces.
 
     Raises:
         TemplateError: if the template can't be opened, lacks something, or has changed since the dataset's start.
         AssetError: if the template's file can't be read.
         MachineError: if there is no such device.
     """
-    return BlenderRenderer(header, device=device, threads=threads, assets=assets)
+    return BlenderRenderer(header, settings)
 
 
 class BlenderRenderer:
     """A Blender with the template open."""
 
-    def __init__(self, header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> None:
+    def __init__(self, header: DatasetHeader, settings: RendererSettings) -> None:
         """See `open_renderer`."""
         start = time.perf_counter()
         path = header.template.path or str(TEMPLATE)
@@ -65,10 +63,10 @@ class BlenderRenderer:
         # Undo steps and autosaves are of no use here and cost time and memory.
         bpy.context.preferences.edit.use_global_undo = False
         bpy.context.preferences.filepaths.use_auto_save_temporary_files = False
-        self._device = choose_device(device)
-        self._threads = threads
-        cv2.setNumThreads(threads or -1)
-        self._library = AssetLibrary(header, assets)
+        self._device = choose_device(settings.device)
+        self._threads = settings.threads
+        cv2.setNumThreads(settings.threads or -1)
+        self._library = AssetLibrary(header, settings.assets)
         self._image_cache = ImageCache()
         self._fingerprint = header.spec_sha256
         self._open_s = time.perf_counter() - start

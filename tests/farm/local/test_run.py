@@ -1,4 +1,4 @@
-"""Whole runs with a private Redis and real Celery workers, whose maker needs no Blender; and their faults."""
+"""Whole runs with a private Redis and real Celery workers, whose renderer needs no Blender; and their faults."""
 
 import os
 import signal
@@ -17,6 +17,7 @@ from farm.errors import DestinationError, IncompleteError, MachineError
 from farm.local.run import LocalRun, run_locally
 from farm.run.progress import Progress
 from farm.spec.header import DatasetHeader
+from farm.worker_settings import RendererSettings
 from tests.live_farm import processes_with, wait_for
 from tests.stand_in import stand_in_header
 
@@ -30,9 +31,7 @@ def how(tmp_path: Path, worker_command: list[str]) -> LocalRun:
     """Two workers."""
     return LocalRun(
         workers=2,
-        device="cpu",
-        threads=1,
-        assets=None,
+        renderer=RendererSettings(),
         logs=tmp_path / "logs",
         worker_command=worker_command,
         lost_after_s=1.0,
@@ -84,7 +83,7 @@ def test_run(destination: Destination, header: DatasetHeader, how: LocalRun) -> 
 def test_chatter_goes_to_the_log(
     destination: Destination, header: DatasetHeader, how: LocalRun, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    """What a maker prints is in the job's log, not in the terminal."""
+    """What a renderer prints is in the job's log, not in the terminal."""
     run_locally(destination, header, how)
     assert "noise of Blender" not in "".join(capfd.readouterr())
     assert any("noise of Blender" in log.read_text() for log in how.logs.glob("jobs/*/*.log"))

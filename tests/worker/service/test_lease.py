@@ -89,7 +89,7 @@ def test_beats_on_without_redis(caplog: pytest.LogCaptureFixture) -> None:
             assert time.monotonic() < give_up_s
             time.sleep(0.01)
         claim.check()
-    assert "not refreshed: gone" in caplog.text
+    assert "not renewed: gone" in caplog.text
 
 
 def test_lost_claim_is_found_out_by_the_thread() -> None:
