@@ -1,6 +1,6 @@
 """A scene made real in the open template: cables, floor, light, world and camera. Sets everything, every time."""
 
-from assets.scan.hdris import LUMINANCE
+from assets.colour import REC709_LUMINANCE
 from farm.scene.backdrop import HdriWorld
 from farm.scene.scene import Scene
 from farm.spec.category import Background, CategoryTraits
@@ -92,6 +92,6 @@ def _behind(
     if scene.plate is None:
         return seen
     # As bright as what would be seen of the surroundings that light the cables.
-    luminance = PLATE_LUMINANCE if seen is None else float((seen @ LUMINANCE).mean())
+    luminance = PLATE_LUMINANCE if seen is None else float((seen @ REC709_LUMINANCE).mean())
     photograph = image_cache.photograph(library.plate(scene.plate.name))
     return plate_backdrop(photograph, scene.plate, resolution, scene.plate.blur_px, luminance)
