@@ -49,7 +49,7 @@ class LiveFarm:
 
     Args:
         folder: takes store and logs.
-        redis_url: of a Redis.
+        redis_url: address of a Redis.
         command: starts a worker.
     """
 
@@ -149,7 +149,7 @@ def done(dataset: Dataset) -> int:
 
 
 def wait_until_done(dataset: Dataset, count: int | None = None) -> None:
-    """Wait for so many images, or all."""
+    """Wait until a number of images are done, or all."""
     wanted = dataset.header.spec.total if count is None else count
     wait_for(lambda: done(dataset) >= wanted)
 

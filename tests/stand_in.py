@@ -48,7 +48,7 @@ SETTLED = SettleFigures.model_validate(
 
 
 def stand_in_header(*, seed: int = 0, resolution: int = 32, **quotas: int) -> DatasetHeader:
-    """A header that asks for so many images of the categories named."""
+    """A header that asks for the images of each category that the quotas name."""
     wanted = quotas or {"far": 2, "close_concentrated_light": 2}
     data = {"seed": seed, "style": "published", "resolution": resolution, "quotas": wanted}
     return DatasetHeader(

@@ -4,14 +4,13 @@ import importlib.util
 import tomllib
 from functools import cache
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
 import numpy.typing as npt
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from assets.colour import REC709_LUMINANCE
-from assets.files import read_bounded, sha256
+from assets.files import Checksum, read_bounded, sha256
 from assets.scan.exr import decode_exr
 from assets.scan.radiance import decode_radiance
 from farm.errors import AssetError
@@ -31,8 +30,6 @@ NEGATIVE_TOLERANCE = 0.05
 
 ASPECT_TOLERANCE = 0.02
 """By how much width / height may differ from 2."""
-
-Checksum = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 
 
 class Hdri(BaseModel):

@@ -1,4 +1,4 @@
-"""`farm run`: a dataset, made on this machine, with nothing installed or left running."""
+"""`farm run`: make a dataset on this machine, with a Redis and workers that end with the command."""
 
 from typing import Annotated
 
@@ -34,11 +34,14 @@ def run(
     out: Out,
     workers: Annotated[
         int | None,
-        typer.Option(min=1, max=256, help="Processes, each with a Blender; default: one a core, in 2 GiB each."),
+        typer.Option(
+            min=1, max=256, help="Workers, each with a Blender; default: one for each core, at most one for each 2 GiB."
+        ),
     ] = None,
     device: Device = DeviceChoice.AUTO,
     threads: Annotated[
-        int | None, typer.Option(min=1, help="Of each worker's renderer; default: the cores divided by the workers.")
+        int | None,
+        typer.Option(min=1, help="Threads of each worker's renderer; default: the cores divided by the workers."),
     ] = None,
     assets: Assets = None,
     logs: Logs = None,
@@ -52,7 +55,7 @@ def run(
     description = options.describe()
     header = make_header(description.spec, description.inputs, InstalledAssets())
     require_blender()
-    find_dataset(destination, header)  # a conflict is told before the minutes that drawing surfaces may take
+    find_dataset(destination, header)  # a conflict is told before surfaces are drawn, which may take minutes
     screen = console()
     check_device(device, log_folder(logs))
     bake_for(header, assets, screen)
@@ -66,7 +69,7 @@ def run(
         try:
             progress = run_locally(destination, header, how, display.show)
         except IncompleteError:
-            # What is there is worth a look, too.
+            # The images that were made are worth a look.
             screen.print(f"the workers' logs are in {how.logs}", markup=False)
             write_overview(open_dataset(destination))
             raise

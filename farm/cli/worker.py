@@ -32,19 +32,23 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
     broker: Broker = None,
     device: Device = DeviceChoice.AUTO,
     threads: Annotated[
-        int | None, typer.Option(min=1, help="Of each renderer; default: the cores divided by the concurrency.")
+        int | None, typer.Option(min=1, help="Threads of each renderer; default: the cores divided by the concurrency.")
     ] = None,
     concurrency: Annotated[int, typer.Option(min=1, help="Pictures at a time, each with a Blender of its own.")] = 1,
-    name: Annotated[str | None, typer.Option(help="Unique on this host; Flower shows it.")] = None,
-    tasks_per_child: Annotated[int, typer.Option(min=1, help="A Blender is replaced after so many.")] = TASKS_PER_CHILD,
+    name: Annotated[str | None, typer.Option(help="Name of the worker, unique on this host; Flower shows it.")] = None,
+    tasks_per_child: Annotated[
+        int, typer.Option(min=1, help="Pictures after which a Blender is replaced.")
+    ] = TASKS_PER_CHILD,
     memory_per_child_mib: Annotated[
-        int, typer.Option(min=256, help="A Blender is replaced above this.")
+        int, typer.Option(min=256, help="MiB of memory above which a Blender is replaced.")
     ] = MEMORY_PER_CHILD_KIB // 1024,
     time_limit_s: Annotated[
-        float, typer.Option(min=1, max=HARD_LIMIT_S, help="A job's process is killed after so long.")
+        float, typer.Option(min=1, max=HARD_LIMIT_S, help="Seconds after which a job's process is killed.")
     ] = HARD_LIMIT_S,
     min_free_mib: MinFree = MIN_FREE_MIB,
-    broker_wait_s: Annotated[float, typer.Option(min=0, help="Wait so long for a Redis that is not there yet.")] = 0.0,
+    broker_wait_s: Annotated[
+        float, typer.Option(min=0, help="Seconds to wait for a Redis that is not there yet.")
+    ] = 0.0,
     assets: Assets = None,
     logs: Logs = None,
 ) -> None:

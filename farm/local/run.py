@@ -1,4 +1,4 @@
-"""`farm run`: the whole path on this machine, from a header to a finished dataset."""
+"""A run on this machine alone, from a dataset's header to its finished folder."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

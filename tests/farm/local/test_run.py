@@ -50,7 +50,7 @@ def servers_of(parent: int) -> set[int]:
 
 
 def once(action: Callable[[], None], after: int) -> Callable[[Progress], None]:
-    """Act once, when so many images are done."""
+    """Act once, when a number of images are done."""
     acted = False
 
     def look(progress: Progress) -> None:
@@ -236,7 +236,7 @@ def running(destination: Destination, how: LocalRun, worker_command: list[str]) 
         stderr=subprocess.PIPE,
     )
     try:
-        wait_for(lambda: len(processes_with(f"{how.logs}\0")) == 5)  # the run, two workers and their children
+        wait_for(lambda: len(processes_with(str(how.logs))) == 5)  # the run, two workers and their children
         yield process
     finally:
         process.kill()

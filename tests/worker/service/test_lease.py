@@ -54,7 +54,7 @@ def claim(ledger: MemoryLedger, clock: Clock) -> Lease:
 
 
 def wait_for_beats(ledger: ShortLedger, count: int) -> None:
-    """Wait until the claim was refreshed so often."""
+    """Wait until the claim was renewed a number of times."""
     give_up_s = time.monotonic() + 30
     while ledger.refreshed < count:
         assert time.monotonic() < give_up_s

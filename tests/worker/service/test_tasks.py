@@ -73,7 +73,7 @@ def worker(
 
 
 def wait_until_done(dataset: Dataset, count: int) -> None:
-    """Wait for so many images."""
+    """Wait until a number of images are done."""
     completion = Completion(dataset)
     give_up_s = time.monotonic() + PATIENCE_S
     while len(completion.look()) < count:
