@@ -9,8 +9,7 @@ from types import MappingProxyType
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from assets.files import read_bounded, sha256
-from assets.scan.hdris import Checksum
+from assets.files import Checksum, read_bounded, sha256
 from farm.errors import AssetError
 
 FOLDER_NAME = "environments"

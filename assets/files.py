@@ -6,8 +6,14 @@ import secrets
 import stat
 from io import BufferedReader
 from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field
 
 from farm.errors import AssetError
+
+Checksum = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
+"""SHA-256 of a file's content, as hexadecimal digits."""
 
 LARGEST_FILE = 512 * 2**20
 """Bytes above which a file isn't read at all."""

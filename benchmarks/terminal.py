@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from worker.service.process import send_output_to
+from worker.service.process_log import send_output_to
 
 _TABLE_WIDTH = 130
 

@@ -5,35 +5,31 @@ from typing import Any
 import bpy
 
 from farm.errors import MachineError
+from farm.worker_settings import DeviceChoice
 
-GPU_BACKENDS = ("OPTIX", "CUDA", "HIP", "ONEAPI")
-"""In the order in which `auto` tries them."""
-
-CHOICES = ("auto", "cpu", *(backend.lower() for backend in GPU_BACKENDS))
+GPU_CHOICES = (DeviceChoice.OPTIX, DeviceChoice.CUDA, DeviceChoice.HIP, DeviceChoice.ONEAPI)
+"""The choices that name a backend of Cycles, in the order in which `auto` tries them."""
 
 
-def choose_device(wanted: str) -> str:
+def choose_device(wanted: DeviceChoice) -> str:
     """Enable a device for Cycles in this process.
 
     Args:
-        wanted: one of `CHOICES`; `auto` takes the first GPU backend that has a device, else the CPU.
+        wanted: device to enable; `auto` takes the first GPU backend that has a device, else the CPU.
 
     Returns:
         The choice made, "cpu" or a backend in lower case.
 
     Raises:
-        MachineError: if the choice is unknown or this machine has no such device.
+        MachineError: if this machine has no such device.
     """
-    if wanted not in CHOICES:
-        raise MachineError(f"--device {wanted}: unknown; choose one of {', '.join(CHOICES)}")
-    if wanted == "cpu":
-        return "cpu"
-    backends = GPU_BACKENDS if wanted == "auto" else (wanted.upper(),)
-    for backend in backends:
-        if _enable(backend):
-            return backend.lower()
-    if wanted == "auto":
-        return "cpu"
+    if wanted is DeviceChoice.CPU:
+        return str(DeviceChoice.CPU)
+    for choice in GPU_CHOICES if wanted is DeviceChoice.AUTO else (wanted,):
+        if _enable(choice.upper()):
+            return str(choice)
+    if wanted is DeviceChoice.AUTO:
+        return str(DeviceChoice.CPU)
     raise MachineError(f"--device {wanted}: Cycles finds no such device here; use --device cpu or auto")
 
 

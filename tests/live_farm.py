@@ -5,7 +5,7 @@ import signal
 import subprocess
 import time
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from farm.run.progress import RunHandle
 from farm.run.queue.broker import connect
 from farm.run.registry.port import Priority, RunState, WorkerReport, WorkerState
 from farm.run.registry.redis import RedisRegistry
+from farm.worker_settings import WorkerSettings
 from tests.stand_in import stand_in_header
 
 PATIENCE_S = 120.0
@@ -48,7 +49,7 @@ class LiveFarm:
 
     Args:
         folder: takes store and logs.
-        redis_url: of a Redis.
+        redis_url: address of a Redis.
         command: starts a worker.
     """
 
@@ -63,11 +64,19 @@ class LiveFarm:
         self.store.mkdir()
         self.logs.mkdir()
 
-    def start(self, name: str, *options: str, **environment: str) -> "subprocess.Popen[bytes]":
-        """Start a worker."""
-        command = [*self._command, "serve", "--store", str(self.store), "--name", name, "--logs", str(self.logs)]
+    def start(
+        self, name: str, limits: Mapping[str, float] | None = None, **environment: str
+    ) -> "subprocess.Popen[bytes]":
+        """Start a worker.
+
+        Args:
+            name: name of the worker.
+            limits: settings of the worker that differ from the usual ones.
+            environment: variables of its environment, beside those of this process.
+        """
+        usual = WorkerSettings(store=str(self.store), name=name, logs=self.logs, min_free_mib=0)
         process = subprocess.Popen(
-            [*command, "--min-free-mib", "0", *options],
+            [*self._command, *usual.model_copy(update=limits).serve_arguments()],
             env={**os.environ, "FARM_BROKER_URL": self.url, "STAND_IN_STARTS": str(self._journal), **environment},
             stdout=subprocess.DEVNULL,
             stderr=(self.logs / f"{name}.log").open("ab"),
@@ -140,7 +149,7 @@ def done(dataset: Dataset) -> int:
 
 
 def wait_until_done(dataset: Dataset, count: int | None = None) -> None:
-    """Wait for so many images, or all."""
+    """Wait until a number of images are done, or all."""
     wanted = dataset.header.spec.total if count is None else count
     wait_for(lambda: done(dataset) >= wanted)
 

@@ -34,6 +34,7 @@ from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, Template
 from farm.spec.job import Job
 from farm.spec.parse import parse_spec
 from farm.spec.rendering import CableDetail
+from farm.worker_settings import RendererSettings
 from worker.cli import main
 from worker.sample.seeds import Stage, generator
 from worker.service.picture import Picture, Renderer
@@ -49,7 +50,7 @@ SETTLED = SettleFigures.model_validate(
 
 
 def stand_in_header(*, seed: int = 0, resolution: int = 32, **quotas: int) -> DatasetHeader:
-    """A header that asks for the given number of images of each category named."""
+    """A header that asks for the images of each category that the quotas name."""
     wanted = quotas or {"far": 2, "close_concentrated_light": 2}
     data = {"seed": seed, "style": "published", "resolution": resolution, "quotas": wanted}
     return DatasetHeader(
@@ -195,13 +196,13 @@ def _fail_if_told(job: Job) -> None:
         os.kill(os.getpid(), signal.SIGKILL)
 
 
-def open_stand_in(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> Renderer:
+def open_stand_in(header: DatasetHeader, settings: RendererSettings) -> Renderer:
     """Takes what the real one takes, and needs none of it.
 
     Raises:
         MachineError: if told to.
     """
-    del header, device, threads, assets
+    del header, settings
     if reason := os.environ.get("STAND_IN_UNFIT"):
         raise MachineError(reason)
     return StandInRenderer()

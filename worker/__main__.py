@@ -1,4 +1,4 @@
-"""What the farm starts as a process of its own: `python -m worker serve`, `check` and `preview`."""
+"""The worker's program, `python -m worker COMMAND`; the farm starts it as a process of its own."""
 
 import sys
 import traceback

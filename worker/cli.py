@@ -1,13 +1,12 @@
-"""The worker's command line, which the farm's own calls; here the maker is wired in."""
+"""The worker's program, which the farm's own processes start; it connects the jobs with the renderer."""
 
 import argparse
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
-from typing import Protocol
+from typing import TypeVar
 
 from pydantic import ValidationError
 
@@ -15,82 +14,82 @@ from assets.environments import DEFAULT_WIDTH
 from farm.dataset.outputs import IMAGE, MASK
 from farm.errors import FarmError, MachineError, MessageError
 from farm.run.queue.broker import broker_url
-from farm.run.queue.settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.storage import LocalStorage
+from farm.worker_settings import RendererSettings, WorkerSettings
 from worker.service.cores import limit_visible_cores
+from worker.service.kept_renderer import OpenRenderer
 from worker.service.picture import Renderer
-from worker.service.process import WorkerSettings, prepare_log, send_output_to, serve
-from worker.service.runner import OpenRenderer
+from worker.service.process import serve
+from worker.service.process_log import prepare_log, send_output_to
+
+T = TypeVar("T")
 
 
-class OpenBlender(Protocol):
-    """Opens what makes a dataset's pictures."""
-
-    def __call__(self, header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> Renderer:
-        """Open it in the calling process.
-
-        Raises:
-            FarmError: if the template, an asset or the device is not what it must be.
-        """
-        ...
-
-
-def _open_blender(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> Renderer:
-    with limit_visible_cores(threads):
+def _open_blender(header: DatasetHeader, settings: RendererSettings) -> Renderer:
+    with limit_visible_cores(settings.threads):
         # Importing it loads Blender, which must not be in a process that forks.
         from worker.blender.renderer import open_renderer  # noqa: PLC0415
 
-    return open_renderer(header, device=device, threads=threads, assets=assets)
+    return open_renderer(header, settings)
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m worker", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
-    render = argparse.ArgumentParser(add_help=False)
-    render.add_argument("--device", default="auto", help="where Cycles renders")
-    render.add_argument("--threads", type=int, default=0, help="threads of the renderer; 0: all cores")
-    render.add_argument("--assets", type=Path, help="folder of the baked surfaces")
-    render.add_argument("--logs", type=Path, required=True, help="folder for what Blender writes")
 
-    work = commands.add_parser("serve", parents=[render], help="take jobs until told to stop")
-    work.add_argument("--store", required=True, help="folder or URL below which the datasets lie")
-    work.add_argument("--name", required=True, help="unique on this host")
-    work.add_argument("--concurrency", type=int, default=1)
-    work.add_argument("--tasks-per-child", type=int, default=TASKS_PER_CHILD)
-    work.add_argument("--memory-per-child-kib", type=int, default=MEMORY_PER_CHILD_KIB)
-    work.add_argument("--time-limit-s", type=float, default=HARD_LIMIT_S)
-    work.add_argument("--min-free-mib", type=int, default=MIN_FREE_MIB)
+    work = commands.add_parser("serve", help="take jobs until told to stop")
+    work.add_argument("settings", type=_read(WorkerSettings.from_argument), help="the worker's settings, as JSON")
 
-    commands.add_parser("check", parents=[render], help="open what renders; the dataset's header comes by stdin")
+    once = argparse.ArgumentParser(add_help=False)
+    once.add_argument(
+        "--renderer",
+        type=_read(RendererSettings.from_argument),
+        default=RendererSettings(),
+        help="the renderer's settings, as JSON",
+    )
+    once.add_argument("--logs", type=Path, required=True, help="folder for what Blender prints")
 
-    commands.add_parser("device", parents=[render], help="load Blender and find the device")
+    commands.add_parser("check", parents=[once], help="open the renderer; the dataset's header comes by stdin")
 
-    rooms = commands.add_parser("environments", parents=[render], help="render the environments that a folder lacks")
-    rooms.add_argument("--out", type=Path, required=True, help="folder of the baked surfaces; they go below it")
+    commands.add_parser("device", parents=[once], help="load Blender and find the device")
+
+    rooms = commands.add_parser("environments", parents=[once], help="render the environments that a folder lacks")
+    rooms.add_argument("--out", type=Path, required=True, help="folder of the baked surfaces, which takes them")
     rooms.add_argument("--pixels", type=int, default=DEFAULT_WIDTH, help="width of the panoramas")
-    rooms.add_argument("--name", action="append", help="only this one; repeat it")
+    rooms.add_argument("--name", action="append", help="environment to render, by default all; may be repeated")
 
-    one = commands.add_parser("preview", parents=[render], help="one picture; the dataset's header comes by stdin")
-    one.add_argument("--job", required=True)
-    one.add_argument("--out", type=Path, required=True)
-    one.add_argument("--mask", type=Path)
+    one = commands.add_parser("preview", parents=[once], help="make one picture; the dataset's header comes by stdin")
+    one.add_argument("--job", required=True, help="id of the picture's job")
+    one.add_argument("--out", type=Path, required=True, help="file for the picture")
+    one.add_argument("--mask", type=Path, help="file for its mask")
     return parser
 
 
-def main(arguments: list[str], open_renderer: OpenBlender = _open_blender) -> int:
-    """Run a worker's command.
+def _read(convert: Callable[[str], T]) -> Callable[[str], T]:
+    """A type of argument whose errors are told in their own words."""
+
+    def read(text: str) -> T:
+        try:
+            return convert(text)
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(str(error)) from error
+
+    return read
+
+
+def main(arguments: list[str], open_renderer: OpenRenderer = _open_blender) -> int:
+    """Run one of the program's commands.
 
     Args:
-        arguments: as on the command line.
-        open_renderer: opens the maker; tests of the queue give a stand-in.
+        arguments: words of the command line.
+        open_renderer: opens the renderer of a dataset; tests of the queue give a stand-in.
 
     Returns:
-        The exit code.
+        The exit code; wrong arguments end the process with 2.
     """
     options = _parser().parse_args(arguments)
-    open_renderer = partial(open_renderer, device=options.device, threads=options.threads, assets=options.assets)
     try:
         if options.command == "check":
             return _check(options, open_renderer)
@@ -100,19 +99,8 @@ def main(arguments: list[str], open_renderer: OpenBlender = _open_blender) -> in
             return _environments(options)
         if options.command == "preview":
             return _preview(options, open_renderer)
-        settings = WorkerSettings(
-            store=options.store,
-            # The address may hold a password, so it comes by the environment: arguments are public.
-            broker_url=broker_url(None),
-            name=options.name,
-            log_folder=options.logs,
-            concurrency=options.concurrency,
-            tasks_per_child=options.tasks_per_child,
-            memory_per_child_kib=options.memory_per_child_kib,
-            time_limit_s=options.time_limit_s,
-            min_free_bytes=options.min_free_mib * 2**20,
-        )
-        return serve(settings, open_renderer)
+        # The address may hold a password, so it comes by the environment: arguments are public.
+        return serve(options.settings, broker_url(None), open_renderer)
     except FarmError as error:
         sys.stderr.write(f"{error}\n")
         return error.exit_code
@@ -120,32 +108,33 @@ def main(arguments: list[str], open_renderer: OpenBlender = _open_blender) -> in
 
 def _check(options: argparse.Namespace, open_renderer: OpenRenderer) -> int:
     with _output_in(options.logs / "check.log"):
-        open_renderer(_read_header())
+        open_renderer(_read_header(), options.renderer)
     return 0
 
 
 def _device(options: argparse.Namespace) -> int:
     with _output_in(options.logs / "check.log"):
         try:
-            # It loads Blender, as above.
+            # Importing it loads Blender.
             from blend.devices import choose_device  # noqa: PLC0415
         except ImportError as error:
             raise MachineError(f"Blender does not load: {error}; try farm doctor") from error
-        choose_device(options.device)
+        choose_device(options.renderer.device)
     return 0
 
 
 def _environments(options: argparse.Namespace) -> int:
     """Render them; the name of each goes to standard output as soon as it is on disk, for the farm to count."""
     names = None if options.name is None else tuple(options.name)
+    renderer: RendererSettings = options.renderer
     with _output_in(options.logs / "environments.log") as screen:
         try:
-            # It loads Blender, as above.
+            # Importing it loads Blender.
             from blend.environments.render import render_environments  # noqa: PLC0415
         except ImportError as error:
             raise MachineError(f"Blender does not load: {error}; try farm doctor") from error
         for name in render_environments(
-            options.out, pixels=options.pixels, names=names, device=options.device, threads=options.threads
+            options.out, pixels=options.pixels, names=names, device=renderer.device, threads=renderer.threads
         ):
             os.write(screen, f"{name}\n".encode())
     return 0
@@ -154,7 +143,7 @@ def _environments(options: argparse.Namespace) -> int:
 def _preview(options: argparse.Namespace, open_renderer: OpenRenderer) -> int:
     header, job = _read_header(), Job.from_id(options.job)
     with _output_in(options.logs / "preview.log"):
-        made = open_renderer(header).make(job, header)
+        made = open_renderer(header, options.renderer).make(job, header)
     # Both are encoded before the first is written, so that a failure leaves nothing.
     contents = [(options.out, IMAGE.format.encode(made.files[IMAGE.role]))]
     if options.mask is not None:

@@ -1,4 +1,10 @@
-"""Smooth random fields: over a rectangle, and closed around a cable. Numpy and OpenCV."""
+"""Random fields that vary smoothly. Numpy and OpenCV.
+
+There are two kinds, which draw and scale their coarse grids differently, so that one can't stand for the other without
+changing pictures. `smooth_noise` and `rough_noise` cover a rectangle: a sheet, a floor. `wrapped_noise` and
+`rough_wrapped_noise` close around a cable: their first row follows on their last, which takes a whole number of cells
+around.
+"""
 
 import cv2
 import numpy as np
@@ -7,19 +13,22 @@ from numpy.typing import NDArray
 Field = NDArray[np.float32]
 
 _ENOUGH_PX = 8
-"""Pixels between independent numbers, when there need be no more."""
+"""Pixels between independent numbers that show a smooth field well; a coarser one is drawn smaller and enlarged."""
 
 
 def smooth_noise(rng: np.random.Generator, rows: int, columns: int, grain: tuple[float, float]) -> Field:
-    """A field (rows, columns) of mean 0 and deviation 1, about.
+    """Noise over a rectangle: mean about 0, standard deviation about 1.
 
     Args:
-        rng: draws the coarse grid, whose size follows from the others.
-        rows: of the field.
-        columns: of the field.
+        rng: draws the coarse grid, whose size follows from the other arguments.
+        rows: rows of the result.
+        columns: columns of the result.
         grain: pixels, down and across, between independent numbers.
+
+    Returns:
+        Shape (rows, columns).
     """
-    # What is smooth over many pixels is found at fewer, and drawn out once more.
+    # What is smooth over many pixels is computed for fewer, then enlarged.
     fewer = [max(1, int(step / _ENOUGH_PX)) for step in grain]
     high, wide = (max(1, -(-edge // less)) for edge, less in zip((rows, columns), fewer, strict=True))
     down, across = (step / less for step, less in zip(grain, fewer, strict=True))
@@ -35,7 +44,18 @@ def smooth_noise(rng: np.random.Generator, rows: int, columns: int, grain: tuple
 
 
 def rough_noise(rng: np.random.Generator, rows: int, columns: int, grain: float, octaves: int) -> Field:
-    """A sum of noises, each twice as fine and 0.55 times as strong as the one before; deviation 1, about."""
+    """Noise over a rectangle in several sizes at once: mean about 0, standard deviation about 1.
+
+    Args:
+        rng: draws the fields.
+        rows: rows of the result.
+        columns: columns of the result.
+        grain: pixels between independent numbers of the coarsest field.
+        octaves: number of fields that are added up, each twice as fine and 0.55 times as strong as the one before.
+
+    Returns:
+        Shape (rows, columns).
+    """
     field = np.zeros((rows, columns), np.float32)
     weight, total = 1.0, 0.0
     for octave in range(octaves):
@@ -48,26 +68,29 @@ def rough_noise(rng: np.random.Generator, rows: int, columns: int, grain: float,
 
 
 def smooth_step(field: Field, low: float, high: float) -> Field:
-    """0 below `low`, 1 above `high`, and an S between them."""
+    """0 where the field is below `low`, 1 where it is above `high`, and a cubic S between them."""
     share = np.clip((field - np.float32(low)) * np.float32(1 / (high - low)), 0, 1)
     step: Field = share * share * (3 - 2 * share)
     return step
 
 
 _MARGIN = 2
-"""Cells beyond the edges that a cubic reaches for."""
+"""Cells beyond each edge that a cubic reads."""
 
 _NORMED = 1.35
-"""A cubic through independent values varies less than they do."""
+"""Factor that restores the deviation of independent values after a cubic through them, which varies less."""
 
 
-def field(rng: np.random.Generator, shape: tuple[int, int], cell: tuple[float, float]) -> Field:
-    """Random values that vary over a cell's size, of mean about 0 and standard deviation about 1.
+def wrapped_noise(rng: np.random.Generator, shape: tuple[int, int], cell: tuple[float, float]) -> Field:
+    """Noise around a cable: mean about 0, standard deviation about 1, and no seam between the last row and the first.
 
     Args:
-        rng: is drawn from.
+        rng: draws the cells' values.
         shape: rows, around the cable, and columns, along it.
-        cell: rows and columns over which it varies; the rows are taken to the next number that divides the picture's.
+        cell: rows and columns between independent values; the rows are rounded so that they divide `shape[0]`.
+
+    Returns:
+        Shape `shape`.
     """
     rows, columns = shape
     around = _divisor(rows, rows / max(cell[0], 1.0))
@@ -79,7 +102,7 @@ def field(rng: np.random.Generator, shape: tuple[int, int], cell: tuple[float, f
         return values[:, _MARGIN : _MARGIN + columns]
     # Rows wrap around, so that the field closes.
     closed = values[np.arange(-_MARGIN, around + _MARGIN) % around]
-    # A cubic through the cells, then straight lines through its points, which takes a fifth of the time.
+    # A cubic through the cells, then straight lines through its points: that takes a fifth of the time of one cubic.
     finer = cv2.resize(closed, (cells * fine_right, len(closed) * fine_down), interpolation=cv2.INTER_CUBIC)
     large = cv2.resize(finer, (cells * right, len(closed) * down), interpolation=cv2.INTER_LINEAR)
     inner = large[_MARGIN * down : _MARGIN * down + rows, _MARGIN * right : _MARGIN * right + columns]
@@ -88,20 +111,41 @@ def field(rng: np.random.Generator, shape: tuple[int, int], cell: tuple[float, f
 
 
 def _steps(down: int, right: int) -> tuple[int, int]:
-    """Points that a cubic puts in a cell: at most four each way, and down a number that divides the cell's rows."""
+    """Points of the cubic in a cell, down and across: at most four, and down a number that divides the cell's rows."""
     return max(step for step in (1, 2, 3, 4) if down % step == 0), min(4, right)
 
 
-def fractal(rng: np.random.Generator, shape: tuple[int, int], cell: tuple[float, float], octaves: int = 3) -> Field:
-    """Fields of halving cells and halving weight, of standard deviation about 1."""
+def rough_wrapped_noise(
+    rng: np.random.Generator, shape: tuple[int, int], cell: tuple[float, float], octaves: int = 3
+) -> Field:
+    """Noise around a cable in several sizes at once: mean about 0, standard deviation about 1.
+
+    Args:
+        rng: draws the fields.
+        shape: rows, around the cable, and columns, along it.
+        cell: rows and columns between independent values of the coarsest field.
+        octaves: number of fields that are added up, each twice as fine and 0.55 times as strong as the one before.
+
+    Returns:
+        Shape `shape`.
+    """
     total = np.zeros(shape, np.float32)
     for octave in range(octaves):
-        total += field(rng, shape, (cell[0] / 2**octave, cell[1] / 2**octave)) * np.float32(0.55**octave)
+        total += wrapped_noise(rng, shape, (cell[0] / 2**octave, cell[1] / 2**octave)) * np.float32(0.55**octave)
     return total * np.float32(1.0 / np.sqrt(sum(0.55 ** (2 * octave) for octave in range(octaves))))
 
 
-def patches(values: Field, share: float, softness: float) -> Field:
-    """How much, 0 to 1, each place belongs to the `share` of all that is highest; edges are `softness` wide."""
+def highest_share(values: Field, share: float, softness: float) -> Field:
+    """Patches where a field is highest.
+
+    Args:
+        values: the field, (H, W).
+        share: share of all places that lie in patches, 0 to 1.
+        softness: width of the patches' edges, in units of `values`.
+
+    Returns:
+        How much each place belongs to a patch, (H, W), 0 to 1.
+    """
     if share <= 0.0:
         return np.zeros_like(values)
     edge = np.quantile(values[::3, ::3], 1.0 - min(share, 1.0))
@@ -109,6 +153,6 @@ def patches(values: Field, share: float, softness: float) -> Field:
 
 
 def _divisor(rows: int, wanted: float) -> int:
-    """The divisor of `rows` that is nearest to what is wanted, in proportion."""
+    """The divisor of `rows` whose ratio to the wanted number is nearest to 1."""
     divisors = np.array([k for k in range(1, rows + 1) if rows % k == 0])
     return int(divisors[np.argmin(np.abs(np.log(divisors / max(wanted, 1.0))))])

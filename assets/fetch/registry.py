@@ -9,7 +9,7 @@ from urllib.parse import urlsplit
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from assets.files import LARGEST_FILE
+from assets.files import LARGEST_FILE, Checksum
 from assets.scan.texture_names import TextureRole, parse_texture_name
 from assets.scan.textures import SUFFIXES
 from farm.errors import AssetError
@@ -21,8 +21,6 @@ LARGEST_ARCHIVE = 4 * 2**30
 
 ARCHIVE_ENDINGS = (".tgz", ".tar.gz", ".whl", ".zip")
 LOCAL_HOSTS = frozenset({"localhost", "127.0.0.1", "::1"})
-
-Checksum = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 
 
 def check_url(url: str) -> str:

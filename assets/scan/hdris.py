@@ -4,13 +4,13 @@ import importlib.util
 import tomllib
 from functools import cache
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
 import numpy.typing as npt
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from assets.files import read_bounded, sha256
+from assets.colour import REC709_LUMINANCE
+from assets.files import Checksum, read_bounded, sha256
 from assets.scan.exr import decode_exr
 from assets.scan.radiance import decode_radiance
 from farm.errors import AssetError
@@ -30,11 +30,6 @@ NEGATIVE_TOLERANCE = 0.05
 
 ASPECT_TOLERANCE = 0.02
 """By how much width / height may differ from 2."""
-
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
-"""Weights of linear red, green and blue (Rec. 709)."""
-
-Checksum = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 
 
 class Hdri(BaseModel):
@@ -216,7 +211,7 @@ def horizon_luminance(pixels: npt.NDArray[np.float32]) -> float:
         Scene-linear luminance; values below 1e-4 count as that.
     """
     rows = len(pixels)
-    luminance = pixels[rows // 3 : rows - rows // 3] @ LUMINANCE
+    luminance = pixels[rows // 3 : rows - rows // 3] @ REC709_LUMINANCE
     return float(np.exp(np.log(np.maximum(luminance, 1e-4)).mean()))
 
 
@@ -229,7 +224,7 @@ def mean_luminance(pixels: npt.NDArray[np.float32]) -> float:
     Returns:
         Scene-linear luminance; each row counts by the solid angle that it covers.
     """
-    rows = (pixels.astype(np.float64) @ LUMINANCE).mean(axis=1)
+    rows = (pixels.astype(np.float64) @ REC709_LUMINANCE).mean(axis=1)
     weights = np.sin((np.arange(len(rows)) + 0.5) * np.pi / len(rows))
     return float(np.average(rows, weights=weights))
 

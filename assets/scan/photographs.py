@@ -4,14 +4,13 @@ import struct
 import warnings
 from io import BytesIO
 from pathlib import Path
-from typing import Annotated
 
 import numpy as np
 import numpy.typing as npt
 from PIL import Image, ImageOps
 from pydantic import BaseModel, ConfigDict, Field
 
-from assets.files import read_bounded, sha256
+from assets.files import Checksum, read_bounded, sha256
 from farm.errors import AssetError
 
 SUFFIXES = frozenset({".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"})
@@ -22,8 +21,6 @@ SMALLEST_EDGE = 256
 
 MOST_PIXELS = 64 * 2**20
 """In all: a photograph of 8192 x 8192. Decoding takes 10 bytes for each, for a moment."""
-
-Checksum = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 
 
 class PlateFile(BaseModel):

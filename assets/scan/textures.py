@@ -4,12 +4,11 @@ import warnings
 from collections import defaultdict
 from io import BytesIO
 from pathlib import Path
-from typing import Annotated
 
 from PIL import Image
 from pydantic import BaseModel, ConfigDict, Field
 
-from assets.files import read_bounded, sha256
+from assets.files import Checksum, read_bounded, sha256
 from assets.scan.exr import decode_exr
 from assets.scan.texture_names import TextureName, TextureRole, parse_texture_name
 from farm.errors import AssetError
@@ -20,8 +19,6 @@ SMALLEST_EDGE, LARGEST_EDGE = 16, 16384
 """Pixels along an edge. Pillow besides refuses more than about 179 million pixels in all."""
 
 ENDINGS = "'_color', '_normal', '_rough', '_metal', '_ao' or '_height'"
-
-Checksum = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 
 
 class TextureMap(BaseModel):

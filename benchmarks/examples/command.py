@@ -11,6 +11,7 @@ from benchmarks.examples.groups import GROUPS, Example
 from benchmarks.examples.sheet import draw_sheet, examples_a_row
 from benchmarks.terminal import bench_console, blender_writes_to
 from farm.spec.job import Job
+from farm.worker_settings import DeviceChoice, RendererSettings
 from worker.blender.renderer import open_renderer
 
 DEFAULT_EACH = 4
@@ -55,6 +56,6 @@ def _pictures(example: Example, each: int) -> Iterator[NDArray[np.uint8]]:
     header = example.header.model_copy(
         update={"spec": example.header.spec.model_copy(update={"resolution": RESOLUTION})}
     )
-    renderer = open_renderer(header, device="cpu", threads=0, assets=None)
+    renderer = open_renderer(header, RendererSettings(device=DeviceChoice.CPU))
     for index in range(each):
         yield renderer.make(Job(category=example.category, index=index), header).files["image"]

@@ -16,6 +16,7 @@ from farm.errors import VerificationError
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.header import DatasetHeader
+from farm.worker_settings import DeviceChoice, RendererSettings
 from worker.blender.renderer import open_renderer
 from worker.camera.view import View
 from worker.geometry import SettledGeometry
@@ -40,7 +41,7 @@ def run(out: Path, *, images: int | None, seed: int) -> int:
     console = bench_console()
     log_file = out / "masks.log"
     with blender_writes_to(log_file):
-        renderer = open_renderer(header, device="cpu", threads=0, assets=None)
+        renderer = open_renderer(header, RendererSettings(device=DeviceChoice.CPU))
     for job in track(bench_jobs(count), "images", console=console, transient=True):
         with blender_writes_to(log_file):
             made = renderer.make(job, header)

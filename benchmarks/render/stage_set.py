@@ -15,6 +15,7 @@ from farm.spec.category import Category
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.spec.rendering import CableDetail, PictureSettings
+from farm.worker_settings import DeviceChoice, RendererSettings
 from worker.blender.build_scene import BuiltScene
 from worker.blender.renderer import open_renderer
 from worker.geometry import SettledGeometry
@@ -50,7 +51,7 @@ class Stage:
 
     def __init__(self, header: DatasetHeader, resolution: int) -> None:
         """Open the template that a header names, with the header's assets, in this process."""
-        self._renderer = open_renderer(header, device="cpu", threads=0, assets=None)
+        self._renderer = open_renderer(header, RendererSettings(device=DeviceChoice.CPU))
         self._resolution = resolution
         self._set: tuple[SettledGeometry, BuiltScene] | None = None
 

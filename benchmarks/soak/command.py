@@ -14,13 +14,14 @@ from farm.dataset.dataset import Destination, create_dataset
 from farm.dataset.verify import verify
 from farm.errors import VerificationError
 from farm.local.redis_server import PrivateRedis
-from farm.local.workers import LocalWorkers, WorkerOptions
+from farm.local.workers import LocalWorkers
 from farm.run.coordinator import Coordinator
 from farm.run.handle import open_handle
 from farm.run.progress import Progress
 from farm.run.queue.broker import connect
 from farm.spec.make_header import Inputs, make_header
 from farm.spec.parse import parse_spec
+from farm.worker_settings import DeviceChoice, RendererSettings, WorkerSettings
 
 RECYCLED_AFTER = 50
 
@@ -57,7 +58,7 @@ def run(out: Path, *, seed: int, images: int, quality: str, resolution: int) -> 
         coordinator = Coordinator(dataset, open_handle(dataset, server.url, connect(server.url)))
         coordinator.submit_missing()
         workers = [
-            stack.enter_context(LocalWorkers(1, _options(name, after, folder, out, server.url), name=name))
+            stack.enter_context(LocalWorkers(1, _settings(name, after, folder, out), server.url))
             for name, after in (("recycled", RECYCLED_AFTER), ("kept", _NEVER))
         ]
 
@@ -78,13 +79,11 @@ def run(out: Path, *, seed: int, images: int, quality: str, resolution: int) -> 
     return 0
 
 
-def _options(name: str, after: int, folder: Path, out: Path, url: str) -> WorkerOptions:
-    return WorkerOptions(
+def _settings(name: str, after: int, folder: Path, out: Path) -> WorkerSettings:
+    return WorkerSettings(
         store=str(folder),
-        broker_url=url,
-        device="cpu",
-        threads=1,
-        assets=None,
+        name=name,
+        renderer=RendererSettings(device=DeviceChoice.CPU, threads=1),
         logs=out / f"soak-{name}-logs",
         tasks_per_child=after,
         memory_per_child_kib=_NEVER,

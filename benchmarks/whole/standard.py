@@ -20,6 +20,7 @@ from farm.dataset.paths import file_path, manifest_path
 from farm.dataset.verify import verify
 from farm.errors import VerificationError
 from farm.spec.job import Job
+from farm.worker_settings import DeviceChoice, RendererSettings
 from worker.blender.renderer import open_renderer
 from worker.service.upload import upload
 from worker.simulate.simulate import simulate
@@ -56,7 +57,7 @@ def make_standard(dataset: Dataset, jobs: Sequence[Job], on_image: Callable[[], 
         FarmError: if an image can't be made.
     """
     start = time.perf_counter()
-    renderer = open_renderer(dataset.header, device="cpu", threads=0, assets=None)
+    renderer = open_renderer(dataset.header, RendererSettings(device=DeviceChoice.CPU))
     open_s = time.perf_counter() - start
     renderer.make(Job(category=jobs[0].category, index=_WARM_UP), dataset.header)
     shots = []

@@ -5,14 +5,15 @@ from typing import TypeVar
 
 import numpy as np
 
+from assets.colour import light_of_srgb
+
 Colour = tuple[float, float, float]
 T = TypeVar("T")
 
 
 def srgb(code: str) -> Colour:
     """A colour such as "d08030" (sRGB, hexadecimal) in linear light, 0 to 1."""
-    values = [int(code[place : place + 2], 16) / 255.0 for place in (0, 2, 4)]
-    red, green, blue = (v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in values)
+    red, green, blue = (light_of_srgb(int(code[place : place + 2], 16) / 255.0) for place in (0, 2, 4))
     return red, green, blue
 
 

@@ -29,6 +29,7 @@ from assets.scan.hdris import mean_luminance
 from blend.devices import choose_device
 from blend.environments.build import build_environment
 from farm.errors import AssetError, RenderError
+from farm.worker_settings import DeviceChoice
 
 SAMPLES = 4
 """Of each pixel; a denoiser led by the sharp colours and normals of what is seen does the rest."""
@@ -49,7 +50,7 @@ SEAM_SHARE = 0.1
 
 
 def render_environments(
-    folder: Path, *, pixels: int, names: tuple[str, ...] | None, device: str, threads: int
+    folder: Path, *, pixels: int, names: tuple[str, ...] | None, device: DeviceChoice, threads: int
 ) -> Iterator[str]:
     """Render the environments that a folder lacks, one after the other.
 
@@ -57,7 +58,7 @@ def render_environments(
         folder: Of the baked surfaces; they go below it.
         pixels: Width of the panoramas, 64 to 8192 and even.
         names: Which; None for all.
-        device: One of `blend.devices.CHOICES`.
+        device: Device that Cycles is asked to render on.
         threads: On the CPU; 0 takes all cores.
 
     Yields:
@@ -77,7 +78,7 @@ def render_environments(
         yield recipe.name
 
 
-def render_panorama(recipe: EnvironmentRecipe, pixels: int, device: str, threads: int) -> NDArray[np.float32]:
+def render_panorama(recipe: EnvironmentRecipe, pixels: int, device: DeviceChoice, threads: int) -> NDArray[np.float32]:
     """Build a recipe and render it: the band about the horizon, which pictures show, in full; the rest coarser.
 
     Returns:

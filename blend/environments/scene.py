@@ -15,6 +15,7 @@ from blend.environments.materials import make_material, new_image
 from blend.environments.palette import Colour
 from blend.environments.prints import draw_atlas
 from blend.environments.sky import draw_sky
+from blend.mesh import MeshArrays, add_mesh, starts_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +55,7 @@ def stage(assembly: Assembly, light: Light, rng: np.random.Generator) -> Any:
     scene = bpy.context.scene
     atlas = new_image("prints", draw_atlas(rng))
     for material in sorted(assembly.parts):
-        object_of(scene, material, assembly.parts[material], make_material(material, atlas))
+        add_mesh(scene, material, _arrays(assembly.parts[material]), [make_material(material, atlas)])
     for number, opening in enumerate(assembly.daylight):
         _let_in(scene, number, opening, light)
     if light.sun > 0:
@@ -64,32 +65,21 @@ def stage(assembly: Assembly, light: Light, rng: np.random.Generator) -> Any:
     return scene
 
 
-def object_of(scene: Any, name: str, parts: list[Part], material: Any) -> Any:
-    """One object of all parts of a material."""
-    mesh = bpy.data.meshes.new(name)
-    points = np.concatenate([part.points for part in parts])
+def _arrays(parts: list[Part]) -> MeshArrays:
+    """All parts of a material as one mesh."""
     polygons = list(_polygons(parts))
-    corners = np.concatenate([faces.ravel() for faces, _ in polygons])
     sizes = np.concatenate([np.full(len(faces), faces.shape[1]) for faces, _ in polygons])
-    smooth = np.concatenate([np.full(len(faces), part.smooth) for faces, part in polygons])
-    mesh.vertices.add(len(points))
-    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    mesh.loops.add(len(corners))
-    mesh.loops.foreach_set("vertex_index", corners.astype(np.int32))
-    mesh.polygons.add(len(sizes))
-    mesh.polygons.foreach_set("loop_start", (np.cumsum(sizes) - sizes).astype(np.int32))
-    mesh.polygons.foreach_set("use_smooth", smooth)
-    tint = mesh.attributes.new("tint", "FLOAT_COLOR", "POINT")
-    tint.data.foreach_set("color", np.concatenate([part.tint for part in parts]).astype(np.float32).ravel())
-    local = np.concatenate([part.local for part in parts])
-    mesh.attributes.new("local", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", local.astype(np.float32).ravel())
-    uv = np.concatenate([_uv(part) for part in parts])
-    mesh.uv_layers.new(name="uv").data.foreach_set("uv", uv.astype(np.float32).ravel())
-    mesh.materials.append(material)
-    mesh.update()
-    made = bpy.data.objects.new(name, mesh)
-    scene.collection.objects.link(made)
-    return made
+    return MeshArrays(
+        vertices_m=np.concatenate([part.points for part in parts]),
+        corners=np.concatenate([faces.ravel() for faces, _ in polygons]),
+        face_starts=starts_of(sizes),
+        smooth=np.concatenate([np.full(len(faces), part.smooth) for faces, part in polygons]),
+        uv=np.concatenate([_uv(part) for part in parts]),
+        attributes={
+            "tint": np.concatenate([part.tint for part in parts]),
+            "local": np.concatenate([part.local for part in parts]),
+        },
+    )
 
 
 def _polygons(parts: list[Part]) -> Iterator[tuple[NDArray[np.int64], Part]]:

@@ -5,7 +5,6 @@ import inspect
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -17,19 +16,9 @@ from farm.spec.parse import Description, describe, parse_quotas
 from farm.spec.quality import read_quality
 from farm.spec.simulation import Simulator
 from farm.spec.styles import Style
+from farm.worker_settings import DeviceChoice
 
 _DATASET = "What to make"
-
-
-class DeviceChoice(StrEnum):
-    """Where Cycles renders."""
-
-    AUTO = "auto"
-    CPU = "cpu"
-    OPTIX = "optix"
-    CUDA = "cuda"
-    HIP = "hip"
-    ONEAPI = "oneapi"
 
 
 Broker = Annotated[
@@ -40,11 +29,13 @@ DatasetPlace = Annotated[str, typer.Argument(metavar="DATASET", help="The datase
 Out = Annotated[str, typer.Option("--out", help="The dataset's folder or URL; made if it is not there.")]
 Device = Annotated[DeviceChoice, typer.Option(help="Where Cycles renders; auto takes a GPU if there is one.")]
 Assets = Annotated[
-    Path | None, typer.Option("--assets", envvar="FARM_ASSETS", help="Folder of the baked surfaces; a default one.")
+    Path | None,
+    typer.Option("--assets", envvar="FARM_ASSETS", help="Folder of the baked surfaces; default: the user's own."),
 ]
 Logs = Annotated[Path | None, typer.Option("--logs", envvar="FARM_LOGS", help="Folder for what Blender prints.")]
 MinFree = Annotated[
-    int, typer.Option("--min-free-mib", min=0, help="Make no picture while the store's disk has less room.")
+    int,
+    typer.Option("--min-free-mib", min=0, help="MiB of free space on the store's disk below which no picture is made."),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
 
@@ -59,7 +50,7 @@ def log_folder(given: Path | None) -> Path:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DatasetOptions:
-    """The options that describe a dataset; every field is one, with its help."""
+    """The options that describe a dataset: one for each field, with its help."""
 
     spec_file: Annotated[
         Path | None, typer.Argument(metavar="[SPEC.toml]", help="The dataset's description.", show_default=False)
@@ -121,13 +112,13 @@ class DatasetOptions:
     ] = None
 
     def describe(self, **override: object) -> Description:
-        """What the options and the file they name describe.
+        """The dataset that the options, and the file that they name, describe.
 
         Args:
             override: keys of the description that the command itself decides.
 
         Raises:
-            SpecError: with the option or key, and what was wrong with it.
+            SpecError: if the options contradict each other, or a value is wrong; it names the option or key.
         """
         if self.spec_file is not None and self.spec is not None:
             raise SpecError("name one file that describes the dataset, not two")
@@ -161,7 +152,7 @@ class DatasetOptions:
 
 
 def takes_dataset_options(command: Callable[..., None]) -> Callable[..., None]:
-    """Give a command, whose first parameter is `DatasetOptions`, all of their fields as options of its own."""
+    """Let a command, whose first parameter is a `DatasetOptions`, take each of its fields as an option."""
     keyword = inspect.Parameter.KEYWORD_ONLY
     own = [parameter.replace(kind=keyword) for parameter in list(inspect.signature(command).parameters.values())[1:]]
     shared = [

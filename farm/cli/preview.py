@@ -9,12 +9,13 @@ import typer
 from farm.cli.baking import bake_for
 from farm.cli.display import console
 from farm.cli.installed_assets import InstalledAssets
-from farm.cli.options import Assets, DatasetOptions, Device, DeviceChoice, Logs, log_folder, takes_dataset_options
+from farm.cli.options import Assets, DatasetOptions, Device, Logs, log_folder, takes_dataset_options
 from farm.cli.worker_program import ask_worker, require_blender
 from farm.errors import DestinationError, SpecError
 from farm.spec.category import Category
 from farm.spec.job import Job
 from farm.spec.make_header import make_header
+from farm.worker_settings import DeviceChoice, RendererSettings
 
 
 @takes_dataset_options
@@ -46,9 +47,7 @@ def preview(
     bake_for(header, assets, console())
     job = Job(category=category, index=index)
     arguments = ["preview", "--job", job.id, "--out", str(out), "--mask", str(mask)]
-    arguments += ["--device", device, "--threads", str(threads)]
-    if assets is not None:
-        arguments += ["--assets", str(assets)]
+    renderer = RendererSettings(device=device, threads=threads, assets=assets)
     with console().status(f"making {job.id}"):
-        ask_worker(arguments, header, log_folder(logs))
+        ask_worker(arguments, header, log_folder(logs), renderer=renderer)
     typer.echo(f"{out} and {mask}")

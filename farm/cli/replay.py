@@ -7,11 +7,12 @@ import typer
 
 from farm.cli.baking import bake_for
 from farm.cli.display import console
-from farm.cli.options import Assets, DatasetPlace, Device, DeviceChoice, Logs, log_folder
+from farm.cli.options import Assets, DatasetPlace, Device, Logs, log_folder
 from farm.cli.worker_program import ask_worker, require_blender
 from farm.dataset.dataset import open_dataset, parse_destination
 from farm.errors import DestinationError, SpecError
 from farm.spec.job import Job
+from farm.worker_settings import DeviceChoice, RendererSettings
 
 
 def replay(
@@ -34,9 +35,7 @@ def replay(
     bake_for(dataset.header, assets, console())
     picture, mask = out / f"{job.id}.png", out / f"{job.id}-mask.png"
     arguments = ["preview", "--job", job.id, "--out", str(picture), "--mask", str(mask)]
-    arguments += ["--device", device, "--threads", str(threads)]
-    if assets is not None:
-        arguments += ["--assets", str(assets)]
+    renderer = RendererSettings(device=device, threads=threads, assets=assets)
     with console().status(f"making {job.id}"):
-        ask_worker(arguments, dataset.header, log_folder(logs))
+        ask_worker(arguments, dataset.header, log_folder(logs), renderer=renderer)
     typer.echo(f"{picture} and {mask}")

@@ -1,4 +1,4 @@
-"""`farm run`: a dataset, made on this machine, with nothing installed or left running."""
+"""`farm run`: make a dataset on this machine, with a Redis and workers that end with the command."""
 
 from typing import Annotated
 
@@ -11,7 +11,6 @@ from farm.cli.options import (
     Assets,
     DatasetOptions,
     Device,
-    DeviceChoice,
     Logs,
     MinFree,
     Out,
@@ -25,8 +24,8 @@ from farm.dataset.report import write_overview
 from farm.errors import IncompleteError
 from farm.local.run import LocalRun, default_workers, run_locally
 from farm.machine import usable_cores
-from farm.run.queue.settings import MIN_FREE_MIB
 from farm.spec.make_header import make_header
+from farm.worker_settings import MIN_FREE_MIB, DeviceChoice, RendererSettings
 
 
 @takes_dataset_options
@@ -35,11 +34,14 @@ def run(
     out: Out,
     workers: Annotated[
         int | None,
-        typer.Option(min=1, max=256, help="Processes, each with a Blender; default: one a core, in 2 GiB each."),
+        typer.Option(
+            min=1, max=256, help="Workers, each with a Blender; default: one for each core, at most one for each 2 GiB."
+        ),
     ] = None,
     device: Device = DeviceChoice.AUTO,
     threads: Annotated[
-        int | None, typer.Option(min=1, help="Of each worker's renderer; default: the cores divided by the workers.")
+        int | None,
+        typer.Option(min=1, help="Threads of each worker's renderer; default: the cores divided by the workers."),
     ] = None,
     assets: Assets = None,
     logs: Logs = None,
@@ -53,26 +55,21 @@ def run(
     description = options.describe()
     header = make_header(description.spec, description.inputs, InstalledAssets())
     require_blender()
-    find_dataset(destination, header)  # a conflict is told before the minutes that drawing surfaces may take
+    find_dataset(destination, header)  # a conflict is told before surfaces are drawn, which may take minutes
     screen = console()
     check_device(device, log_folder(logs))
     bake_for(header, assets, screen)
     if description.inputs.template is not None:
         ask_worker(["check"], header, log_folder(logs))
     workers = workers or default_workers()
-    how = LocalRun(
-        workers=workers,
-        device=device,
-        threads=threads or max(1, usable_cores() // workers),
-        assets=assets,
-        logs=log_folder(logs),
-        min_free_mib=min_free_mib,
-    )
+    threads = threads or max(1, usable_cores() // workers)
+    renderer = RendererSettings(device=device, threads=threads, assets=assets)
+    how = LocalRun(workers=workers, renderer=renderer, logs=log_folder(logs), min_free_mib=min_free_mib)
     with ProgressDisplay(screen) as display:
         try:
             progress = run_locally(destination, header, how, display.show)
         except IncompleteError:
-            # What is there is worth a look, too.
+            # The images that were made are worth a look.
             screen.print(f"the workers' logs are in {how.logs}", markup=False)
             write_overview(open_dataset(destination))
             raise

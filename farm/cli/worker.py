@@ -9,12 +9,20 @@ import typer
 from assets.surfaces.catalogue import SURFACES
 from farm.cli.baking import bake
 from farm.cli.display import console
-from farm.cli.options import Assets, Broker, Device, DeviceChoice, Logs, MinFree, log_folder
+from farm.cli.options import Assets, Broker, Device, Logs, MinFree, log_folder
 from farm.cli.worker_program import become_worker, check_device, require_blender
 from farm.machine import usable_cores
 from farm.run.queue.broker import broker_url, wait_for
-from farm.run.queue.settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
 from farm.storage import open_storage
+from farm.worker_settings import (
+    HARD_LIMIT_S,
+    MEMORY_PER_CHILD_KIB,
+    MIN_FREE_MIB,
+    TASKS_PER_CHILD,
+    DeviceChoice,
+    RendererSettings,
+    WorkerSettings,
+)
 
 
 def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
@@ -24,19 +32,23 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
     broker: Broker = None,
     device: Device = DeviceChoice.AUTO,
     threads: Annotated[
-        int | None, typer.Option(min=1, help="Of each renderer; default: the cores divided by the concurrency.")
+        int | None, typer.Option(min=1, help="Threads of each renderer; default: the cores divided by the concurrency.")
     ] = None,
     concurrency: Annotated[int, typer.Option(min=1, help="Pictures at a time, each with a Blender of its own.")] = 1,
-    name: Annotated[str | None, typer.Option(help="Unique on this host; Flower shows it.")] = None,
-    tasks_per_child: Annotated[int, typer.Option(min=1, help="A Blender is replaced after so many.")] = TASKS_PER_CHILD,
+    name: Annotated[str | None, typer.Option(help="Name of the worker, unique on this host; Flower shows it.")] = None,
+    tasks_per_child: Annotated[
+        int, typer.Option(min=1, help="Pictures after which a Blender is replaced.")
+    ] = TASKS_PER_CHILD,
     memory_per_child_mib: Annotated[
-        int, typer.Option(min=256, help="A Blender is replaced above this.")
+        int, typer.Option(min=256, help="MiB of memory above which a Blender is replaced.")
     ] = MEMORY_PER_CHILD_KIB // 1024,
     time_limit_s: Annotated[
-        float, typer.Option(min=1, max=HARD_LIMIT_S, help="A job's process is killed after so long.")
+        float, typer.Option(min=1, max=HARD_LIMIT_S, help="Seconds after which a job's process is killed.")
     ] = HARD_LIMIT_S,
     min_free_mib: MinFree = MIN_FREE_MIB,
-    broker_wait_s: Annotated[float, typer.Option(min=0, help="Wait so long for a Redis that is not there yet.")] = 0.0,
+    broker_wait_s: Annotated[
+        float, typer.Option(min=0, help="Seconds to wait for a Redis that is not there yet.")
+    ] = 0.0,
     assets: Assets = None,
     logs: Logs = None,
 ) -> None:
@@ -48,12 +60,16 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
     open_storage(store).is_empty()  # it may be empty or not there yet, but must be readable
     check_device(device, log_folder(logs))
     bake(SURFACES, assets, console())
-    arguments = ["serve", "--store", store]
-    arguments += ["--name", name or f"worker-{os.getpid()}", "--device", device]
-    arguments += ["--threads", str(threads or max(1, usable_cores() // concurrency))]
-    arguments += ["--concurrency", str(concurrency), "--tasks-per-child", str(tasks_per_child)]
-    arguments += ["--memory-per-child-kib", str(memory_per_child_mib * 1024), "--logs", str(log_folder(logs))]
-    arguments += ["--time-limit-s", str(time_limit_s), "--min-free-mib", str(min_free_mib)]
-    if assets is not None:
-        arguments += ["--assets", str(assets)]
-    become_worker(arguments, url)
+    threads = threads or max(1, usable_cores() // concurrency)
+    settings = WorkerSettings(
+        store=store,
+        name=name or f"worker-{os.getpid()}",
+        logs=log_folder(logs),
+        renderer=RendererSettings(device=device, threads=threads, assets=assets),
+        concurrency=concurrency,
+        tasks_per_child=tasks_per_child,
+        memory_per_child_kib=memory_per_child_mib * 1024,
+        time_limit_s=time_limit_s,
+        min_free_mib=min_free_mib,
+    )
+    become_worker(settings, url)

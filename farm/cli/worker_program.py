@@ -1,4 +1,4 @@
-"""Starting the worker's own program. This package never imports it: it loads Blender."""
+"""Starting the worker's program as a process of its own: `farm` never imports it, since it loads Blender."""
 
 import contextlib
 import importlib.util
@@ -13,10 +13,11 @@ from farm.errors import MachineError, RenderError, error_of
 from farm.local.workers import WORKER_COMMAND
 from farm.run.queue.broker import BROKER_VARIABLE
 from farm.spec.header import DatasetHeader
+from farm.worker_settings import DeviceChoice, RendererSettings, WorkerSettings
 
 
 def blender_is_installed() -> bool:
-    """Whether Blender's Python module is there, told without loading it."""
+    """Whether Blender's Python module is installed; it isn't loaded."""
     return importlib.util.find_spec("bpy") is not None
 
 
@@ -30,23 +31,23 @@ def require_blender() -> None:
         raise MachineError("Blender (bpy) is not installed; run: pip install 'cable-farm[worker]'")
 
 
-def become_worker(arguments: Sequence[str], broker_url: str) -> None:
-    """Replace this process by a worker, which then gets its signals itself. Does not return."""
-    command = [*WORKER_COMMAND, *arguments]
+def become_worker(settings: WorkerSettings, broker_url: str) -> None:
+    """Become a worker in place of this process, so that signals reach it; does not return."""
+    command = [*WORKER_COMMAND, *settings.serve_arguments()]
     sys.stdout.flush()
     sys.stderr.flush()
     environment = {**os.environ, BROKER_VARIABLE: broker_url}
     os.execve(command[0], command, environment)  # noqa: S606 - no shell is wanted
 
 
-def check_device(device: str, logs: Path) -> None:
-    """Make sure that Blender loads here and has the device; in a process of its own.
+def check_device(device: DeviceChoice, logs: Path) -> None:
+    """Make sure, in a process of its own, that Blender loads here and has the device.
 
     Raises:
         MachineError: if not.
         DestinationError: if the log folder can't be written.
     """
-    ask_worker(["device", "--device", device], None, logs)
+    ask_worker(["device"], None, logs, renderer=RendererSettings(device=device))
 
 
 def ask_worker(
@@ -54,20 +55,24 @@ def ask_worker(
     header: DatasetHeader | None,
     logs: Path,
     told: Callable[[str], None] | None = None,
+    *,
+    renderer: RendererSettings | None = None,
 ) -> None:
-    """Run one of the worker's commands, on a header if it takes one, to its end.
+    """Run one of the commands of the worker's program to its end.
 
     Args:
-        arguments: of the worker's program.
-        header: for its standard input.
+        arguments: command, with the options that are its own.
+        header: dataset's header, for commands that read one from standard input.
         logs: folder for what Blender prints.
-        told: gets each line that it prints as soon as it is there; None to let it print itself.
+        told: called with each line that the command prints, as soon as it is there; None to let it print itself.
+        renderer: settings of the renderer; None for the usual ones.
 
     Raises:
-        FarmError: of the kind of the worker's exit code, with its message.
+        FarmError: the kind that belongs to the command's exit code, with its message.
     """
-    command = [*WORKER_COMMAND, *arguments, "--logs", str(logs)]
-    # Into a file, not a pipe: nobody empties a pipe while lines are read from the other.
+    settings = renderer or RendererSettings()
+    command = [*WORKER_COMMAND, *arguments, "--renderer", settings.as_argument(), "--logs", str(logs)]
+    # Errors go into a file: a pipe could fill up while the lines of the other are read.
     with tempfile.TemporaryFile() as errors:
         with subprocess.Popen(  # noqa: S603 - our own program and arguments
             command, stdin=subprocess.PIPE, stdout=None if told is None else subprocess.PIPE, stderr=errors
@@ -86,6 +91,6 @@ def ask_worker(
 
 def _hand_over(process: "subprocess.Popen[bytes]", content: bytes) -> None:
     if process.stdin is not None:
-        # One that ended without reading has said why.
+        # A command that ended without reading has said why.
         with contextlib.suppress(BrokenPipeError), process.stdin:
             process.stdin.write(content)

@@ -1,1 +1,1 @@
-"""A whole farm on one machine: a private Redis, workers, and their end with the program that started them."""
+"""A whole farm on one machine: a private Redis and workers, which end with the program that started them."""

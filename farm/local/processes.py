@@ -9,7 +9,7 @@ from contextlib import suppress
 
 
 def stop(processes: Sequence["subprocess.Popen[bytes]"], grace_s: float) -> None:
-    """End processes and all of their groups: ask, wait at most `grace_s` seconds for all, then kill."""
+    """End processes and their groups: ask them, wait at most `grace_s` seconds for all, then kill what is left."""
     for process in processes:
         _signal_group(process, signal.SIGTERM)
     give_up_s = time.monotonic() + grace_s
@@ -22,6 +22,6 @@ def stop(processes: Sequence["subprocess.Popen[bytes]"], grace_s: float) -> None
 
 
 def _signal_group(process: "subprocess.Popen[bytes]", number: signal.Signals) -> None:
-    # The group outlives its leader where a child of it still runs, so it is signalled whether the leader lives or not.
+    # A group outlives its leader while a child still runs, so it is signalled whether the leader lives or not.
     with suppress(ProcessLookupError, PermissionError):
         os.killpg(process.pid, number)

@@ -17,7 +17,10 @@ from farm.local.tied import tied
 from farm.run.queue.broker import connect
 
 _START_S = 15.0
-_SOCKET_PATH_LIMIT = 100  # bytes; the kernel's limit for a Unix socket's path is 108
+"""Seconds that the server may take to answer."""
+
+_SOCKET_PATH_LIMIT = 100
+"""Bytes that a Unix socket's path may have; the kernel's own limit is 108."""
 
 
 def find_redis_server() -> Path | None:
@@ -68,7 +71,7 @@ class PrivateRedis:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        """End it; what it held is gone."""
+        """End it, with all that it holds."""
         self._end()
 
     def _start(self) -> None:
@@ -87,7 +90,7 @@ class PrivateRedis:
         self._folder.cleanup()
 
     def supervise(self) -> None:
-        """Start it again if it has died; it comes back empty.
+        """Start it again, empty, if it has died.
 
         Raises:
             BrokerError: if it does not start.

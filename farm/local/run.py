@@ -1,4 +1,4 @@
-"""`farm run`: the whole path on this machine, from a header to a finished dataset."""
+"""A run on this machine alone, from a dataset's header to its finished folder."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -6,39 +6,35 @@ from pathlib import Path
 
 from farm.dataset.dataset import Destination, create_dataset
 from farm.local.redis_server import PrivateRedis
-from farm.local.workers import WORKER_COMMAND, LocalWorkers, WorkerOptions
+from farm.local.workers import WORKER_COMMAND, LocalWorkers
 from farm.machine import memory_bytes, usable_cores
 from farm.run.coordinator import Coordinator
 from farm.run.feeder import LOST_AFTER_S
 from farm.run.handle import open_handle
 from farm.run.progress import Progress
 from farm.run.queue.broker import connect
-from farm.run.queue.settings import MIN_FREE_MIB
 from farm.spec.header import DatasetHeader
+from farm.worker_settings import MIN_FREE_MIB, RendererSettings, WorkerSettings
 
 _WORKER_BYTES = 2 * 2**30
-"""Left free for each worker: Blender, the solver, textures."""
+"""Memory that one worker needs, for Blender, the solver and textures."""
 
 
 @dataclass(frozen=True, slots=True)
 class LocalRun:
-    """How the machine is used.
+    """How a run uses the machine.
 
     Attributes:
-        workers: processes, each with a Blender.
-        device: where Cycles renders.
-        threads: of each worker's renderer.
-        assets: folder of baked surfaces; None for the default one.
+        workers: number of workers, each with a Blender.
+        renderer: settings of each worker's renderer.
         logs: folder for the workers' logs.
-        worker_command: the program that is a worker.
-        min_free_mib: no picture is made while the dataset's disk has less room.
+        worker_command: command that runs the worker's program.
+        min_free_mib: free space of the dataset's disk, in MiB, below which no picture is made.
         lost_after_s: see `farm.run.feeder.LOST_AFTER_S`.
     """
 
     workers: int
-    device: str
-    threads: int
-    assets: Path | None
+    renderer: RendererSettings
     logs: Path
     worker_command: Sequence[str] = WORKER_COMMAND
     min_free_mib: int = MIN_FREE_MIB
@@ -46,7 +42,10 @@ class LocalRun:
 
 
 def default_workers() -> int:
-    """A worker for each core, as far as memory goes: one thread each makes more pictures an hour than one of many."""
+    """Number of workers: one for each core, as memory allows.
+
+    Workers of one thread each make more pictures an hour than one worker of many threads.
+    """
     return max(1, min(usable_cores(), memory_bytes() // _WORKER_BYTES))
 
 
@@ -56,7 +55,13 @@ def run_locally(
     how: LocalRun,
     on_progress: Callable[[Progress], None] = lambda _: None,
 ) -> Progress:
-    """Make the dataset here; everything started is gone when this returns or raises.
+    """Make the dataset here; every process that was started is gone when this returns or raises.
+
+    Args:
+        destination: where the dataset goes.
+        header: the dataset to make.
+        how: how the machine is used.
+        on_progress: called now and then with what is done.
 
     Raises:
         ConflictError: if the place holds something else.
@@ -72,16 +77,10 @@ def run_locally(
         coordinator = Coordinator(dataset, handle, lost_after_s=how.lost_after_s, poll_s=0.5)
         if coordinator.submit_missing() == 0 and (complete := coordinator.end_if_complete(on_progress)):
             return complete
-        options = WorkerOptions(
-            store=destination.store,
-            broker_url=url,
-            device=how.device,
-            threads=how.threads,
-            assets=how.assets,
-            logs=how.logs,
-            min_free_mib=how.min_free_mib,
+        settings = WorkerSettings(
+            store=destination.store, name="local", logs=how.logs, renderer=how.renderer, min_free_mib=how.min_free_mib
         )
-        with LocalWorkers(how.workers, options, how.worker_command) as workers:
+        with LocalWorkers(how.workers, settings, url, how.worker_command) as workers:
 
             def supervise() -> None:
                 server.supervise()

@@ -1,6 +1,6 @@
 """Ties a process to its parent's life. As a program: `python -m farm.local.tied PARENT PROGRAM ARGUMENTS...`.
 
-A coordinator killed by SIGKILL can't stop its children; Linux does it, where asked. Elsewhere nothing is done.
+A coordinator that is killed by SIGKILL can't end its children. On Linux the kernel ends them; elsewhere they go on.
 """
 
 import ctypes
@@ -15,7 +15,7 @@ def die_with_parent(parent: int) -> None:
     """Ask the kernel to kill this process when its parent ends.
 
     Args:
-        parent: the parent's process id; if it has ended already, this process ends at once.
+        parent: process id of the parent; if it has ended already, this process ends at once.
 
     Raises:
         OSError: if the kernel refuses.

@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
@@ -14,53 +14,16 @@ from farm.errors import BrokerError, DestinationError, MachineError, error_of
 from farm.local.processes import stop
 from farm.local.tied import tied
 from farm.run.queue.broker import BROKER_VARIABLE
-from farm.run.queue.settings import MEMORY_PER_CHILD_KIB, MIN_FREE_MIB, TASKS_PER_CHILD
+from farm.worker_settings import WorkerSettings
 
 WORKER_COMMAND = (sys.executable, "-P", "-m", "worker")
-"""Started as a program of its own, as this package must not import it."""
+"""Start of the command that runs the worker's program; `farm` never imports it."""
 
 _SOON_S = 20.0
+"""Seconds after its start within which a worker's end counts as soon."""
+
 _SOON_TIMES = 3
-
-
-@dataclass(frozen=True, slots=True)
-class WorkerOptions:
-    """How workers run.
-
-    Attributes:
-        store: folder or URL below which the datasets lie.
-        broker_url: the Redis.
-        device: where Cycles renders.
-        threads: of each worker's renderer; 0 for all cores.
-        assets: folder of baked surfaces; None for the default one.
-        logs: folder that takes each worker's log.
-        tasks_per_child: a renderer is replaced after so many jobs.
-        memory_per_child_kib: or when it has grown above this.
-        min_free_mib: no job is taken while the store's disk has less room.
-    """
-
-    store: str
-    broker_url: str
-    device: str
-    threads: int
-    assets: Path | None
-    logs: Path
-    tasks_per_child: int = TASKS_PER_CHILD
-    memory_per_child_kib: int = MEMORY_PER_CHILD_KIB
-    min_free_mib: int = MIN_FREE_MIB
-
-    def serve_arguments(self, name: str) -> list[str]:
-        """Arguments of one worker's command."""
-        arguments = ["serve", "--store", self.store, "--name", name, "--device", self.device]
-        arguments += ["--threads", str(self.threads), "--logs", str(self.logs)]
-        arguments += ["--tasks-per-child", str(self.tasks_per_child)]
-        arguments += ["--memory-per-child-kib", str(self.memory_per_child_kib)]
-        arguments += ["--min-free-mib", str(self.min_free_mib)]
-        return arguments if self.assets is None else [*arguments, "--assets", str(self.assets)]
-
-    def environment(self) -> Mapping[str, str]:
-        """The environment of one worker; the broker's address is in it, as arguments can be seen by all."""
-        return {**os.environ, BROKER_VARIABLE: self.broker_url}
+"""Soon ends in a row after which a worker isn't started again."""
 
 
 @dataclass(slots=True)
@@ -72,25 +35,37 @@ class _Running:
 
 
 class LocalWorkers:
-    """A number of workers, inside `with`. Whoever holds this calls `supervise` now and then."""
+    """A number of workers that run inside `with`. The caller calls `supervise` now and then.
+
+    Args:
+        count: number of workers.
+        settings: settings of each; its name is followed by a number from 1.
+        broker_url: address of the Redis.
+        command: command that runs the worker's program.
+    """
 
     def __init__(
-        self, count: int, options: WorkerOptions, command: Sequence[str] = WORKER_COMMAND, *, name: str = "local"
+        self, count: int, settings: WorkerSettings, broker_url: str, command: Sequence[str] = WORKER_COMMAND
     ) -> None:
-        self._names = [f"{name}-{number}" for number in range(1, count + 1)]
-        self._options = options
+        self._names = [f"{settings.name}-{number}" for number in range(1, count + 1)]
+        self._settings = settings
+        self._broker_url = broker_url
         self._command = command
         self._running: list[_Running] = []
 
     def __enter__(self) -> Self:
-        """Start them."""
+        """Start them.
+
+        Raises:
+            DestinationError: if the logs can't be written.
+        """
         try:
-            self._options.logs.mkdir(parents=True, exist_ok=True)
+            self._settings.logs.mkdir(parents=True, exist_ok=True)
             for name in self._names:
                 self.log_of(name).open("ab").close()
         except OSError as error:
             raise DestinationError(
-                f"{self._options.logs}: can't write logs: {error.strerror}; name another folder by --logs"
+                f"{self._settings.logs}: can't write logs: {error.strerror}; name another folder by --logs"
             ) from error
         try:
             for name in self._names:
@@ -103,14 +78,15 @@ class LocalWorkers:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        """End them: at the end of the work they are idle; on an error nobody waits for a picture."""
+        """End them: after an error at once, else when they have had time to end by themselves, as they are idle."""
         self._stop(grace_s=10.0 if error is None else 1.0)
 
     def _start(self, name: str) -> "subprocess.Popen[bytes]":
+        settings = self._settings.model_copy(update={"name": name})
         with self.log_of(name).open("ab") as log:
             return subprocess.Popen(  # noqa: S603 - our own program and arguments
-                tied([*self._command, *self._options.serve_arguments(name)]),
-                env=self._options.environment(),
+                tied([*self._command, *settings.serve_arguments()]),
+                env={**os.environ, BROKER_VARIABLE: self._broker_url},
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
@@ -123,13 +99,13 @@ class LocalWorkers:
 
     def log_of(self, name: str) -> Path:
         """The file that takes all that a worker prints."""
-        return self._options.logs / f"{name}.log"
+        return self._settings.logs / f"{name}.log"
 
     def supervise(self) -> None:
-        """Restart the dead.
+        """Start the workers that have ended again.
 
         Raises:
-            FarmError: that with which a worker ended itself, as another would do the same on this machine.
+            FarmError: the fault with which a worker ended itself, as another would do the same on this machine.
             MachineError: if a worker keeps ending soon after its start.
         """
         for worker in self._running:
@@ -137,11 +113,11 @@ class LocalWorkers:
             if code is None:
                 continue
             fault = error_of(code, f"{self._last_line(worker.name)}; the worker's log is {self.log_of(worker.name)}")
-            # A Redis or store that was away when it started is back at the next start, or that fails in its turn.
+            # A Redis or a store that was away may be back at the next start.
             if fault is not None and not isinstance(fault, BrokerError | DestinationError):
                 raise fault
             soon = time.monotonic() - worker.started_s < _SOON_S
-            # A signal is somebody's doing, an exit its own.
+            # A signal came from outside; an exit code is the worker's own.
             worker.soon_deaths = worker.soon_deaths + 1 if soon and code >= 0 else 0
             if worker.soon_deaths >= _SOON_TIMES:
                 raise MachineError(

@@ -42,6 +42,13 @@ class Camera(Model):
         return self.height_m * SENSOR_MM / self.focal_length_mm
 
 
+UNCOMPRESSED_FROM = 100
+"""JPEG quality from which on a picture is left as it is. It is the highest that a description may ask for."""
+
+NO_JPEG = 101
+"""JPEG quality of a scene whose camera was drawn to write no JPEG, which tells it from one that was drawn at 100."""
+
+
 class Development(Model):
     """From light on the sensor to 8 bits a channel, as a camera does it.
 
@@ -56,7 +63,7 @@ class Development(Model):
         full_well: electrons of a white pixel: fewer make more shot noise; 0 is no noise at all.
         read_noise: electrons.
         sharpening: amount of the unsharp mask.
-        jpeg_quality: 100 and above is no compression.
+        jpeg_quality: quality of the JPEG that the picture goes through; none from `UNCOMPRESSED_FROM` on.
         seed: of the noise.
     """
 

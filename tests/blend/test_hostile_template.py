@@ -12,6 +12,7 @@ from farm.cli.installed_assets import InstalledAssets  # after importorskip
 from farm.errors import TemplateError
 from farm.spec.make_header import Inputs, make_header
 from farm.spec.parse import parse_spec
+from farm.worker_settings import DeviceChoice, RendererSettings
 
 pytestmark = [pytest.mark.blender, pytest.mark.slow]
 
@@ -38,7 +39,8 @@ def ask_worker(command: list[str], template: Path) -> "subprocess.CompletedProce
     """Run one of the worker's commands on a dataset with the template."""
     spec = parse_spec({"quotas": {"far": 1}, "style": "published", "resolution": 64, "quality": "draft"}, source="test")
     header = make_header(spec, Inputs(template=template, environments=False), InstalledAssets())
-    options = ["--device", "cpu", "--threads", "1", "--logs", str(template.parent / "logs")]
+    renderer = RendererSettings(device=DeviceChoice.CPU, threads=1)
+    options = ["--renderer", renderer.as_argument(), "--logs", str(template.parent / "logs")]
     return subprocess.run(
         [sys.executable, "-P", "-m", "worker", *command, *options],
         input=header.model_dump_json(),

@@ -10,9 +10,9 @@ from tempfile import TemporaryDirectory
 from farm.dataset.dataset import Dataset, Destination, create_dataset
 from farm.dataset.paths import manifest_folder
 from farm.errors import IncompleteError
-from farm.local.workers import WorkerOptions
 from farm.run.queue.broker import BROKER_VARIABLE
 from farm.spec.header import DatasetHeader
+from farm.worker_settings import DeviceChoice, RendererSettings, WorkerSettings
 from tests.chaos.clock import WrongClock, find_faketime
 from tests.chaos.disk import SmallDisk, small_disk
 from tests.chaos.manifest_watch import ManifestWatch
@@ -87,16 +87,14 @@ class FarmUnderTest:
         return self.plan.worker[0]
 
     def _worker_command(self, name: str) -> list[str]:
-        options = WorkerOptions(
+        settings = WorkerSettings(
             store=str(self.store),
-            broker_url=self.proxy.url,
-            device="cpu",
-            threads=1,
-            assets=None,
+            name=name,
             logs=self.logs,
+            renderer=RendererSettings(device=DeviceChoice.CPU, threads=1),
             min_free_mib=_MIN_FREE_MIB,
         )
-        return [*self.plan.worker, *options.serve_arguments(name)]
+        return [*self.plan.worker, *settings.serve_arguments()]
 
     @property
     def services(self) -> list[Service]:

@@ -9,10 +9,12 @@ from farm.run.feeder import WINDOW
 from farm.run.handle import run_of
 from farm.run.progress import Progress, RunHandle
 from farm.run.registry.port import RunState
+from farm.worker_settings import RendererSettings
 from tests.doubles.ledger import MemoryLedger
 from tests.doubles.queue import MemoryQueue
 from tests.doubles.registry import MemoryRegistry
 from tests.stand_in import StandInRenderer
+from worker.service.kept_renderer import KeptRenderer
 from worker.service.runner import JobRunner
 
 
@@ -44,7 +46,8 @@ class Bench:
         self.registry = MemoryRegistry()
         self.handle = RunHandle(run=run_of(dataset), ledger=self.ledger, queue=self.queue, registry=self.registry)
         store = store or str(Path(dataset.storage.location).parent)
-        self.runner = JobRunner(store, lambda _: StandInRenderer(), lambda *_: self.ledger)
+        renderer = KeptRenderer(lambda *_: StandInRenderer(), RendererSettings())
+        self.runner = JobRunner(store, renderer, lambda *_: self.ledger)
         self.coordinator = Coordinator(dataset, self.handle, poll_s=0.0, lost_after_s=lost_after_s, window=window)
         self.runs: list[str] = []
 

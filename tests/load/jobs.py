@@ -20,6 +20,7 @@ from farm.run.coordinator import Coordinator
 from farm.run.handle import open_handle
 from farm.run.progress import RunHandle
 from farm.run.queue.broker import BROKER_VARIABLE, connect
+from farm.worker_settings import WorkerSettings
 from tests.load.processor_time import processor_s
 from tests.stand_in import StandInRenderer, stand_in_header
 
@@ -116,11 +117,12 @@ def _stand_ins(count: int, store: str, url: str, handle: RunHandle) -> Iterator[
     started = []
     try:
         for number in range(count):
-            command = [sys.executable, "-P", str(_STAND_IN), "serve", "--store", store, "--name", f"load-{number}"]
-            command += ["--logs", f"{store}/logs", "--tasks-per-child", "1000000"]
+            settings = WorkerSettings(
+                store=store, name=f"load-{number}", logs=Path(store) / "logs", tasks_per_child=1_000_000
+            )
             started.append(
                 subprocess.Popen(
-                    tied(command),
+                    tied([sys.executable, "-P", str(_STAND_IN), *settings.serve_arguments()]),
                     env=environment,
                     stdout=subprocess.DEVNULL,
                     stderr=subprocess.DEVNULL,

@@ -1,14 +1,13 @@
 """A photograph as the backdrop. Numpy and OpenCV."""
 
-from functools import cache
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from assets.scan.hdris import LUMINANCE
+from assets.colour import REC709_LUMINANCE
 from farm.scene.backdrop import Plate
 from worker.backdrop.panorama import disc
+from worker.colour import light_of
 
 DARKEST = 1e-3
 """Least mean luminance that a crop is taken to have, white having 1: a darker one, brightened, shows its levels."""
@@ -38,7 +37,7 @@ def photograph_backdrop(
     if plate.mirror:
         light = light[:, ::-1]
     blurred = cv2.filter2D(light, -1, disc(blur_px), borderType=cv2.BORDER_REFLECT_101)
-    mean = max(float((blurred @ LUMINANCE).mean()), DARKEST)
+    mean = max(float((blurred @ REC709_LUMINANCE).mean()), DARKEST)
     scaled: NDArray[np.float32] = (blurred * (luminance / mean)).astype(np.float32)
     return scaled
 
@@ -72,16 +71,6 @@ def _shrunk(square: NDArray[np.uint8], factor: int) -> NDArray[np.float32]:
     rows = max(1, _STRIP_ROWS // factor)
     for first in range(0, edge, rows):
         last = min(edge, first + rows)
-        strip = _linear()[square[first * factor : last * factor, : edge * factor]]
+        strip = light_of(square[first * factor : last * factor, : edge * factor])
         shrunk[first:last] = cv2.resize(strip, (edge, last - first), interpolation=cv2.INTER_AREA)
     return shrunk
-
-
-@cache
-def _linear() -> NDArray[np.float32]:
-    """Linear light of the 256 levels of sRGB (IEC 61966-2-1)."""
-    level = np.arange(256) / 255.0
-    light = np.where(level <= 0.04045, level / 12.92, ((level + 0.055) / 1.055) ** 2.4)
-    levels: NDArray[np.float32] = light.astype(np.float32)
-    levels.setflags(write=False)  # they are shared
-    return levels

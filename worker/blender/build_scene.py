@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assets.scan.hdris import LUMINANCE
+from assets.colour import REC709_LUMINANCE
 from farm.scene.backdrop import HdriWorld
 from farm.scene.scene import Scene
 from farm.spec.rendering import Economy
@@ -95,6 +95,6 @@ def _backdrop(
     if scene.plate is None:
         return seen
     # As bright as what would be seen of the HDRI that lights the cables.
-    luminance = PLATE_LUMINANCE if seen is None else float((seen @ LUMINANCE).mean())
+    luminance = PLATE_LUMINANCE if seen is None else float((seen @ REC709_LUMINANCE).mean())
     photograph = image_cache.photograph(library.plate(scene.plate.name))
     return photograph_backdrop(photograph, scene.plate, geometry.resolution, scene.plate.blur_px, luminance)

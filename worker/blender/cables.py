@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from blend import names
+from blend.mesh import MeshArrays, add_mesh
 from farm.model import Rgb
 from farm.scene.cable import CableMaterial
 from farm.scene.light import Lamp, StudioLamp
@@ -57,7 +58,7 @@ def add_cables(
         if key not in materials:
             materials[key] = _material(name, piece, view, image_cache)
         for place, tube in made:
-            _add_mesh(f"{name}.{place}", tube, materials[key], smooth=isinstance(piece, Tubular))
+            _add_tube(f"{name}.{place}", tube, materials[key], smooth=isinstance(piece, Tubular))
 
 
 def _identity(piece: Piece) -> object:
@@ -90,20 +91,16 @@ def _tube(piece: Tubular, part: slice, sides: int) -> Tube:
     return tube
 
 
-def _add_mesh(name: str, tube: Tube, material: Any, *, smooth: bool) -> None:
-    mesh = bpy.data.meshes.new(name)
-    mesh.vertices.add(len(tube.vertices_m))
-    mesh.vertices.foreach_set("co", tube.vertices_m.ravel())
-    mesh.loops.add(len(tube.corners))
-    mesh.loops.foreach_set("vertex_index", tube.corners)
-    mesh.polygons.add(len(tube.face_starts))
-    mesh.polygons.foreach_set("loop_start", tube.face_starts)
-    mesh.uv_layers.new(name="along").uv.foreach_set("vector", tube.uvs.ravel())
-    if not smooth:
-        mesh.shade_flat()
-    mesh.update(calc_edges=True)
-    mesh.materials.append(material)
-    bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
+def _add_tube(name: str, tube: Tube, material: Any, *, smooth: bool) -> None:
+    arrays = MeshArrays(
+        vertices_m=tube.vertices_m,
+        corners=tube.corners,
+        face_starts=tube.face_starts,
+        smooth=smooth,
+        uv=tube.uvs,
+        uv_name="along",
+    )
+    add_mesh(bpy.data.scenes[names.PICTURE_SCENE], name, arrays, [material])
 
 
 def _material(name: str, piece: Piece, view: View, image_cache: ImageCache) -> Any:
@@ -125,9 +122,9 @@ def _published(name: str, wanted: CableMaterial) -> Any:
     nodes[names.CABLE_NOISE].inputs["W"].default_value = wanted.dirt_offset
     clean, dirty = nodes[names.CABLE_COLOUR_RAMP].color_ramp.elements
     clean.position = wanted.dirt_position
-    clean.color = _pastel(wanted.colour)
+    clean.color = _levels_as_light(wanted.colour)
     dirty.position = min(1.0, wanted.dirt_position + DIRT_EDGE)
-    dirty.color = _pastel(wanted.dirt_colour)
+    dirty.color = _levels_as_light(wanted.dirt_colour)
     nodes[names.CABLE_REFLECTION_RAMP].color_ramp.elements[1].position = wanted.reflection_position
     return material
 
@@ -154,7 +151,11 @@ def _drawn(name: str, images: SkinImages, image_cache: ImageCache) -> Any:
     return material
 
 
-def _pastel(colour: Rgb) -> tuple[float, float, float, float]:
-    """Levels taken for shares of linear light, as the published set-up does: the colours come out pastel."""
+def _levels_as_light(colour: Rgb) -> tuple[float, float, float, float]:
+    """The levels taken for linear light, without sRGB's curve, as the published set-up does: colours come out pastel.
+
+    Returns:
+        Red, green, blue and an alpha of 1, each 0 to 1.
+    """
     red, green, blue = (level / 255.0 for level in colour)
     return (red, green, blue, 1.0)

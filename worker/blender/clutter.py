@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from blend import names
+from blend.mesh import MeshArrays, add_mesh, starts_of
 from blend.nodes import add_node, link
 from farm.model import Rgb
 from farm.scene.clutter import Part, Sheet, Stick
@@ -67,21 +68,16 @@ def _add_part(name: str, part: Part) -> None:
 
 
 def _add_solid(name: str, placed: Solid, local: Solid, finishes: tuple[Finish, ...], seed: int) -> None:
-    mesh = bpy.data.meshes.new(name)
-    mesh.vertices.add(len(placed.vertices_m))
-    mesh.vertices.foreach_set("co", placed.vertices_m.astype(np.float32).ravel())
-    mesh.loops.add(len(placed.corners))
-    mesh.loops.foreach_set("vertex_index", placed.corners.astype(np.int32))
-    mesh.polygons.add(len(placed.sizes))
-    mesh.polygons.foreach_set("loop_start", (np.cumsum(placed.sizes) - placed.sizes).astype(np.int32))
-    mesh.polygons.foreach_set("material_index", placed.finishes.astype(np.int32))
-    mesh.attributes.new("sharp_face", "BOOLEAN", "FACE").data.foreach_set("value", ~placed.smooth)
-    grain = mesh.attributes.new("grain", "FLOAT_VECTOR", "POINT")
-    grain.data.foreach_set("vector", local.vertices_m.astype(np.float32).ravel())
-    mesh.update(calc_edges=True)
-    for number, finish in enumerate(finishes):
-        mesh.materials.append(_solid_material(f"{name}.{number}", finish, seed))
-    bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
+    arrays = MeshArrays(
+        vertices_m=placed.vertices_m,
+        corners=placed.corners,
+        face_starts=starts_of(placed.sizes),
+        smooth=placed.smooth,
+        materials=placed.finishes,
+        attributes={"grain": local.vertices_m},
+    )
+    materials = [_solid_material(f"{name}.{number}", finish, seed) for number, finish in enumerate(finishes)]
+    add_mesh(bpy.data.scenes[names.PICTURE_SCENE], name, arrays, materials)
 
 
 def _solid_material(name: str, finish: Finish, seed: int) -> Any:
@@ -101,7 +97,7 @@ def _solid_material(name: str, finish: Finish, seed: int) -> Any:
     surface = add_node(tree, "ShaderNodeBsdfPrincipled", "surface", (0, 0))
     output = add_node(tree, "ShaderNodeOutputMaterial", "output", (300, 0))
     colour = add_node(tree, "ShaderNodeMix", "colour", (-200, 150), data_type="RGBA")
-    base = np.array(_light(finish.colour)[:3])
+    base = np.array(_light_of_colour(finish.colour)[:3])
     for slot, factor in (("A", 1 - finish.mottle), ("B", 1 + 0.5 * finish.mottle)):
         tint = (*np.minimum(base * factor, 1.0).tolist(), 1.0)
         next(i for i in colour.inputs if i.name == slot and i.type == "RGBA").default_value = tint
@@ -124,12 +120,16 @@ def _solid_material(name: str, finish: Finish, seed: int) -> Any:
 
 def _add_sheet(name: str, sheet: Sheet, height_m: float, image_cache: ImageCache) -> None:
     drawn = print_sheet(sheet)
-    mesh = bpy.data.meshes.new(name)
     corners = sheet_corners(sheet, drawn.margin_m)
-    mesh.from_pydata([(float(x), float(y), height_m) for x, y in corners], [], [(0, 1, 2, 3)])
-    mesh.uv_layers.new(name="print").uv.foreach_set("vector", np.array([0, 0, 1, 0, 1, 1, 0, 1], np.float32))
-    mesh.materials.append(_sheet_material(name, drawn, image_cache))
-    bpy.data.scenes[names.PICTURE_SCENE].collection.objects.link(bpy.data.objects.new(name, mesh))
+    arrays = MeshArrays(
+        vertices_m=np.column_stack([corners, np.full(len(corners), height_m)]),
+        corners=np.arange(4),
+        face_starts=np.zeros(1, np.int32),
+        smooth=False,
+        uv=np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]),
+        uv_name="print",
+    )
+    add_mesh(bpy.data.scenes[names.PICTURE_SCENE], name, arrays, [_sheet_material(name, drawn, image_cache)])
 
 
 def _sheet_material(name: str, drawn: Print, image_cache: ImageCache) -> Any:
@@ -161,6 +161,7 @@ def _sheet_material(name: str, drawn: Print, image_cache: ImageCache) -> Any:
     return material
 
 
-def _light(colour: Rgb) -> tuple[float, float, float, float]:
+def _light_of_colour(colour: Rgb) -> tuple[float, float, float, float]:
+    """The linear light of an sRGB colour: red, green, blue and an alpha of 1, each 0 to 1."""
     red, green, blue = (float(light) for light in light_of(np.array(colour, np.uint8)))
     return red, green, blue, 1.0

@@ -7,7 +7,6 @@ step that pictures go through.
 import time
 from collections.abc import Iterable
 from importlib.metadata import version
-from pathlib import Path
 from typing import Any
 
 import bpy
@@ -28,6 +27,7 @@ from farm.spec.header import DatasetHeader, FileRef
 from farm.spec.job import Job
 from farm.spec.quality import ChosenSettings, Quality
 from farm.spec.rendering import Economy, PictureSettings
+from farm.worker_settings import RendererSettings
 from worker.blender import eevee
 from worker.blender.asset_files import AssetLibrary, checked
 from worker.blender.build_scene import BuiltScene, build_scene
@@ -42,21 +42,19 @@ from worker.simulate.simulate import simulate
 from worker.stopwatch import Stopwatch
 
 
-def open_renderer(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> "BlenderRenderer":
+def open_renderer(header: DatasetHeader, settings: RendererSettings) -> "BlenderRenderer":
     """Open the dataset's template in this process and make it ready.
 
     Args:
         header: the dataset's header, which names the template and the assets.
-        device: one of `blend.devices.CHOICES`.
-        threads: CPU threads of a render; 0 takes one for each core.
-        assets: folder of the baked surfaces; None for the usual place.
+        settings: device, threads, and folder of the baked surfaces.
 
     Raises:
         TemplateError: if the template can't be opened, lacks something, or has changed since the dataset's start.
         AssetError: if the template's file can't be read.
         MachineError: if there is no such device.
     """
-    return BlenderRenderer(header, AssetLibrary(header, assets), device=device, threads=threads)
+    return BlenderRenderer(header, AssetLibrary(header, settings.assets), settings)
 
 
 class BlenderRenderer:
@@ -65,7 +63,7 @@ class BlenderRenderer:
     There is one for a process: opening another replaces the template.
     """
 
-    def __init__(self, header: DatasetHeader, library: AssetLibrary, *, device: str, threads: int) -> None:
+    def __init__(self, header: DatasetHeader, library: AssetLibrary, settings: RendererSettings) -> None:
         """Open the template; see `open_renderer`."""
         start = time.perf_counter()
         path = header.template.path or str(TEMPLATE)
@@ -73,9 +71,9 @@ class BlenderRenderer:
         # Undo steps and autosaves are of no use here and cost time and memory.
         bpy.context.preferences.edit.use_global_undo = False
         bpy.context.preferences.filepaths.use_auto_save_temporary_files = False
-        self._device = choose_device(device)
-        self._threads = threads
-        cv2.setNumThreads(threads or -1)
+        self._device = choose_device(settings.device)
+        self._threads = settings.threads
+        cv2.setNumThreads(settings.threads or -1)
         self._library = library
         self._image_cache = ImageCache()
         self._fingerprint = header.spec_sha256

@@ -9,7 +9,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from farm.scene.cable import Marking, Stripe, StripeKind
 from worker.cable.canvas import Canvas, pigment
-from worker.noise import Field, field, patches
+from worker.noise import Field, highest_share, wrapped_noise
 
 _OVERSAMPLED = 4
 
@@ -25,17 +25,17 @@ def paint_stripe(canvas: Canvas, stripe: Stripe, rng: np.random.Generator) -> No
     rows_m, columns_m = canvas.texel_m
     turned = rng.choice([-1.0, 1.0]) * canvas.along_m / stripe.pitch_m
     if stripe.kind is StripeKind.STRAIGHT:
-        turned = turned + 0.03 * field(rng, (1, canvas.shape[1]), canvas.cells(1.0, 0.06))
+        turned = turned + 0.03 * wrapped_noise(rng, (1, canvas.shape[1]), canvas.cells(1.0, 0.06))
     place = stripe.count * (canvas.around - turned.astype(np.float32) + np.float32(rng.random()))
     off = np.abs(place - np.floor(place) - 0.5) / stripe.count
     half = 0.5 * stripe.share / stripe.count
     least_gap = min(half, 0.5 / stripe.count - half)
-    uneven = min(0.007, 0.12 * least_gap) * field(rng, canvas.shape, canvas.cells(canvas.around_m / 2, 0.0022))
+    uneven = min(0.007, 0.12 * least_gap) * wrapped_noise(rng, canvas.shape, canvas.cells(canvas.around_m / 2, 0.0022))
     blur = np.hypot(rows_m / canvas.around_m, columns_m / stripe.pitch_m)
     inside = np.clip((half + uneven - off) / np.float32(blur) + 0.5, 0.0, 1.0).astype(np.float32)
     if stripe.share >= 1.0:
         inside[:] = 1.0
-    mottle = 1.0 + 0.02 * field(rng, canvas.shape, canvas.cells(0.002, 0.006))
+    mottle = 1.0 + 0.02 * wrapped_noise(rng, canvas.shape, canvas.cells(0.002, 0.006))
     canvas.blend(inside, pigment(stripe.colour) * mottle)
     canvas.roughness += 0.04 * inside
 
@@ -60,7 +60,7 @@ def print_marking(canvas: Canvas, marking: Marking, rng: np.random.Generator) ->
         _stamp(ink, text, max(0, min(top, 3 * rows - text.shape[0])), round(start))
         start += step
     closed = ink.reshape(3, rows, columns).max(axis=0)
-    rubbed = patches(field(rng, canvas.shape, canvas.cells(0.0009, 0.0022)), 0.12, 1.0)
+    rubbed = highest_share(wrapped_noise(rng, canvas.shape, canvas.cells(0.0009, 0.0022)), 0.12, 1.0)
     printed = closed * (0.93 - 0.55 * rubbed)
     canvas.blend(printed, pigment(marking.colour))
     canvas.blend_roughness(0.6 * printed, 0.5)

@@ -14,7 +14,7 @@ from farm.scene.cable import Bundle, Cable, CableEnd, EndKind, Skin
 from farm.scene.scene import Scene
 from worker.cable.piece import Piece, Plain, Substance, Surface, Tubular
 from worker.cable.strands import places, strand_radius, turning
-from worker.cable.tie import is_clear, solids_of
+from worker.cable.tie import GOLDEN, is_clear, solids_of
 from worker.curves import Points
 
 _CONDUCTOR = 0.55
@@ -38,8 +38,6 @@ _SHIFTS_M = tuple(sign * step / 1000 for step in range(0, 61, 4) for sign in (1,
 
 _COPPER = (184, 115, 81)
 _TIN = (190, 190, 186)
-
-_GOLDEN = 0.618034
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +129,7 @@ def _bundle(
 
 def _uneven(skin: Skin, number: int, end: int) -> float:
     """A share from 0 to 1 that differs from strand to strand."""
-    return (_GOLDEN * (skin.pattern_seed % 9973 + 3 * number + 11 * end)) % 1.0
+    return (GOLDEN * (skin.pattern_seed % 9973 + 3 * number + 11 * end)) % 1.0
 
 
 def _with_ends(strand: _Strand, cable: Cable) -> list[Piece]:
@@ -164,7 +162,7 @@ def _end(strand: _Strand, length_m: float, end: CableEnd, from_m: float, to_m: f
     fine_m = _CONDUCTOR * strand.radius_m / 3
     reach = np.linspace(0.0, 1.0, len(curve))
     # Cut strands spring apart, more towards the tip and each by its own, within the sheath's width.
-    spread = np.array([0.75 * ((_GOLDEN * (strand.instance + 3 * k)) % 1.0) for k in range(7)])
+    spread = np.array([0.75 * ((GOLDEN * (strand.instance + 3 * k)) % 1.0) for k in range(7)])
     widths = 1.0 + spread[:, None] * reach**1.5
     offsets_m = fine_m * places(7)[:, None] * widths[..., None]
     arc = np.linspace(0.0, abs(to_m - from_m), len(curve))

@@ -5,7 +5,7 @@ import numpy as np
 from worker.cable.canvas import pigment
 from worker.cable.piece import Plain, Substance
 from worker.cable.skin import SkinImages
-from worker.noise import field, fractal
+from worker.noise import rough_wrapped_noise, wrapped_noise
 
 _SHAPE = (32, 256)
 
@@ -13,12 +13,12 @@ _SHAPE = (32, 256)
 def draw_plain(surface: Plain) -> SkinImages:
     """Draw a substance: the same images for the same colour."""
     rng = np.random.default_rng(sum(level << 8 * place for place, level in enumerate(surface.colour)))
-    mottle = fractal(rng, _SHAPE, (8, 8), 3)
+    mottle = rough_wrapped_noise(rng, _SHAPE, (8, 8), 3)
     if surface.substance is Substance.PLASTIC:
         colour = pigment(surface.colour) * (1.0 + 0.03 * mottle)
         roughness, metallic = 0.42 + 0.04 * mottle, 0.0
     else:
-        streaks = field(rng, _SHAPE, (1, 32))
+        streaks = wrapped_noise(rng, _SHAPE, (1, 32))
         metal = np.array(surface.colour, np.float32).reshape(3, 1, 1) / 255.0
         colour = metal * (1.0 + 0.07 * mottle + 0.05 * streaks)
         roughness, metallic = 0.30 + 0.05 * mottle + 0.04 * streaks, 1.0

@@ -4,7 +4,7 @@ import numpy as np
 
 from farm.scene.cable import Skin
 from worker.cable.canvas import Canvas, pigment, tone
-from worker.noise import Field, field, fractal
+from worker.noise import Field, rough_wrapped_noise, wrapped_noise
 
 _STRAND_M = 0.00035
 """Of a conductor's fine strands, as wide as the clear plastic makes them look."""
@@ -28,8 +28,8 @@ _METAL_TINT = 40
 def draw_plain(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:
     """Extruded plastic: faintly mottled, with streaks along it; a gloss that is not quite even."""
     shape = canvas.shape
-    mottle = fractal(rng, shape, canvas.cells(0.004, 0.007), 2)
-    streaks = field(rng, shape, canvas.cells(0.0006, 0.05))
+    mottle = rough_wrapped_noise(rng, shape, canvas.cells(0.004, 0.007), 2)
+    streaks = wrapped_noise(rng, shape, canvas.cells(0.0006, 0.05))
     canvas.colour[:] = pigment(skin.colour) * (1.0 + 0.018 * mottle + 0.014 * streaks)
     canvas.roughness[:] = np.clip(skin.roughness * (1.0 + 0.08 * mottle + 0.10 * streaks), 0.08, 1.0)
     canvas.height_m = _unevenness(canvas, rng)
@@ -40,16 +40,16 @@ def draw_translucent(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> No
     wide_m = max(_STRAND_M, 3.0 * canvas.texel_m[0])
     count = int(np.clip(round(canvas.around_m / wide_m), 5, 48))
     pitch_m = rng.uniform(3.2, 4.6) * canvas.around_m * rng.choice([-1.0, 1.0])
-    wander = 0.12 * field(rng, canvas.shape, canvas.cells(canvas.around_m / 4, 0.012))
+    wander = 0.12 * wrapped_noise(rng, canvas.shape, canvas.cells(canvas.around_m / 4, 0.012))
     place = count * (canvas.around + canvas.along_m / np.float32(pitch_m)) + wander
     strand = np.floor(place).astype(np.int32) % count
     across = 2.0 * (place - np.floor(place)) - 1.0
     bulge = np.sqrt(np.maximum(1.0 - 0.92 * across * across, 0.0)).astype(np.float32)
     shine = (1.0 + 0.12 * rng.standard_normal(count)).astype(np.float32)[strand]
-    shine *= 1.0 + 0.05 * field(rng, canvas.shape, canvas.cells(0.0008, 0.006))
+    shine *= 1.0 + 0.05 * wrapped_noise(rng, canvas.shape, canvas.cells(0.0008, 0.006))
     metal = _TINNED if rng.random() < _TINNED_SHARE else _COPPER
     canvas.colour[:] = metal * np.minimum((0.12 + 0.88 * bulge) * shine, 1.0)
-    milk = 0.13 + 0.05 * fractal(rng, canvas.shape, canvas.cells(0.003, 0.02), 2)
+    milk = 0.13 + 0.05 * rough_wrapped_noise(rng, canvas.shape, canvas.cells(0.003, 0.02), 2)
     canvas.blend(np.clip(milk, 0.0, 0.4), pigment(skin.colour))
     canvas.roughness[:] = 0.30
     canvas.height_m = np.float32(0.22 * wide_m) * bulge
@@ -64,7 +64,7 @@ def draw_braid(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:
     rows_m = canvas.texel_m[0]
     count = 2 * int(np.clip(round(canvas.around_m / max(_CARRIER_M, 4.5 * rows_m) / 2), 2, 14))
     turns = canvas.along_m * np.float32(_BRAID_TANGENT / canvas.around_m)
-    wander = 0.05 * field(rng, canvas.shape, canvas.cells(0.0015, 0.003))
+    wander = 0.05 * wrapped_noise(rng, canvas.shape, canvas.cells(0.0015, 0.003))
     right = count * (canvas.around + turns) + wander
     left = count * (canvas.around - turns) - wander
     right_id, left_id = np.floor(right).astype(np.int32), np.floor(left).astype(np.int32)
@@ -78,7 +78,7 @@ def draw_braid(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:
     dip = (1.0 - 1.1 * lengthwise * lengthwise).astype(np.float32)
     height = crown * dip
     tones = _carrier_tones(skin, count, rng)
-    grain = fractal(rng, canvas.shape, canvas.cells(0.0003, 0.0004), 2)
+    grain = rough_wrapped_noise(rng, canvas.shape, canvas.cells(0.0003, 0.0004), 2)
     shade = (0.42 + 0.58 * height) * (1.0 + 0.06 * grain)
     for plane, of_carrier in zip(canvas.colour, tones.T, strict=True):
         np.multiply(of_carrier[carrier], shade, out=plane)
@@ -108,6 +108,6 @@ def _carrier_tones(skin: Skin, count: int, rng: np.random.Generator) -> Field:
 
 def _unevenness(canvas: Canvas, rng: np.random.Generator) -> Field:
     """What keeps the light on a smooth sheath from being one straight line: waves, and the plastic's grain."""
-    waves = field(rng, canvas.shape, canvas.cells(canvas.around_m / 4, 0.009))
-    grain = field(rng, canvas.shape, canvas.cells(0.0007, 0.0012))
+    waves = wrapped_noise(rng, canvas.shape, canvas.cells(canvas.around_m / 4, 0.009))
+    grain = wrapped_noise(rng, canvas.shape, canvas.cells(0.0007, 0.0012))
     return (22e-6 * waves + 2.5e-6 * grain).astype(np.float32)

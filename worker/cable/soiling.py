@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 
 from worker.cable.canvas import Canvas, tone
-from worker.noise import Field, field, fractal, patches
+from worker.noise import Field, highest_share, rough_wrapped_noise, wrapped_noise
 
 _GRIME = tone(0.15, 0.125, 0.10)
 _DUST = tone(0.60, 0.56, 0.50)
@@ -18,15 +18,15 @@ def soil(canvas: Canvas, share: float, rng: np.random.Generator) -> None:
     if share <= 0.0:
         return
     shape = canvas.shape
-    spots = fractal(rng, shape, canvas.cells(0.0025, 0.0045), 4)
-    smears = fractal(rng, shape, canvas.cells(0.0015, 0.014), 3)
+    spots = rough_wrapped_noise(rng, shape, canvas.cells(0.0025, 0.0045), 4)
+    smears = rough_wrapped_noise(rng, shape, canvas.cells(0.0015, 0.014), 3)
     # Dirt gathers: some stretches have much of it, others hardly any.
-    crowd = field(rng, shape, canvas.cells(canvas.around_m, 0.035))
+    crowd = wrapped_noise(rng, shape, canvas.cells(canvas.around_m, 0.035))
     where = np.maximum(spots, smears) + 0.6 * crowd
-    grime = patches(where, share, rng.uniform(0.4, 1.2))
-    density = np.clip(0.70 + 0.20 * field(rng, shape, canvas.cells(0.0012, 0.0020)), 0.25, 0.95)
+    grime = highest_share(where, share, rng.uniform(0.4, 1.2))
+    density = np.clip(0.70 + 0.20 * wrapped_noise(rng, shape, canvas.cells(0.0012, 0.0020)), 0.25, 0.95)
     tint = _GRIME * np.float32(rng.uniform(0.5, 1.5))
-    dust = np.clip(0.5 + 0.5 * fractal(rng, shape, canvas.cells(0.004, 0.012), 3), 0.0, 1.5)
+    dust = np.clip(0.5 + 0.5 * rough_wrapped_noise(rng, shape, canvas.cells(0.004, 0.012), 3), 0.0, 1.5)
     film = dust * np.float32(0.22 * min(1.0, 3.0 * share))
     canvas.blend(film, _DUST)
     canvas.blend_roughness(np.minimum(2.0 * film, 1.0), 0.85)
@@ -39,9 +39,11 @@ def wear_down(canvas: Canvas, share: float, rng: np.random.Generator) -> None:
     if share <= 0.0:
         return
     shape = canvas.shape
-    where = fractal(rng, shape, canvas.cells(0.0018, 0.018), 4)
-    where += 0.8 * field(rng, shape, canvas.cells(canvas.around_m / 3, 0.06))
-    rubbed = patches(where, share, 0.7) * np.clip(0.6 + 0.3 * field(rng, shape, canvas.cells(0.0004, 0.003)), 0, 1)
+    where = rough_wrapped_noise(rng, shape, canvas.cells(0.0018, 0.018), 4)
+    where += 0.8 * wrapped_noise(rng, shape, canvas.cells(canvas.around_m / 3, 0.06))
+    rubbed = highest_share(where, share, 0.7) * np.clip(
+        0.6 + 0.3 * wrapped_noise(rng, shape, canvas.cells(0.0004, 0.003)), 0, 1
+    )
     paler = 0.5 * canvas.colour + 0.5 * np.float32(0.74)
     canvas.blend(0.85 * rubbed, paler)
     canvas.blend_roughness(rubbed, 0.7)

@@ -20,7 +20,8 @@ _CORNERS = 40
 _BEVEL = 0.12
 """Share of the width over which a band rises to its thickness, on either side."""
 
-_GOLDEN = 0.618034
+GOLDEN = 0.618034
+"""Golden ratio: the fractions of its multiples spread evenly, which varies pieces by their number without a draw."""
 
 
 def solids_of(
@@ -61,7 +62,7 @@ def solids_of(
     highest = float(under[:, 1].max())
     band = Convex(OCCLUDER, rings, centre[1] + (highest + 1e-5) * up[1], surface, around=True)
     # Ties are pulled tight from above, so heads are on the upper side, each elsewhere.
-    lean = np.pi / 2 + 1.1 * np.sin(2 * np.pi * (_GOLDEN * (7 * tie.along + phase_deg / 360)))
+    lean = np.pi / 2 + 1.1 * np.sin(2 * np.pi * (GOLDEN * (7 * tie.along + phase_deg / 360)))
     direction = np.array([np.cos(lean), np.sin(lean)])
     foot = under[np.argmax(under @ direction)] + (strand_m + 0.6 * _THICKNESS_M) * direction
     frame = (centre[1:3].mean(axis=0), across[1], up[1])

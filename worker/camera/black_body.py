@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from worker.colour import REC709_LUMINANCE
+from assets.colour import REC709_LUMINANCE
 
 _WAVELENGTHS_NM = np.arange(360.0, 831.0, 5.0)
 

@@ -10,11 +10,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from assets.colour import REC709_LUMINANCE, srgb_of_light
 from farm.errors import RenderError
-from farm.scene.camera import Development
+from farm.scene.camera import UNCOMPRESSED_FROM, Development
 from worker.camera.distortion import Distortion
 from worker.camera.illuminant import NEUTRAL
-from worker.colour import REC709_LUMINANCE, luminance, srgb
+from worker.colour import luminance
 
 MID_GREY = 0.18
 """Light of the grey that a photographer meters."""
@@ -36,8 +37,6 @@ CORRELATION = 0.3
 
 SHARPENED_PX = 1.0
 """Standard deviation of the Gaussian that the unsharp mask takes off."""
-
-NO_COMPRESSION = 100
 
 _FINITE = 1e30
 
@@ -184,7 +183,7 @@ def curve(light: NDArray[np.float64], contrast: float) -> NDArray[np.float64]:
     """The tone curve itself, of light of any shape."""
     above = np.maximum(light - SHOULDER, 0.0) / (1.0 - SHOULDER)
     rolled = np.minimum(light, SHOULDER) + (1.0 - SHOULDER) * (1.0 - np.exp(-above))
-    level, middle = srgb(rolled), float(srgb(np.array(MID_GREY)))
+    level, middle = srgb_of_light(rolled), float(srgb_of_light(np.array(MID_GREY)))
     dark, bright = np.minimum(level / middle, 1.0), np.minimum((1.0 - level) / (1.0 - middle), 1.0)
     curved: NDArray[np.float64] = np.where(
         level < middle, middle * dark**contrast, 1.0 - (1.0 - middle) * bright**contrast
@@ -218,12 +217,12 @@ def quantize(levels: Levels) -> NDArray[np.uint8]:
 
 
 def compress(picture: NDArray[np.uint8], quality: int) -> NDArray[np.uint8]:
-    """The picture (H, W, 3) after JPEG with colours at half the resolution; as it is from `NO_COMPRESSION` on.
+    """The picture (H, W, 3) after JPEG with colours at half the resolution; as it is from `UNCOMPRESSED_FROM` on.
 
     Raises:
         RenderError: if OpenCV can't compress it.
     """
-    if quality >= NO_COMPRESSION:
+    if quality >= UNCOMPRESSED_FROM:
         return picture
     options = [
         cv2.IMWRITE_JPEG_QUALITY,

@@ -11,6 +11,7 @@ import numpy as np
 
 from farm.scene.clutter import Part, PartKind
 from worker.clutter.solid import (
+    SIDES,
     Array,
     Finish,
     Section,
@@ -21,8 +22,6 @@ from worker.clutter.solid import (
     strap,
     turned_on_lathe,
 )
-
-SIDES = 48
 
 WASHERS_MM = ((3.2, 7.0, 0.5), (4.3, 9.0, 0.8), (5.3, 10.0, 1.0), (6.4, 12.0, 1.6), (8.4, 16.0, 1.6))
 """Hole, outside and thickness of M3, M4, M5, M6 and M8 (ISO 7089)."""

@@ -8,6 +8,9 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+SIDES = 48
+"""Sides of the ring that stands for a circle in what is turned on a lathe."""
+
 
 @dataclass(frozen=True, slots=True)
 class Finish:

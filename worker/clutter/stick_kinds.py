@@ -10,9 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from farm.scene.clutter import Stick, StickKind
-from worker.clutter.solid import Finish, Section, Solid, box, section
-
-SIDES = 48
+from worker.clutter.solid import SIDES, Finish, Section, Solid, box, section
 
 PENCIL_CORNER = 1.09
 """A pencil's rounded corners are so many times farther from its axis than its flats; 1.155 if they were sharp."""

@@ -3,8 +3,8 @@
 import numpy as np
 
 from farm.scene.clutter import Stick
-from worker.clutter.solid import Array, Finish, Section, Solid, joined, turned_on_lathe
-from worker.clutter.stick_kinds import SIDES, TURNERS
+from worker.clutter.solid import SIDES, Array, Finish, Section, Solid, joined, turned_on_lathe
+from worker.clutter.stick_kinds import TURNERS
 from worker.curves import Points
 
 OUTLINE_STEP = 0.02

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 
 from farm.scene.floor import Wear
-from worker.colour import Texels, levels_of, light_of
+from worker.colour import LUMINANCE_WEIGHTS, Texels, levels_of, light_of
 from worker.floor.marks import Marks
 from worker.noise import Field
 
@@ -20,8 +20,6 @@ DUST_ROUGHNESS = 0.85
 FILL_ROUGHNESS = 0.9
 """Of grout, sand and dirt."""
 
-LUMA = np.array([0.2126, 0.7152, 0.0722], np.float32)
-
 
 def worn_colour(texels: Texels, wear: Wear, marks: Marks) -> Texels:
     """A window's colour after all that.
@@ -36,7 +34,7 @@ def worn_colour(texels: Texels, wear: Wear, marks: Marks) -> Texels:
     """
     coloured = texels if texels.ndim == 3 else np.repeat(texels[:, :, None], 3, axis=2)
     mean = light_of(coloured[::4, ::4]).mean(axis=(0, 1), dtype=np.float64)
-    grey = LUMA[None, :] * np.ones((3, 1))
+    grey = LUMINANCE_WEIGHTS[None, :] * np.ones((3, 1))
     mix = wear.saturation * np.eye(3) + (1 - wear.saturation) * grey
     gain = wear.brightness * np.array(wear.tint)[:, None]
     # colour = gain * (mean + contrast * (mix light - mix mean)), one matrix with an offset.

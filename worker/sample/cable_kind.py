@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from assets.colour import REC709_LUMINANCE
 from farm.model import Rgb
 from farm.scene.cable import (
     Bundle,
@@ -161,7 +162,7 @@ def _sample_stripe(ranges: SkinRanges, make: _Make, colour: Rgb, rng: np.random.
 def _sample_marking(make: _Make, sheath: Rgb, rng: np.random.Generator) -> Marking:
     text = _TEXTS[int(rng.integers(len(_TEXTS)))]
     height = float(rng.uniform(0.35, 0.6))
-    dark = float(np.dot(sheath, (0.2126, 0.7152, 0.0722))) < 110
+    dark = float(np.dot(sheath, REC709_LUMINANCE)) < 110
     letters: Rgb = (225, 225, 215) if dark else (25, 25, 30)
     # Letters are about 0.6 of their height wide; some air follows.
     words_m = 0.6 * height * make.diameter_m * len(text)

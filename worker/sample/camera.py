@@ -2,12 +2,9 @@
 
 import numpy as np
 
-from farm.scene.camera import FOCAL_LENGTH_MM, Camera, Development
+from farm.scene.camera import FOCAL_LENGTH_MM, NO_JPEG, Camera, Development
 from farm.spec.ranges.camera import CameraRanges, DevelopmentRanges
 from worker.sample.values import chance, level, log_uniform, pattern_seed, uniform
-
-NO_JPEG = 101
-"""A quality above all that JPEG has: none is lost."""
 
 
 def sample_camera(ranges: CameraRanges, rng: np.random.Generator) -> Camera:

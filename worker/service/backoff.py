@@ -1,19 +1,22 @@
-"""Why a worker takes no jobs for a while: its store is full, or can't be written."""
+"""The pauses of a worker whose store is full or can't be written: each longer than the one before."""
 
 import shutil
 import time
 from collections.abc import Callable
 
 _FIRST_S = 2.0
+"""Seconds of the pause after a first failure."""
+
 _LONGEST_S = 60.0
+"""Seconds of the longest pause."""
 
 
 class Backoff:
-    """Holds a worker back after failures of its store, longer after each, and while its disk is low.
+    """Tells whether a worker may take jobs: not for a while after a failure of its store, nor while its disk is low.
 
     Args:
         store: folder or URL below which the datasets lie.
-        min_free_bytes: with less room than this no job is taken; of a URL the room is not known.
+        min_free_bytes: free space of the store's disk below which no job is taken; the free space of a URL isn't known.
         clock: counts seconds.
     """
 
@@ -26,13 +29,13 @@ class Backoff:
         self._reason = ""
 
     def fail(self, reason: str) -> None:
-        """Note a failure; the worker is held for twice as long as after the last, up to a minute."""
+        """Note a failure: the worker is held back for twice as long as after the one before, up to a minute."""
         self._pause_s = min(_LONGEST_S, max(_FIRST_S, 2.0 * self._pause_s))
         self._until_s = self._clock() + self._pause_s
         self._reason = reason
 
     def succeed(self) -> None:
-        """Note that a picture was written."""
+        """Note that a picture was written: the next failure is a first one again."""
         self._pause_s = 0.0
 
     def reason(self) -> str:
@@ -47,10 +50,10 @@ class Backoff:
 
 
 def free_bytes(store: str) -> int | None:
-    """Room for more at a store; None where that is not known."""
+    """Free space of a store; None where it isn't known."""
     if "://" in store and not store.startswith("file://"):
         return None
     try:
         return shutil.disk_usage(store.removeprefix("file://")).free
     except OSError:
-        return None  # not there yet: whoever writes to it will say more
+        return None  # not there yet: the first write to it will say more

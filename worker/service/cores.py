@@ -7,14 +7,14 @@ from contextlib import contextmanager
 
 @contextmanager
 def limit_visible_cores(threads: int) -> Iterator[None]:
-    """Show what is loaded inside `with` so many cores; afterwards this process may run on all of its own again.
+    """Show a library that is loaded inside `with` only some cores; afterwards this process may run on all of its own.
 
     Blender's task scheduler (oneTBB) counts cores once, as Blender is loaded, and starts a thread for each. Threads
-    beyond those that a render is told to take do not sleep: waiting for work, they keep a core busy each, which is then
-    missing to the worker beside this one.
+    beyond those that a render is told to take do not sleep: each keeps a core busy while it waits for work, which
+    the worker beside this one then lacks.
 
     Args:
-        threads: 0 shows all.
+        threads: number of cores to show; 0 shows all.
     """
     if not hasattr(os, "sched_setaffinity"):
         yield

@@ -6,7 +6,7 @@ from typing import NoReturn
 
 
 def end_process(exit_code: int) -> NoReturn:
-    """End this process at once, its output written.
+    """Write out what was printed, and end this process at once.
 
     Blender 4.5 may hang in an ordinary exit: the destructor of its file cache waits for a thread that waits for it.
     """

@@ -1,4 +1,4 @@
-"""What is printed while a job runs, Blender's C code included: a file a job, bounded in size and number."""
+"""What is printed while a job runs, Blender's C code included: one file for each job, bounded in size and number."""
 
 import os
 import sys
@@ -10,22 +10,26 @@ from farm.errors import DestinationError
 from farm.spec.job import JobMessage, queue_key
 
 MAX_BYTES = 256 * 1024
-"""Of a job's log the end of this size is kept."""
+"""Size of a finished job's log; of a longer one the end is kept."""
 
 MAX_FILES = 1000
-"""Of so many of a dataset's newest jobs logs are kept, and of some more until somebody makes room."""
+"""Logs that are kept of a dataset's jobs, the newest; up to `_ROOM_EVERY` more, until a worker makes room."""
 
 _ROOM_EVERY = 100
+"""Jobs of a process after which it makes room."""
+
 _RUNNING_BYTES = 16 * MAX_BYTES
+"""Size at which the log of a running job is cut, so that it does not fill the disk."""
 
 _TAIL_BYTES = 16 * 1024
+"""Size of the end that goes into a record of quarantine."""
 
 
 class JobLogs:
     """The logs of the jobs that this machine's workers run.
 
     Args:
-        folder: gets a folder for each dataset.
+        folder: folder that gets another for each dataset.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -33,13 +37,13 @@ class JobLogs:
         self._taken = 0
 
     def path(self, message: JobMessage) -> Path:
-        """The log of a job."""
+        """The file of a job's log."""
         run = queue_key(message.dataset, message.spec_sha256).replace(":", "-")
         return self._folder / run / f"{message.job_id}.log"
 
     @contextmanager
     def taking(self, message: JobMessage) -> Iterator[None]:
-        """Send all that this process prints to the job's log, inside `with`.
+        """Send all that this process prints inside `with` to the job's log.
 
         Raises:
             DestinationError: if the log can't be written.
@@ -65,21 +69,21 @@ class JobLogs:
             _keep_the_end(path, MAX_BYTES)
 
     def bound(self, message: JobMessage) -> None:
-        """Keep the log of a job that still runs, or whose process died, from filling the disk."""
+        """Cut the log of a job that still runs, or whose process died, if it is large."""
         _keep_the_end(self.path(message), _RUNNING_BYTES)
 
     @staticmethod
     def _make_room(folder: Path) -> None:
         dated = []
         for path in folder.iterdir():
-            # Another worker may be making room, too.
+            # Another worker may make room at the same time.
             with suppress(FileNotFoundError):
                 dated.append((path.stat().st_mtime_ns, path))
         for _, path in sorted(dated)[:-MAX_FILES]:
             path.unlink(missing_ok=True)
 
     def tail(self, message: JobMessage) -> str:
-        """The end of a job's log; empty if there is none here."""
+        """The end of a job's log; empty if this machine has none."""
         try:
             with self.path(message).open("rb") as file:
                 file.seek(0, os.SEEK_END)
@@ -91,7 +95,7 @@ class JobLogs:
 
 def _send_output(standard: int, error: int) -> None:
     for stream in (sys.stdout, sys.stderr):
-        # A full disk takes no last words.
+        # On a full disk the last words are lost.
         with suppress(OSError):
             stream.flush()
     os.dup2(standard, 1)
@@ -99,7 +103,7 @@ def _send_output(standard: int, error: int) -> None:
 
 
 def _keep_the_end(path: Path, most: int) -> None:
-    # The process goes on whatever becomes of a log.
+    # A log that can't be cut must not stop the process.
     with suppress(OSError):
         size = path.stat().st_size
         if size > most:

@@ -1,8 +1,8 @@
-"""A claim while its job runs: kept alive, and asked before anything is written.
+"""The claim of a job that runs: renewed while it runs, and checked before anything is written.
 
-A claim is a lease. Who asked for it knows, by its own clock, until when nobody else can have got it, even if the
-process was stopped in between and thinks no time has passed. So a worker that was thought dead and comes back writes
-nothing.
+A claim is a lease: it lapses unless it is renewed. Its holder knows by its own clock until when no other process can
+have it, even if it was stopped in between and thinks that no time has passed. So a worker that was thought dead and
+comes back writes nothing.
 """
 
 import logging
@@ -23,13 +23,14 @@ class LeaseLostError(FarmError):
 
 
 class Lease:
-    """Refreshes a claim from a thread of its own, inside `with`.
+    """Renews a claim from a thread of its own, inside `with`.
 
     Args:
-        ledger: where the claim is.
+        ledger: the ledger that holds the claim.
         job_id: the claimed job.
-        owner: who has claimed it, just now.
-        every_s: pause between two refreshes.
+        owner: the process that has claimed it, just now.
+        ttl_s: seconds after which the claim lapses unless it is renewed.
+        every_s: seconds between two renewals; by default a sixth of `ttl_s`.
         clock: counts seconds, also while the process is stopped.
     """
 
@@ -49,17 +50,17 @@ class Lease:
         self._ttl_s = ttl_s
         self._every_s = ttl_s / 6 if every_s is None else every_s
         self._clock = clock
-        # A tenth less than the ledger's, whose clock is another.
+        # A tenth less than in the ledger, whose clock is another.
         self._until_s = clock() + 0.9 * ttl_s
         self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._beat, name=f"heartbeat {job_id}", daemon=True)
+        self._thread = threading.Thread(target=self._keep_renewing, name=f"heartbeat {job_id}", daemon=True)
 
-    def _beat(self) -> None:
+    def _keep_renewing(self) -> None:
         while not self._stop.wait(self._every_s):
             try:
                 self.renew()
             except BrokerError as error:
-                log.warning("claim of %s not refreshed: %s", self._job_id, error)
+                log.warning("claim of %s not renewed: %s", self._job_id, error)
             except LeaseLostError:
                 return
 
@@ -77,22 +78,22 @@ class Lease:
         self._until_s = max(self._until_s, asked_s + 0.9 * self._ttl_s)
 
     def check(self) -> None:
-        """Make sure that nobody else can have the job at this moment.
+        """Make sure that no other process can have the job at this moment.
 
         Raises:
-            LeaseLostError: if somebody may.
+            LeaseLostError: if another may.
         """
         if self._clock() >= self._until_s:
             raise LeaseLostError(f"{self._job_id}: this worker's claim has lapsed, so nothing of it is written")
 
     def __enter__(self) -> Self:
-        """Start."""
+        """Start to renew."""
         self._thread.start()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        """Stop, and wait for a refresh that is under way."""
+        """Stop, and wait for a renewal that is under way."""
         self._stop.set()
         self._thread.join()

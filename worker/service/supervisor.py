@@ -1,6 +1,6 @@
-"""What a worker's main process does beside Celery's own work: choosing queues, holding back, reporting, keeping limits.
+"""What a worker's main process does beside Celery's own work: it chooses queues, holds back, reports, keeps limits.
 
-It runs once a second in Celery's event loop, as a step of its consumer, so it may change what is consumed.
+It runs once a second in Celery's event loop, as a step of its consumer, so it may change which queues are consumed.
 """
 
 import logging
@@ -22,27 +22,33 @@ from farm.run.queue.settings import QUEUE, queue_name
 from farm.run.registry.port import RunRegistry, RunState, WorkerReport, WorkerState
 from farm.spec.job import JobMessage
 from worker.service.backoff import Backoff
+from worker.service.failures import FAILED_IN_A_ROW
 from worker.service.job_log import JobLogs
-from worker.service.runner import FAILED_IN_A_ROW
 
 log = logging.getLogger(__name__)
 
 TICK_S = 1.0
+"""Seconds between two looks at the registry, the store and the children."""
 
-_HARD_LIMIT = 2
-"""A renderer is killed in the midst of its job at so many times the memory above which it is replaced after it."""
+_KILL_RATIO = 2
+"""Memory at which a child is killed amid its job, as a multiple of that above which it is replaced after it."""
 
 
 class Supervisor:
-    """Sees to one worker.
+    """Supervises one worker from its main process.
 
     Args:
-        name: `NAME@HOST`.
-        open_registry: opens the board; called in the main process, when it is first needed.
-        open_ledger: opens a dataset's ledger; likewise.
-        hold: why no jobs may be taken.
-        logs: of the jobs that run here.
-        memory_per_child_kib: see `worker.service.process.WorkerSettings`.
+        name: name of the worker, as `NAME@HOST`.
+        open_registry: opens the registry of runs and workers; called in the main process, when it is first needed.
+        open_ledger: opens a dataset's ledger; called in the main process, when it is first needed.
+        backoff: tells why no job may be taken.
+        logs: logs of the jobs that run here.
+        memory_per_child_kib: memory above which a child is replaced after its job; see
+            `farm.worker_settings.WorkerSettings`.
+
+    Attributes:
+        ticked_s: when it last looked, by the monotonic clock.
+        fault: the fault that made this worker unfit; None while there is none.
     """
 
     def __init__(
@@ -59,7 +65,7 @@ class Supervisor:
         self._open_ledger = open_ledger
         self._backoff = backoff
         self._logs = logs
-        self._most_bytes = _HARD_LIMIT * memory_per_child_kib * 1024
+        self._most_bytes = _KILL_RATIO * memory_per_child_kib * 1024
         self._consumer: Any = None
         self._joined: set[str] = set()
         self._crashed: list[str] = []
@@ -69,22 +75,22 @@ class Supervisor:
         self.fault: UnfitWorkerError | None = None
 
     def step(self) -> type[Any]:
-        """The step for Celery's consumer; it starts anew with each connection."""
+        """The step for Celery's consumer; it starts again with each connection."""
         supervisor = self
 
-        class ForemanStep(bootsteps.StartStopStep):  # type: ignore[misc]  # celery is untyped
-            """Calls the foreman while the consumer is connected."""
+        class SupervisorStep(bootsteps.StartStopStep):  # type: ignore[misc]  # celery is untyped
+            """Calls the supervisor while the consumer is connected."""
 
             requires = ("celery.worker.consumer.tasks:Tasks",)
 
             def start(self, consumer: Any) -> None:
-                """Begin."""
+                """Supervise the consumer that has just connected."""
                 supervisor.attach(consumer)
 
-        return ForemanStep
+        return SupervisorStep
 
     def attach(self, consumer: Any) -> None:
-        """Work for a consumer that has just connected; Celery ends its timers with the connection."""
+        """Supervise a consumer that has just connected; Celery ends its timers with the connection."""
         self._consumer = consumer
         # What Celery consumed before the connection was lost it consumes again.
         self._joined = set(consumer.app.amqp.queues.consume_from) - {QUEUE}
@@ -92,7 +98,7 @@ class Supervisor:
         consumer.timer.call_repeatedly(TICK_S, self.tick)
 
     def tick(self) -> None:
-        """Look at the board and the store, and act."""
+        """Look at the registry, the store and the children, and act."""
         self.ticked_s = time.monotonic()
         self._held_reason = self._backoff.reason()
         try:
@@ -100,7 +106,7 @@ class Supervisor:
             self._join({queue_name(key) for key, run in runs.items() if run.state is RunState.ACTIVE})
             self._open_registry().report(self.report())
         except BrokerError as error:
-            # Celery finds out, too, and connects again.
+            # Celery notices it as well, and connects again.
             log.warning("%s", error)
         self._keep_memory()
         self._bound_logs()
@@ -109,13 +115,13 @@ class Supervisor:
         for name in sorted(self._joined - wanted):
             self._consumer.cancel_task_queue(name)
         for name in sorted(wanted - self._joined):
-            # Known beforehand, so that Celery makes no exchange for it.
+            # Added first, so that Celery makes no exchange for it.
             self._consumer.app.amqp.queues.add(Queue(name))  # type: ignore[no-untyped-call]  # kombu is typed in parts
             self._consumer.add_task_queue(name)
         self._joined = wanted
 
     def report(self) -> WorkerReport:
-        """What this worker does."""
+        """What this worker does at the moment."""
         jobs = tuple(str(request.id).rpartition(":")[2] for request in list(state.active_requests))
         unoccupied = WorkerState.HELD if self._held_reason else WorkerState.IDLE
         doing = WorkerState.WORKING if jobs else unoccupied
@@ -147,23 +153,23 @@ class Supervisor:
                 self._logs.bound(JobMessage.decode((request.kwargs or {}).get("message")))
 
     def note_done(self) -> None:
-        """A picture was made."""
+        """Note that a picture was made."""
         self._done += 1
         self._crashed.clear()
         self._backoff.succeed()
 
     def note_unfit(self, fault: UnfitWorkerError) -> None:
-        """This worker can do no job: it takes none after the one that is about to be given back, and ends."""
+        """Note that this worker can do no job: it takes none after the one that is about to be given back, and ends."""
         self.fault = self.fault or fault
         state.should_stop = fault.code
 
     def note_full(self, error: DestinationError) -> None:
-        """The store could not be written: take nothing for a while. Called before the message goes back."""
+        """Note that the store could not be written: take no job for a while. Called before the message goes back."""
         self._backoff.fail(str(error))
         self._join(set())
 
     def note_crash(self, request: Any) -> None:
-        """The process that ran a job has died, or was killed at the time limit."""
+        """Note that the process that ran a job has died, or was killed at the time limit."""
         with suppress(ProcessLookupError, PermissionError, TypeError):
             kill_group(request.worker_pid)
         try:
@@ -192,7 +198,7 @@ def is_stopping() -> bool:
 
 
 def kill_group(pid: int) -> None:
-    """Kill a child of the pool, which leads a group, with all that it has started.
+    """Kill a child of the pool, which leads a process group, and all that it has started.
 
     Raises:
         ProcessLookupError: if it is gone.

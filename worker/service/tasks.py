@@ -11,16 +11,18 @@ from celery.worker.request import Request
 
 from farm.errors import BrokerError, DestinationError, FarmError, UnfitWorkerError
 from farm.run.queue.settings import TASK_NAME
-from worker.service.runner import JobRunner, TryLaterError
+from worker.service.failures import TryLaterError
+from worker.service.runner import JobRunner
 from worker.service.supervisor import Supervisor
 
 log = logging.getLogger(__name__)
 
 _BROKER_PAUSE_S = (0.5, 2.0)
+"""Shortest and longest pause, in seconds, before a message goes back after a failure of Redis."""
 
 
 def _broker_pause_s(process: int) -> float:
-    """Another for each process of a machine, so that they don't all come back at once to a Redis that was away."""
+    """A pause that differs between a machine's processes, so that they don't come back to Redis all at once."""
     least, most = _BROKER_PAUSE_S
     return least + (most - least) * (process % 100) / 100
 
@@ -32,8 +34,8 @@ def register_tasks(app: Any, runner: JobRunner, supervisor: Supervisor) -> Any:
 
     Args:
         app: the Celery application.
-        runner: runs the jobs.
-        supervisor: learns in the worker's main process how jobs ended.
+        runner: runs the jobs, in the children.
+        supervisor: learns how jobs ended, in the main process.
 
     Returns:
         The task.
@@ -45,7 +47,7 @@ def register_tasks(app: Any, runner: JobRunner, supervisor: Supervisor) -> Any:
         failed = False
 
         def acknowledge(self) -> Any:
-            """Learn that a picture was made: Celery replaces `on_success`, but acknowledges there."""
+            """Learn that a picture was made: Celery overrides `on_success`, but acknowledges in it."""
             if not self.failed:
                 supervisor.note_done()
             return super().acknowledge()

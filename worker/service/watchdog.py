@@ -1,7 +1,7 @@
-"""Ends a worker that no longer works: whoever supervises it starts another, and its jobs go to others.
+"""Ends a worker that no longer works, so that its supervising program starts another and its jobs go to others.
 
-Known ways into that state: an event loop that hangs after a lost connection, a consumer that came back from one and
-takes nothing, a shutdown that never ends.
+A worker is known to get there by an event loop that hangs after a lost connection, by a consumer that came back from
+one and takes nothing, and by a shutdown that never ends.
 """
 
 import logging
@@ -16,17 +16,21 @@ from farm.errors import BrokerError
 log = logging.getLogger(__name__)
 
 EXIT_CODE = 75
-"""EX_TEMPFAIL of sysexits.h: none of the farm's own, so a supervisor starts the worker again."""
+"""Exit code of a worker that ended itself: EX_TEMPFAIL of sysexits.h. It is none of the farm's own errors, so the
+worker is started again."""
 
 LOOK_S = 5.0
+"""Seconds between two looks at the worker."""
+
 LOOKS = 12
-"""So many looks in a row must find the same fault; a process that was stopped and goes on looks once."""
+"""Looks in a row that must find the event loop silent. A process that was stopped and goes on is seen so only once."""
 
 IDLE_LOOKS = 24
+"""Looks in a row that must find jobs waiting beside an idle worker."""
 
 
 @dataclass(frozen=True, slots=True)
-class Signs:
+class Observation:
     """What can be seen of a worker.
 
     Attributes:
@@ -42,49 +46,53 @@ class Signs:
     jobs_wait: bool
 
 
-class Judge:
-    """Counts looks that find the same fault."""
+class FaultDetector:
+    """Counts the looks in a row that find the same fault.
+
+    Args:
+        clock: counts seconds, by the clock of `Observation.ticked_s`.
+    """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
-        self._hung = 0
+        self._silent = 0
         self._idle = 0
 
-    def look(self, signs: Signs) -> str:
-        """What is wrong for long enough to end the worker; empty if nothing is."""
-        silent = self._clock() - signs.ticked_s > LOOKS * LOOK_S / 2
+    def look(self, seen: Observation) -> str:
+        """What has been wrong for long enough to end the worker; empty if nothing has."""
+        silent = self._clock() - seen.ticked_s > LOOKS * LOOK_S / 2
         # Told to stop, it waits for its job without coming by.
-        self._hung = self._hung + 1 if silent and not (signs.stopping and signs.busy) else 0
-        self._idle = self._idle + 1 if signs.jobs_wait and not signs.busy and not signs.stopping else 0
-        if self._hung >= LOOKS:
+        self._silent = self._silent + 1 if silent and not (seen.stopping and seen.busy) else 0
+        self._idle = self._idle + 1 if seen.jobs_wait and not seen.busy and not seen.stopping else 0
+        if self._silent >= LOOKS:
             return "its event loop hangs"
         if self._idle >= IDLE_LOOKS:
             return "it takes no jobs though some wait"
         return ""
 
     def forget(self) -> None:
-        """Redis is away: nothing can be expected of the worker."""
-        self._hung = self._idle = 0
+        """Begin to count again: while Redis is away, nothing can be expected of the worker."""
+        self._silent = self._idle = 0
 
 
-def watch(see: Callable[[], Signs], end: Callable[[], None]) -> threading.Thread:
+def watch(observe: Callable[[], Observation], end: Callable[[], None]) -> threading.Thread:
     """Watch this process from a thread.
 
     Args:
-        see: tells the signs; raises BrokerError while Redis is away.
+        observe: looks at the worker; raises BrokerError while Redis is away.
         end: called before the process ends, to end its children.
     """
 
-    def look_now_and_then() -> None:
-        judge = Judge()
+    def look_for_ever() -> None:
+        detector = FaultDetector()
         while True:
             time.sleep(LOOK_S)
             try:
-                wrong = judge.look(see())
+                wrong = detector.look(observe())
             except BrokerError:
-                judge.forget()
+                detector.forget()
                 continue
-            except Exception:  # it must outlive whatever it looks at
+            except Exception:  # the watchdog must outlive every defect of what it looks at
                 log.exception("the watchdog saw nothing")
                 continue
             if wrong:
@@ -92,6 +100,6 @@ def watch(see: Callable[[], Signs], end: Callable[[], None]) -> threading.Thread
                 end()
                 os._exit(EXIT_CODE)
 
-    thread = threading.Thread(target=look_now_and_then, name="watchdog", daemon=True)
+    thread = threading.Thread(target=look_for_ever, name="watchdog", daemon=True)
     thread.start()
     return thread

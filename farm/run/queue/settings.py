@@ -6,6 +6,7 @@ from celery import Celery
 from kombu.entity import Queue
 
 from farm.run.registry.port import PRIORITY_STEPS, Priority
+from farm.worker_settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, TASKS_PER_CHILD
 
 TASK_NAME = "farm.render_image"
 
@@ -13,15 +14,10 @@ QUEUE = "farm"
 """Every worker listens here. Jobs wait in queues of their runs, which a worker joins as they come up on the board."""
 
 SOFT_LIMIT_S = 25 * 60
-HARD_LIMIT_S = 30 * 60
+"""Seconds after which a job that can be told to stop is told, under the longest hard limit."""
+
 VISIBILITY_S = 2 * 3600
 """Redis gives an unacknowledged message to another worker after this long: well over the hard limit."""
-
-TASKS_PER_CHILD = 200
-MEMORY_PER_CHILD_KIB = 4 * 1024 * 1024
-
-MIN_FREE_MIB = 1024
-"""A worker takes no job while its store's disk has less room."""
 
 
 def queue_name(run_key: str) -> str:

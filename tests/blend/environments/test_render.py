@@ -27,6 +27,7 @@ from blend.environments.materials import is_known
 from blend.environments.render import normalised, render_environments, without_seam, write_environment
 from blend.environments.scene import Light, stage
 from farm.errors import AssetError, RenderError
+from farm.worker_settings import DeviceChoice, RendererSettings
 
 pytestmark = pytest.mark.blender
 
@@ -47,7 +48,9 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("blend.environments.materials.SURFACE_PIXELS", 64)
         names = list(
-            render_environments(folder, pixels=PIXELS, names=("storeroom_2", "yard_2"), device="cpu", threads=0)
+            render_environments(
+                folder, pixels=PIXELS, names=("storeroom_2", "yard_2"), device=DeviceChoice.CPU, threads=0
+            )
         )
     assert names == ["storeroom_2", "yard_2"]
     return folder
@@ -129,7 +132,9 @@ def test_a_panorama_is_no_even_grey(rendered: Path) -> None:
 def test_what_is_there_is_not_rendered_again(rendered: Path) -> None:
     """Nor touched."""
     before = {path: path.stat().st_mtime_ns for path in rendered.rglob("*.*")}
-    assert list(render_environments(rendered, pixels=PIXELS, names=("yard_2",), device="cpu", threads=0)) == []
+    assert (
+        list(render_environments(rendered, pixels=PIXELS, names=("yard_2",), device=DeviceChoice.CPU, threads=0)) == []
+    )
     assert {path: path.stat().st_mtime_ns for path in rendered.rglob("*.*")} == before
     assert "storeroom_2" not in {recipe.name for recipe in missing_environments(rendered, PIXELS)}
 
@@ -147,7 +152,7 @@ def test_the_middle_column_looks_along_x(monkeypatch: pytest.MonkeyPatch) -> Non
         return Built(stage(a, light, rng), a, light)
 
     monkeypatch.setattr(environments, "build_environment", three_lamps)
-    seen = environments.render_panorama(ENVIRONMENTS["yard_1"], 64, "cpu", 0)
+    seen = environments.render_panorama(ENVIRONMENTS["yard_1"], 64, DeviceChoice.CPU, 0)
     assert np.argmax(seen[16, 32]) == 0
     assert np.argmax(seen[16, 48]) == 1
     assert np.argmax(seen[0, 10]) == 2
@@ -169,7 +174,7 @@ def test_the_band_about_the_horizon_is_the_finer(monkeypatch: pytest.MonkeyPatch
         environments, "build_environment", lambda _: Built(None, Assembly(np.random.default_rng(0)), Light((0, 0, 0)))
     )
     monkeypatch.setattr(environments, "configure", lambda *_: None)
-    light = environments.render_panorama(ENVIRONMENTS["yard_1"], 1024, "cpu", 0)
+    light = environments.render_panorama(ENVIRONMENTS["yard_1"], 1024, DeviceChoice.CPU, 0)
     assert sizes == [(256, 0, 128), (1024, 171, 341)]
     rows = (np.arange(512) + 0.5) / 512
     assert light[2:-2, 0, 0] == pytest.approx(rows[2:-2], abs=2e-3)
@@ -219,13 +224,14 @@ def test_a_panorama_reads_back_as_written(tmp_path: Path) -> None:
 def test_sizes_that_make_no_panorama_are_refused(tmp_path: Path, pixels: int) -> None:
     """Before anything is rendered."""
     with pytest.raises(AssetError, match="even number"):
-        list(render_environments(tmp_path, pixels=pixels, names=None, device="cpu", threads=0))
+        list(render_environments(tmp_path, pixels=pixels, names=None, device=DeviceChoice.CPU, threads=0))
 
 
 def test_the_workers_command_tells_each_name(tmp_path: Path, rendered: Path) -> None:
     """One line for each on standard output, Blender's own talk in the log; nothing to do, nothing told."""
     command = [sys.executable, "-P", "-m", "worker", "environments", "--logs", str(tmp_path / "logs")]
-    small = ["--device", "cpu", "--pixels", "64", "--name", "switch_room_1", "--out"]
+    renderer = RendererSettings(device=DeviceChoice.CPU).as_argument()
+    small = ["--renderer", renderer, "--pixels", "64", "--name", "switch_room_1", "--out"]
     made = subprocess.run([*command, *small, str(tmp_path)], capture_output=True, text=True, check=False)
     assert (made.returncode, made.stdout, made.stderr) == (0, "switch_room_1\n", "")
     assert load_environment(tmp_path, "switch_room_1").record.pixels == 64

@@ -69,7 +69,7 @@ def test_threads_of_each_worker(farm: Farm, monkeypatch: pytest.MonkeyPatch, opt
     used: list[int] = []
 
     def note(_: object, __: object, how: LocalRun, ___: object) -> None:
-        used.append(how.threads)
+        used.append(how.renderer.threads)
         raise MachineError("far enough")
 
     module = importlib.import_module("farm.cli.run")

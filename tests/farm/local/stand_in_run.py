@@ -6,6 +6,7 @@ from pathlib import Path
 from farm.cli import end_on_signals
 from farm.dataset.dataset import parse_destination
 from farm.local.run import LocalRun, run_locally
+from farm.worker_settings import RendererSettings
 from tests.stand_in import stand_in_header
 
 if __name__ == "__main__":
@@ -15,9 +16,7 @@ if __name__ == "__main__":
         stand_in_header(),
         LocalRun(
             workers=2,
-            device="cpu",
-            threads=1,
-            assets=None,
+            renderer=RendererSettings(),
             logs=Path(sys.argv[2]),
             worker_command=[sys.executable, "-P", sys.argv[3]],
         ),

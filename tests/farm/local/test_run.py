@@ -18,6 +18,7 @@ from farm.errors import DestinationError, IncompleteError, MachineError
 from farm.local.run import LocalRun, run_locally
 from farm.run.progress import Progress
 from farm.spec.header import DatasetHeader
+from farm.worker_settings import RendererSettings
 from tests.live_farm import processes_with, wait_for
 from tests.stand_in import stand_in_header
 
@@ -31,9 +32,7 @@ def how(tmp_path: Path, worker_command: list[str]) -> LocalRun:
     """Two workers."""
     return LocalRun(
         workers=2,
-        device="cpu",
-        threads=1,
-        assets=None,
+        renderer=RendererSettings(),
         logs=tmp_path / "logs",
         worker_command=worker_command,
         lost_after_s=1.0,
@@ -52,7 +51,7 @@ def servers_of(parent: int) -> set[int]:
 
 
 def once(action: Callable[[], None], after: int) -> Callable[[Progress], None]:
-    """Act once, when so many images are done."""
+    """Act once, when a number of images are done."""
     acted = False
 
     def look(progress: Progress) -> None:
@@ -238,7 +237,7 @@ def running(destination: Destination, how: LocalRun, worker_command: list[str]) 
         stderr=subprocess.PIPE,
     )
     try:
-        wait_for(lambda: len(processes_with(f"{how.logs}\0")) == 5)  # the run, two workers and their children
+        wait_for(lambda: len(processes_with(str(how.logs))) == 5)  # the run, two workers and their children
         yield process
     finally:
         process.kill()

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PIL import Image
 
-from assets.scan.hdris import LUMINANCE
+from assets.colour import REC709_LUMINANCE
 from farm.scene.backdrop import Plate
 from worker.backdrop.panorama import disc
 from worker.backdrop.photograph import DARKEST, photograph_backdrop
@@ -28,7 +28,7 @@ def linear(pixels: NDArray[np.uint8]) -> NDArray[np.float64]:
 
 def mean_luminance(light: NDArray[np.float32] | NDArray[np.float64]) -> float:
     """Of all pixels."""
-    return float((light.astype(np.float64) @ LUMINANCE).mean())
+    return float((light.astype(np.float64) @ REC709_LUMINANCE).mean())
 
 
 def test_pixel_for_pixel_only_the_brightness_changes() -> None:

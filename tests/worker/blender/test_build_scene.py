@@ -20,6 +20,7 @@ from farm.spec.make_header import Inputs, make_header  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
 from farm.spec.quality import REFERENCE  # noqa: E402
 from farm.spec.rendering import CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
+from farm.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from worker.blender.build_scene import BuiltScene  # noqa: E402
 from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
 from worker.geometry import SettledGeometry  # noqa: E402
@@ -54,7 +55,7 @@ def header() -> DatasetHeader:
 def renderer(header: DatasetHeader, tmp_path: Path) -> BlenderRenderer:
     """One with a fresh template and the surfaces, small."""
     bake_surfaces(tmp_path, pixels=512, names=SURFACES, processes=1)
-    return open_renderer(header, device="cpu", threads=0, assets=tmp_path)
+    return open_renderer(header, RendererSettings(device=DeviceChoice.CPU, assets=tmp_path))
 
 
 def set_up(

@@ -27,6 +27,7 @@ from farm.spec.header import DatasetHeader  # noqa: E402
 from farm.spec.job import Job  # noqa: E402
 from farm.spec.make_header import Inputs, make_header  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
+from farm.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from tests.worker.scenes import make_skin  # noqa: E402
 from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
 from worker.sample.scene import sample_scene  # noqa: E402
@@ -86,7 +87,7 @@ def renderer(header: DatasetHeader, baked: Path, monkeypatch: pytest.MonkeyPatch
         return scene.model_copy(update={"cables": dressed(scene.cables, job.index % 2), "camera": camera})
 
     monkeypatch.setattr("worker.blender.renderer.sample_scene", draw)
-    return open_renderer(header, device="cpu", threads=0, assets=baked)
+    return open_renderer(header, RendererSettings(device=DeviceChoice.CPU, assets=baked))
 
 
 @pytest.mark.parametrize("index", [0, 1])

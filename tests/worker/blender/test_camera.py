@@ -14,6 +14,7 @@ from farm.scene.scene import Scene  # noqa: E402
 from farm.spec.category import Category  # noqa: E402
 from farm.spec.make_header import template_ref  # noqa: E402
 from farm.spec.rendering import CableDetail, CyclesSettings, Denoiser, PictureSettings  # noqa: E402
+from farm.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from tests.worker.scenes import make_header, make_scene  # noqa: E402
 from worker.backdrop.matte import covered_by  # noqa: E402
 from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
@@ -60,7 +61,7 @@ def settled() -> tuple[Scene, CableShapes]:
 def renderer() -> BlenderRenderer:
     """One with a fresh template and no assets."""
     header = make_header().model_copy(update={"template": template_ref(None)})
-    return open_renderer(header, device="cpu", threads=0, assets=None)
+    return open_renderer(header, RendererSettings(device=DeviceChoice.CPU))
 
 
 def seen_by(camera: Camera, settled: tuple[Scene, CableShapes]) -> SettledGeometry:

@@ -20,6 +20,7 @@ from farm.spec.make_header import Inputs  # noqa: E402
 from farm.spec.make_header import make_header as catalogue_header  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
 from farm.spec.rendering import CyclesSettings, Denoiser, PictureSettings  # noqa: E402
+from farm.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from tests.worker.clutter.things import make_part, make_sheet, make_stick  # noqa: E402
 from worker.blender.clutter import PREFIX  # noqa: E402
 from worker.blender.renderer import open_renderer  # noqa: E402
@@ -53,7 +54,7 @@ class Stage:
         self.header = made.model_copy(
             update={"surfaces": tuple(each for each in made.surfaces if each.name == "concrete_smooth")}
         )
-        self._renderer = open_renderer(self.header, device="cpu", threads=1, assets=folder)
+        self._renderer = open_renderer(self.header, RendererSettings(device=DeviceChoice.CPU, threads=1, assets=folder))
         self.job = Job(category=Category.CLOSE_CONCENTRATED, index=0)
         self.plain = sample_scene(self.header, self.job, 0)
 

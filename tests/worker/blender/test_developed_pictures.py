@@ -19,6 +19,7 @@ from farm.spec.header import DatasetHeader  # noqa: E402
 from farm.spec.job import Job  # noqa: E402
 from farm.spec.make_header import Inputs, make_header  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
+from farm.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
 from worker.sample.scene import sample_scene  # noqa: E402
 from worker.service.picture import Picture  # noqa: E402
@@ -74,7 +75,7 @@ def header() -> DatasetHeader:
 def renderer(header: DatasetHeader, tmp_path: Path) -> BlenderRenderer:
     """With a fresh template."""
     bake_surfaces(tmp_path, pixels=256, names=("concrete_smooth",), processes=1)
-    return open_renderer(header, device="cpu", threads=0, assets=tmp_path)
+    return open_renderer(header, RendererSettings(device=DeviceChoice.CPU, assets=tmp_path))
 
 
 @contextmanager

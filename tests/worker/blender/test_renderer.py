@@ -16,12 +16,13 @@ from benchmarks.pictures.drawn_coverage import drawn_coverage  # noqa: E402
 from blend.build import TEMPLATE  # noqa: E402
 from blend.contract import open_template  # noqa: E402
 from farm.cli.installed_assets import InstalledAssets  # noqa: E402
-from farm.errors import AssetError, MachineError, SceneError, SpecError, TemplateError  # noqa: E402
+from farm.errors import AssetError, SceneError, SpecError, TemplateError  # noqa: E402
 from farm.spec.category import Background, Category  # noqa: E402
 from farm.spec.header import DatasetHeader, FileRef  # noqa: E402
 from farm.spec.job import Job  # noqa: E402
 from farm.spec.make_header import Inputs, make_header, template_ref  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
+from farm.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from worker.blender.asset_files import checked  # noqa: E402
 from worker.blender.render import render_picture  # noqa: E402
 from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
@@ -40,6 +41,11 @@ def small_header(**keys: object) -> DatasetHeader:
     return header.model_copy(update={"surfaces": tuple(s for s in header.surfaces if s.name in SURFACES)})
 
 
+def on_cpu(assets: Path | None = None) -> RendererSettings:
+    """A renderer on all cores of the CPU."""
+    return RendererSettings(device=DeviceChoice.CPU, assets=assets)
+
+
 @pytest.fixture(scope="module")
 def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The two surfaces, small."""
@@ -51,7 +57,7 @@ def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture
 def renderer(baked: Path) -> BlenderRenderer:
     """One whose template no other test has used."""
-    return open_renderer(small_header(), device="cpu", threads=0, assets=baked)
+    return open_renderer(small_header(), on_cpu(baked))
 
 
 @pytest.mark.parametrize("category", Category)
@@ -68,7 +74,7 @@ def test_every_category_gives_a_lit_picture_with_its_mask(renderer: BlenderRende
 def test_a_header_without_settings_is_refused(baked: Path) -> None:
     """One that another farm wrote is not rendered with settings of this one's own."""
     header = small_header().model_copy(update={"rendering": {}})
-    renderer = open_renderer(header, device="cpu", threads=0, assets=baked)
+    renderer = open_renderer(header, on_cpu(baked))
     with pytest.raises(SpecError, match="does not say how far is rendered"):
         renderer.make(Job(category=Category.FAR, index=0), header)
 
@@ -88,7 +94,7 @@ def test_a_picture_does_not_depend_on_those_before_it(renderer: BlenderRenderer,
     header = small_header()
     jobs = [Job(category=category, index=2) for category in Category]
     used = [renderer.make(job, header) for job in jobs]
-    fresh = open_renderer(header, device="cpu", threads=1, assets=baked)
+    fresh = open_renderer(header, RendererSettings(device=DeviceChoice.CPU, threads=1, assets=baked))
     for job, before in reversed(list(zip(jobs, used, strict=True))):
         after = fresh.make(job, header)
         assert after.files["image"].tobytes() == before.files["image"].tobytes(), job.id
@@ -100,7 +106,7 @@ def test_a_picture_does_not_depend_on_those_before_it(renderer: BlenderRenderer,
 def test_a_mask_agrees_with_an_emission_render(baked: Path, category: Category) -> None:
     """White cables on black, 64 samples, at 512 pixels: edges within half a pixel, save in gaps between cables."""
     header = small_header(resolution=512)
-    made = open_renderer(header, device="cpu", threads=0, assets=baked).make(Job(category=category, index=0), header)
+    made = open_renderer(header, on_cpu(baked)).make(Job(category=category, index=0), header)
     agreement = compare(made.files["instances"], render_coverage(made.scene.camera, samples=64))
     assert agreement.iou > 0.97
     assert agreement.edge_error_px <= 0.5
@@ -120,7 +126,7 @@ def test_the_floor_is_hidden_from_the_camera_in_far_pictures_alone(
 def test_only_shown_cables_are_simulated_as_cloth(baked: Path) -> None:
     """The joined mesh of the fall has the vertices of the drawn cables and no more."""
     header = small_header(simulator="cloth")
-    renderer = open_renderer(header, device="cpu", threads=0, assets=baked)
+    renderer = open_renderer(header, on_cpu(baked))
     made = renderer.make(Job(category=Category.FAR, index=0), header)
     radius_m = made.scene.cables[0].diameter_m / 2
     nodes = round(0.4 / (5 * radius_m)) + 1
@@ -132,10 +138,7 @@ def test_the_wind_moves_the_cables(baked: Path) -> None:
     calm = small_header(ranges={"wind": {"strength": [0.0, 0.0]}})
     windy = small_header(ranges={"wind": {"strength": [10.0, 10.0]}})
     job = Job(category=Category.FAR, index=2)
-    masks = [
-        open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header).files["mask"]
-        for header in (calm, windy)
-    ]
+    masks = [open_renderer(header, on_cpu(baked)).make(job, header).files["mask"] for header in (calm, windy)]
     assert np.mean(masks[0] != masks[1]) > 0.001
 
 
@@ -153,7 +156,7 @@ def test_a_job_whose_scenes_all_fail_ends_in_a_scene_error(baked: Path) -> None:
         fall={"max_attempts": 2, "rod": {"max_time_s": 0.05}},
         ranges={"placement": {"drop_height_m": 0.2}},
     )
-    renderer = open_renderer(header, device="cpu", threads=0, assets=baked)
+    renderer = open_renderer(header, on_cpu(baked))
     with pytest.raises(SceneError, match=r"far-000000: none of 2 drawn scenes .* above"):
         renderer.make(Job(category=Category.FAR, index=0), header)
 
@@ -163,9 +166,7 @@ def test_a_rejected_scene_is_drawn_again_and_told_in_the_manifest(baked: Path, m
     faults = iter(["length error 0.02 is above 0.01", None])
     monkeypatch.setattr("worker.simulate.settle.find_fault", lambda _: next(faults))
     header = small_header()
-    made = open_renderer(header, device="cpu", threads=0, assets=baked).make(
-        Job(category=Category.FAR, index=0), header
-    )
+    made = open_renderer(header, on_cpu(baked)).make(Job(category=Category.FAR, index=0), header)
     assert made.scene.attempt == 1
     assert [(each.attempt, each.reason) for each in made.rejected] == [(0, "length error 0.02 is above 0.01")]
 
@@ -173,7 +174,7 @@ def test_a_rejected_scene_is_drawn_again_and_told_in_the_manifest(baked: Path, m
 def test_surfaces_that_are_not_baked_are_asked_for(tmp_path: Path) -> None:
     """The error names the command that bakes them."""
     header = small_header()
-    renderer = open_renderer(header, device="cpu", threads=0, assets=tmp_path)
+    renderer = open_renderer(header, on_cpu(tmp_path))
     with pytest.raises(AssetError, match="farm assets build"):
         renderer.make(Job(category=Category.CLOSE_CONCENTRATED, index=0), header)
 
@@ -183,7 +184,7 @@ def test_a_template_that_changed_since_the_submit_is_refused() -> None:
     header = small_header()
     changed = header.model_copy(update={"template": header.template.model_copy(update={"sha256": "0" * 64})})
     with pytest.raises(AssetError, match="has changed"):
-        open_renderer(changed, device="cpu", threads=0, assets=None)
+        open_renderer(changed, on_cpu())
 
 
 def test_an_artists_template_that_lacks_something_is_refused(tmp_path: Path) -> None:
@@ -197,7 +198,7 @@ def test_an_artists_template_that_lacks_something_is_refused(tmp_path: Path) -> 
         InstalledAssets(),
     )
     with pytest.raises(TemplateError, match="picture"):
-        open_renderer(header, device="cpu", threads=0, assets=None)
+        open_renderer(header, on_cpu())
 
 
 def test_another_lens_in_the_template_does_not_spoil_the_masks(tmp_path: Path, baked: Path) -> None:
@@ -209,15 +210,9 @@ def test_another_lens_in_the_template_does_not_spoil_the_masks(tmp_path: Path, b
     header = small_header()
     artists = header.model_copy(update={"template": template_ref(tmp_path / "lens.blend")})
     job = Job(category=Category.FAR, index=1)
-    ours = open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header)
-    theirs = open_renderer(artists, device="cpu", threads=0, assets=baked).make(job, artists)
+    ours = open_renderer(header, on_cpu(baked)).make(job, header)
+    theirs = open_renderer(artists, on_cpu(baked)).make(job, artists)
     assert theirs.files["image"].tobytes() == ours.files["image"].tobytes()
-
-
-def test_an_unknown_device_is_refused() -> None:
-    """With the list of those that can be asked for."""
-    with pytest.raises(MachineError, match="optix"):
-        open_renderer(small_header(), device="abacus", threads=0, assets=None)
 
 
 def test_a_file_that_is_not_there_is_an_asset_error(tmp_path: Path) -> None:
@@ -235,7 +230,7 @@ def test_eevee_renders_headless(baked: Path) -> None:
     pictures = []
     for engine in ("eevee", "cycles"):
         header = small_header(engine=engine, resolution=64)
-        made = open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header)
+        made = open_renderer(header, on_cpu(baked)).make(job, header)
         assert made.render.engine == engine
         pictures.append(made.files["image"].astype(float))
     assert np.corrcoef(pictures[0].ravel(), pictures[1].ravel())[0, 1] > 0.9
@@ -248,7 +243,7 @@ def test_a_photograph_stands_behind_far_cables(baked: Path, tmp_path: Path) -> N
     named = plain.model_copy(update={"plates": tuple(InstalledAssets().plates_in(tmp_path))})
     job = Job(category=Category.FAR, index=0)
     for header, is_red in ((named, True), (plain, False)):
-        made = open_renderer(header, device="cpu", threads=0, assets=baked).make(job, header)
+        made = open_renderer(header, on_cpu(baked)).make(job, header)
         far = cv2.dilate(made.files["mask"], np.ones((9, 9), np.uint8)) == 0
         red, green, blue = (np.median(made.files["image"][far][:, channel]) for channel in range(3))
         assert bool(red > 1.5 * max(green, blue)) == is_red

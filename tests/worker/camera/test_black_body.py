@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from assets.colour import REC709_LUMINANCE
 from worker.camera.black_body import black_body
-from worker.colour import REC709_LUMINANCE
 
 _XYZ_OF_REC709 = np.array(
     [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]]

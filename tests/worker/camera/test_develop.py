@@ -9,10 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from farm.scene.camera import Development
+from assets.colour import srgb_of_light
+from farm.scene.camera import NO_JPEG, Development
 from worker.camera import develop as steps
 from worker.camera.develop import Light, develop
-from worker.colour import luminance, srgb
+from worker.colour import luminance
 
 PLAIN = Development(
     key=0.18,
@@ -25,7 +26,7 @@ PLAIN = Development(
     full_well=0.0,
     read_noise=0.0,
     sharpening=0.0,
-    jpeg_quality=101,
+    jpeg_quality=NO_JPEG,
     seed=0,
 )
 """Nothing but the exposure and sRGB."""
@@ -49,7 +50,7 @@ def test_settings_that_do_nothing_give_plain_srgb() -> None:
     steps_of_light = np.exp2(np.linspace(-1.5, 1.5, 64))
     mean = math.sqrt(math.exp(float(np.log(steps_of_light).mean())) * float(steps_of_light.mean()))
     light = np.repeat(steps_of_light[:, None, None], 64, axis=1).repeat(3, axis=2) * (0.18 / mean)
-    expected = np.rint(255 * srgb(light)).astype(int)
+    expected = np.rint(255 * srgb_of_light(light)).astype(int)
     assert np.abs(develop(light.astype(np.float32), PLAIN).astype(int) - expected).max() <= 2
     assert (develop(even(0.7), PLAIN) == 118).all()
 
@@ -161,7 +162,7 @@ def test_the_tone_curve_rises_to_white_and_is_smooth_at_the_shoulder() -> None:
 def test_contrast_is_the_slope_about_mid_grey(contrast: float) -> None:
     """Over that of sRGB; mid-grey stays where it is."""
     light = steps.MID_GREY * np.array([0.99, 1.0, 1.01])
-    levels, plain = steps.curve(light, contrast), srgb(light)
+    levels, plain = steps.curve(light, contrast), srgb_of_light(light)
     assert levels[1] == pytest.approx(plain[1])
     assert (levels[2] - levels[0]) / (plain[2] - plain[0]) == pytest.approx(contrast, rel=0.01)
 
@@ -197,7 +198,7 @@ def peak_snr_db(picture: NDArray[np.uint8], other: NDArray[np.uint8]) -> float:
 def test_compression_does_what_its_quality_says() -> None:
     """None from 100 on; below, the less the worse."""
     picture = cv2.GaussianBlur(np.rint(varied() * 100).astype(np.uint8), (0, 0), 2).astype(np.uint8)
-    assert (steps.compress(picture, 101) == picture).all()
+    assert (steps.compress(picture, NO_JPEG) == picture).all()
     assert (steps.compress(picture, 100) == picture).all()
     found = [peak_snr_db(steps.compress(picture, quality), picture) for quality in (30, 60, 95)]
     assert found == sorted(found)

@@ -11,7 +11,8 @@ from tests.worker.clutter.test_solid import volume_m3
 from tests.worker.clutter.things import make_stick
 from tests.worker.scenes import tubular
 from worker.camera.view import View
-from worker.clutter.stick_kinds import PENCIL_CORNER, SIDES
+from worker.clutter.solid import SIDES
+from worker.clutter.stick_kinds import PENCIL_CORNER
 from worker.clutter.sticks import placed_on, stick_outline, stick_solid
 from worker.label.coverage import cover
 from worker.label.silhouette import silhouettes

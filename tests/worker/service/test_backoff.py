@@ -50,7 +50,7 @@ def test_nothing_holds_at_first(backoff: Backoff) -> None:
 
 
 def test_pauses_grow(backoff: Backoff, clock: Clock) -> None:
-    """Each failure in a row holds twice as long as the last, up to a minute; a success starts anew."""
+    """Each failure in a row holds twice as long as the last, up to a minute; a success starts again."""
     assert [pause_after_failure(backoff, clock) for _ in range(7)] == [2, 4, 8, 16, 32, 60, 60]
     backoff.succeed()
     assert pause_after_failure(backoff, clock) == 2

@@ -54,7 +54,7 @@ def claim(ledger: MemoryLedger, clock: Clock) -> Lease:
 
 
 def wait_for_beats(ledger: ShortLedger, count: int) -> None:
-    """Wait until the claim was refreshed so often."""
+    """Wait until the claim was renewed a number of times."""
     give_up_s = time.monotonic() + 30
     while ledger.refreshed < count:
         assert time.monotonic() < give_up_s
@@ -89,7 +89,7 @@ def test_beats_on_without_redis(caplog: pytest.LogCaptureFixture) -> None:
             assert time.monotonic() < give_up_s
             time.sleep(0.01)
         claim.check()
-    assert "not refreshed: gone" in caplog.text
+    assert "not renewed: gone" in caplog.text
 
 
 def test_lost_claim_is_found_out_by_the_thread() -> None:

@@ -31,10 +31,14 @@ from farm.run.ledger.owner import this_process
 from farm.run.ledger.port import MAX_ABSENCES, RETRY_OWNER
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
+from farm.worker_settings import RendererSettings
 from tests.doubles.ledger import MemoryLedger
 from tests.stand_in import StandInRenderer
+from worker.service.failures import FAILED_IN_A_ROW, MAX_TRIES, TryLaterError
+from worker.service.job_log import JobLogs
+from worker.service.kept_renderer import KeptRenderer
 from worker.service.picture import Picture, Renderer
-from worker.service.runner import BACKOFF_S, FAILED_IN_A_ROW, MAX_STARTS, MAX_TRIES, JobRunner, TryLaterError
+from worker.service.runner import MAX_STARTS, JobRunner
 
 JOB = Job.from_id("far-000001")
 
@@ -45,10 +49,15 @@ def ledger() -> MemoryLedger:
     return MemoryLedger()
 
 
+def runner_with(renderer: Renderer, store: Path, ledger: MemoryLedger, logs: JobLogs | None = None) -> JobRunner:
+    """A runner whose renderer can be opened."""
+    return JobRunner(str(store), KeptRenderer(lambda *_: renderer, RendererSettings()), lambda *_: ledger, logs)
+
+
 @pytest.fixture
 def runner(tmp_path: Path, ledger: MemoryLedger) -> JobRunner:
     """Works on the store of the `dataset` fixture."""
-    return JobRunner(str(tmp_path / "store"), lambda _: StandInRenderer(), lambda *_: ledger)
+    return runner_with(StandInRenderer(), tmp_path / "store", ledger)
 
 
 def given_up(dataset: Dataset) -> Mapping[str, str]:
@@ -180,15 +189,15 @@ def test_lost_processes_are_no_failed_tries(
 @pytest.mark.parametrize(
     "fault", [AssetError("torn"), MachineError("no GPU"), TemplateError("bent"), RenderError("dark")]
 )
-def test_maker_that_cannot_be_opened(
+def test_renderer_that_cannot_be_opened(
     dataset: Dataset, tmp_path: Path, ledger: MemoryLedger, runner: JobRunner, fault: FarmError
 ) -> None:
     """A fault of the machine is not the job's: nothing is recorded or spent, and another worker makes it."""
 
-    def open_renderer(_header: object) -> Renderer:
+    def open_renderer(*_: object) -> Renderer:
         raise fault
 
-    unfit = JobRunner(str(tmp_path / "store"), open_renderer, lambda *_: ledger)
+    unfit = JobRunner(str(tmp_path / "store"), KeptRenderer(open_renderer, RendererSettings()), lambda *_: ledger)
     for _ in range(MAX_STARTS + 1):
         with pytest.raises(UnfitWorkerError, match=str(fault)) as refused:
             unfit.run(dataset.message(JOB).encode())
@@ -201,11 +210,13 @@ def test_maker_that_cannot_be_opened(
 def test_blender_that_does_not_load(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
     """A library that is missing when the renderer is opened is a fault of the machine, too."""
 
-    def open_renderer(_header: object) -> Renderer:
+    def open_renderer(*_: object) -> Renderer:
         raise ImportError("libXi.so.6")
 
     with pytest.raises(UnfitWorkerError, match=r"libXi\.so\.6") as refused:
-        JobRunner(str(tmp_path / "store"), open_renderer, lambda *_: ledger).run(dataset.message(JOB).encode())
+        JobRunner(str(tmp_path / "store"), KeptRenderer(open_renderer, RendererSettings()), lambda *_: ledger).run(
+            dataset.message(JOB).encode()
+        )
     assert isinstance(refused.value.as_fault(), MachineError)
 
 
@@ -221,7 +232,7 @@ def test_asset_that_this_machine_lacks(
 
 def test_dataset_that_is_not_here(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
     """A store that lacks the dataset is the worker's fault; that all stores lack it is found out in the end."""
-    runner = JobRunner(str(tmp_path / "elsewhere"), lambda _: StandInRenderer(), lambda *_: ledger)
+    runner = runner_with(StandInRenderer(), tmp_path / "elsewhere", ledger)
     for _ in range(MAX_ABSENCES):
         with pytest.raises(UnfitWorkerError, match=r"no dataset here.*--store"):
             runner.run(dataset.message(JOB).encode())
@@ -235,7 +246,7 @@ def test_restarted_worker_with_a_wrong_store(
     dataset: Dataset, tmp_path: Path, runner: JobRunner, ledger: MemoryLedger
 ) -> None:
     """While another worker makes pictures, one that is started over and over fails none."""
-    wrong = JobRunner(str(tmp_path / "elsewhere"), lambda _: StandInRenderer(), lambda *_: ledger)
+    wrong = runner_with(StandInRenderer(), tmp_path / "elsewhere", ledger)
     jobs = list(dataset.header.spec.jobs())
     for number in range(2 * MAX_ABSENCES):
         with pytest.raises(UnfitWorkerError):
@@ -278,20 +289,6 @@ def test_bad_message(dataset: Dataset, runner: JobRunner, payload: object) -> No
     assert dataset.storage.files() == before
 
 
-def test_maker_is_kept(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
-    """One renderer serves all jobs of a dataset."""
-    opened: list[Renderer] = []
-
-    def open_renderer(_header: object) -> Renderer:
-        opened.append(StandInRenderer())
-        return opened[-1]
-
-    runner = JobRunner(str(tmp_path / "store"), open_renderer, lambda *_: ledger)
-    for job in dataset.header.spec.jobs():
-        runner.run(dataset.message(job).encode())
-    assert len(opened) == 1
-
-
 def test_given_up_job_is_dropped(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
     """A message of a job that is in quarantine is taken and nothing else."""
     put_in_quarantine(dataset, JOB, "died", attempts=3, worker="host:1", log="")
@@ -301,7 +298,7 @@ def test_given_up_job_is_dropped(dataset: Dataset, runner: JobRunner, ledger: Me
     assert ledger.claims() == {}
 
 
-class PrintingMaker(StandInRenderer):
+class PrintingRenderer(StandInRenderer):
     """Writes as C code does, before it fails or not."""
 
     def make(self, job: Job, header: DatasetHeader) -> Picture:
@@ -315,8 +312,7 @@ def test_record_has_the_log_and_how_to_replay(
 ) -> None:
     """A record tells what was printed in the last attempt, who made it, and the command that makes it again."""
     monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=permanent")
-    logs = tmp_path / "logs"
-    runner = JobRunner(str(tmp_path / "store"), lambda _: PrintingMaker(), lambda *_: ledger, logs)
+    runner = runner_with(PrintingRenderer(), tmp_path / "store", ledger, JobLogs(tmp_path / "logs"))
     with pytest.raises(SceneError):
         runner.run(dataset.message(JOB).encode())
     record = QuarantineRecord.model_validate_json(dataset.storage.read(quarantine_path(JOB)))
@@ -367,7 +363,7 @@ def test_success_in_between(dataset: Dataset, runner: JobRunner, monkeypatch: py
     assert len(given_up(dataset)) == 3
 
 
-class CountingMaker(StandInRenderer):
+class CountingRenderer(StandInRenderer):
     """Counts what it is asked for."""
 
     asked = 0
@@ -380,8 +376,8 @@ class CountingMaker(StandInRenderer):
 
 def test_store_that_cannot_be_written(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
     """A job whose files can't be written goes back uncounted; the next ones are not rendered until a write succeeds."""
-    renderer = CountingMaker()
-    runner = JobRunner(str(tmp_path / "store"), lambda _: renderer, lambda *_: ledger)
+    renderer = CountingRenderer()
+    runner = runner_with(renderer, tmp_path / "store", ledger)
     images = tmp_path / "store/cables/far/images"
     images.parent.mkdir()
     images.write_text("in the way")
@@ -402,48 +398,18 @@ def test_store_that_cannot_be_written(dataset: Dataset, tmp_path: Path, ledger: 
 def test_claim_that_was_lost_meanwhile(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
     """A worker that finds its job claimed by another, once it has rendered, writes nothing and looks again later."""
 
-    class SlowMaker(StandInRenderer):
+    class SlowRenderer(StandInRenderer):
         def make(self, job: Job, header: DatasetHeader) -> Picture:
             ledger.release(job.id, this_process())
             ledger.claim(job.id, "elsewhere:1")
             return super().make(job, header)
 
     before = dataset.storage.files()
-    runner = JobRunner(str(tmp_path / "store"), lambda _: SlowMaker(), lambda *_: ledger)
+    runner = runner_with(SlowRenderer(), tmp_path / "store", ledger)
     with pytest.raises(TryLaterError, match=r"another's|lost its claim"):
         runner.run(dataset.message(JOB).encode())
     assert dataset.storage.files() == before
     assert ledger.claims() == {JOB.id: "elsewhere:1"}
-
-
-def pause(dataset: Dataset, store: Path, job: Job) -> float:
-    """How long a job is put off at its first failure, by a worker and Redis that know nothing of it."""
-    ledger = MemoryLedger()
-    runner = JobRunner(str(store), lambda _: StandInRenderer(), lambda *_: ledger)
-    with pytest.raises(TryLaterError) as later:
-        runner.run(dataset.message(job).encode())
-    return later.value.delay_s
-
-
-def test_pauses_differ_and_repeat(dataset: Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Jobs that failed together come back apart, each after the same pause whenever it is made."""
-    jobs = list(dataset.header.spec.jobs())
-    monkeypatch.setenv("STAND_IN_FAILS", " ".join(f"{job.id}=passing" for job in jobs))
-    pauses = [pause(dataset, tmp_path / "store", job) for job in jobs]
-    assert len(set(pauses)) == len(jobs)
-    assert all(BACKOFF_S[0] <= each <= 1.5 * BACKOFF_S[0] for each in pauses)
-    assert [pause(dataset, tmp_path / "store", job) for job in jobs] == pauses
-
-
-def test_pauses_grow(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The second pause of a job is longer than any first one."""
-    monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=passing")
-    pauses = []
-    for _ in range(MAX_TRIES - 1):
-        with pytest.raises(TryLaterError) as later:
-            runner.run(dataset.message(JOB).encode())
-        pauses.append(later.value.delay_s)
-    assert pauses[0] <= 1.5 * BACKOFF_S[0] < BACKOFF_S[1] <= pauses[1]
 
 
 def test_job_that_was_put_back_begins_anew(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
@@ -498,14 +464,14 @@ def test_dataset_that_was_here_before(dataset: Dataset, runner: JobRunner, tmp_p
 def test_late_failure_is_not_counted(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
     """Who fails at a job that is another's by now neither counts that nor gives the job up."""
 
-    class LateMaker(StandInRenderer):
+    class LateRenderer(StandInRenderer):
         def make(self, job: Job, header: DatasetHeader) -> Picture:
             del header
             ledger.release(job.id, this_process())
             ledger.claim(job.id, "elsewhere:1")
             raise SceneError("too late")
 
-    runner = JobRunner(str(tmp_path / "store"), lambda _: LateMaker(), lambda *_: ledger)
+    runner = runner_with(LateRenderer(), tmp_path / "store", ledger)
     with pytest.raises(TryLaterError, match="another worker's"):
         runner.run(dataset.message(JOB).encode())
     assert given_up(dataset) == {}

@@ -21,6 +21,7 @@ from farm.run.queue.settings import QUEUE, TASK_NAME, make_app
 from farm.run.registry.port import Run
 from farm.run.registry.redis import RedisRegistry
 from farm.spec.job import Job
+from farm.worker_settings import WorkerSettings
 
 pytestmark = pytest.mark.redis
 
@@ -52,9 +53,9 @@ def worker(
 ) -> Iterator["subprocess.Popen[bytes]"]:
     """A worker with the stand-in renderer, on the store of the `dataset` fixture."""
     del queue  # emptied before the worker listens
-    command = [*worker_command, "serve", "--store", str(tmp_path / "store"), "--name", "test", "--min-free-mib", "0"]
+    settings = WorkerSettings(store=str(tmp_path / "store"), name="test", logs=tmp_path / "logs", min_free_mib=0)
     process = subprocess.Popen(
-        [*command, "--logs", str(tmp_path / "logs")],
+        [*worker_command, *settings.serve_arguments()],
         env={
             **os.environ,
             "FARM_BROKER_URL": redis_url,
@@ -72,7 +73,7 @@ def worker(
 
 
 def wait_until_done(dataset: Dataset, count: int) -> None:
-    """Wait for so many images."""
+    """Wait until a number of images are done."""
     completion = Completion(dataset)
     give_up_s = time.monotonic() + PATIENCE_S
     while len(completion.look()) < count:
@@ -136,7 +137,7 @@ def test_stops_when_told(worker: "subprocess.Popen[bytes]", queue: CeleryQueue, 
 def serve(command: list[str], store: Path, redis_url: str, **environment: str) -> "subprocess.CompletedProcess[str]":
     """A worker that ends by itself."""
     return subprocess.run(
-        [*command, "serve", "--store", str(store), "--name", "unfit", "--logs", str(store.parent / "logs")],
+        [*command, *WorkerSettings(store=str(store), name="unfit", logs=store.parent / "logs").serve_arguments()],
         env={**os.environ, "FARM_BROKER_URL": redis_url, **environment},
         capture_output=True,
         text=True,
@@ -180,13 +181,14 @@ def test_worker_with_a_wrong_store_takes_itself_out(
     assert Quarantine(dataset).look() == {}
 
 
-@pytest.mark.parametrize("option", ["--logs", "--store"])
-def test_folder_that_cannot_be_used(worker_command: list[str], tmp_path: Path, redis_url: str, option: str) -> None:
+@pytest.mark.parametrize("spoilt", ["logs", "store"])
+def test_folder_that_cannot_be_used(worker_command: list[str], tmp_path: Path, redis_url: str, spoilt: str) -> None:
     """A worker that can't write logs or read its store says so in one line before it takes a job."""
     (tmp_path / "file").write_text("")
-    folders = {"--logs": str(tmp_path / "logs"), "--store": str(tmp_path), option: str(tmp_path / "file/below")}
+    folders = {"logs": tmp_path / "logs", "store": tmp_path, spoilt: tmp_path / "file/below"}
+    settings = WorkerSettings(store=str(folders["store"]), name="test", logs=folders["logs"])
     result = subprocess.run(
-        [*worker_command, "serve", "--name", "test", *(word for pair in folders.items() for word in pair)],
+        [*worker_command, *settings.serve_arguments()],
         env={**os.environ, "FARM_BROKER_URL": redis_url},
         capture_output=True,
         text=True,
@@ -200,8 +202,9 @@ def test_folder_that_cannot_be_used(worker_command: list[str], tmp_path: Path, r
 
 def test_no_redis(worker_command: list[str], tmp_path: Path) -> None:
     """A worker whose Redis is not there ends with one line and its exit code."""
+    settings = WorkerSettings(store=str(tmp_path), name="test", logs=tmp_path / "logs")
     result = subprocess.run(
-        [*worker_command, "serve", "--store", str(tmp_path), "--name", "test", "--logs", str(tmp_path / "logs")],
+        [*worker_command, *settings.serve_arguments()],
         env={**os.environ, "FARM_BROKER_URL": "redis://127.0.0.1:1/0"},
         capture_output=True,
         text=True,

@@ -1,4 +1,4 @@
-"""Judging a worker by its signs, with a clock of the tests' own."""
+"""Finding a worker that no longer works, with a clock of the tests' own."""
 
 import subprocess
 import sys
@@ -6,25 +6,25 @@ from dataclasses import replace
 
 import pytest
 
-from worker.service.watchdog import EXIT_CODE, IDLE_LOOKS, LOOK_S, LOOKS, Judge, Signs
+from worker.service.watchdog import EXIT_CODE, IDLE_LOOKS, LOOK_S, LOOKS, FaultDetector, Observation
 
-WELL = Signs(ticked_s=0.0, busy=False, stopping=False, jobs_wait=False)
+WELL = Observation(ticked_s=0.0, busy=False, stopping=False, jobs_wait=False)
 
 
 class Scene:
-    """A judge that looks now and then, and when the worker last ticked."""
+    """A detector that looks now and then, and when the worker last ticked."""
 
     def __init__(self) -> None:
         self.now_s = 1000.0
-        self.judge = Judge(lambda: self.now_s)
+        self.detector = FaultDetector(lambda: self.now_s)
 
-    def looks(self, count: int, signs: Signs, *, ticks: bool) -> list[str]:
-        """So many looks at the usual pace."""
+    def looks(self, count: int, signs: Observation, *, ticks: bool) -> list[str]:
+        """A number of looks at the usual pace."""
         told = []
         last_s = self.now_s
         for _ in range(count):
             self.now_s += LOOK_S
-            told.append(self.judge.look(replace(signs, ticked_s=self.now_s - 0.5 if ticks else last_s)))
+            told.append(self.detector.look(replace(signs, ticked_s=self.now_s - 0.5 if ticks else last_s)))
         return told
 
 
@@ -35,7 +35,7 @@ def scene() -> Scene:
 
 
 @pytest.mark.parametrize("signs", [WELL, replace(WELL, busy=True), replace(WELL, busy=True, jobs_wait=True)])
-def test_worker_that_works(scene: Scene, signs: Signs) -> None:
+def test_worker_that_works(scene: Scene, signs: Observation) -> None:
     """One whose loop comes by, and that is busy where jobs wait, is left alone for ever."""
     assert set(scene.looks(10 * IDLE_LOOKS, signs, ticks=True)) == {""}
 
@@ -54,7 +54,7 @@ def test_process_that_was_stopped(scene: Scene) -> None:
     scene.looks(5, WELL, ticks=True)
     scene.now_s += 10_000
     stale = replace(WELL, ticked_s=scene.now_s - 10_000)
-    assert scene.judge.look(stale) == ""
+    assert scene.detector.look(stale) == ""
     assert set(scene.looks(3 * LOOKS, WELL, ticks=True)) == {""}
 
 
@@ -65,7 +65,7 @@ def test_worker_that_takes_nothing(scene: Scene) -> None:
 
 
 def test_one_job_in_between(scene: Scene) -> None:
-    """A job in between, or a queue that was empty, starts the count anew."""
+    """A job in between, or a queue that was empty, starts the count again."""
     waiting = replace(WELL, jobs_wait=True)
     for signs in (replace(waiting, busy=True), WELL):
         scene.looks(IDLE_LOOKS - 1, waiting, ticks=True)
@@ -89,7 +89,7 @@ def test_shutdown_that_never_ends(scene: Scene) -> None:
 def test_redis_that_is_away(scene: Scene) -> None:
     """While Redis is away nothing is held against a worker."""
     scene.looks(IDLE_LOOKS - 1, replace(WELL, jobs_wait=True), ticks=True)
-    scene.judge.forget()
+    scene.detector.forget()
     assert set(scene.looks(IDLE_LOOKS - 1, replace(WELL, jobs_wait=True), ticks=True)) == {""}
 
 
@@ -97,7 +97,8 @@ def test_watched_process_ends() -> None:
     """A process that hangs is ended by its own watchdog, with the code that has it started again, children first."""
     program = (
         "import time, worker.service.watchdog as w; w.LOOK_S = 0.01; w.LOOKS = 3; "
-        "w.watch(lambda: w.Signs(time.monotonic() - 9, False, False, False), lambda: print('children', flush=True)); "
+        "w.watch(lambda: w.Observation(time.monotonic() - 9, False, False, False), "
+        "lambda: print('children', flush=True)); "
         "time.sleep(120)"
     )
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=60)
@@ -115,7 +116,7 @@ def test_error_of_redis_does_not_end_the_watch() -> None:
         "def see():\n"
         "    looks.append(1)\n"
         "    if len(looks) < 5: raise BrokerError('away')\n"
-        "    return w.Signs(time.monotonic() - 9, False, False, False)\n"
+        "    return w.Observation(time.monotonic() - 9, False, False, False)\n"
         "w.watch(see, lambda: print(len(looks), flush=True))\n"
         "time.sleep(120)"
     )

@@ -112,7 +112,7 @@ def test_replaced_renderers_lose_no_job(farm: LiveFarm) -> None:
     """A renderer that is replaced after three images hands on to the next; each image is made once."""
     dataset = farm.dataset("cables", far=8)
     farm.submit(dataset)
-    farm.start("w", "--tasks-per-child", "3")
+    farm.start("w", {"tasks_per_child": 3})
     wait_until_done(dataset)
     assert is_once_each(farm.starts(), dataset)
     assert len(farm.by_renderer()) == 3
@@ -122,7 +122,7 @@ def test_replaced_renderers_lose_no_job(farm: LiveFarm) -> None:
 def test_renderer_above_its_memory_limit(farm: LiveFarm, six: Dataset) -> None:
     """A renderer that takes twice what it may is killed amid its image, which is given up after three; others go on."""
     farm.submit(six)
-    farm.start("w", "--memory-per-child-kib", str(160 * 1024), STAND_IN_FAILS="far-000001=bloat")
+    farm.start("w", {"memory_per_child_kib": 160 * 1024}, STAND_IN_FAILS="far-000001=bloat")
     wait_for(lambda: "far-000001" in Quarantine(six).look())
     wait_until_done(six, 5)
     assert farm.starts().count("far-000001") == MAX_STARTS
@@ -134,7 +134,7 @@ def test_renderer_above_its_memory_limit(farm: LiveFarm, six: Dataset) -> None:
 def test_job_that_meets_the_hard_limit(farm: LiveFarm, six: Dataset) -> None:
     """A job that is killed at the time limit comes back, but not for ever, and holds nobody up."""
     farm.submit(six)
-    farm.start("w", "--time-limit-s", "2", STAND_IN_FAILS="far-000001=hang")
+    farm.start("w", {"time_limit_s": 2.0}, STAND_IN_FAILS="far-000001=hang")
     wait_for(lambda: "far-000001" in Quarantine(six).look())
     assert f"in each of {MAX_STARTS} attempts" in Quarantine(six).look()["far-000001"]
     assert farm.starts().count("far-000001") == MAX_STARTS

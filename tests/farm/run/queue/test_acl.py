@@ -12,11 +12,12 @@ from redis.exceptions import NoPermissionError
 
 from farm.dataset.dataset import Dataset
 from farm.errors import BrokerError
-from farm.local.workers import LocalWorkers, WorkerOptions
+from farm.local.workers import LocalWorkers
 from farm.run.coordinator import Coordinator
 from farm.run.handle import open_handle
 from farm.run.queue.broker import connect
 from farm.run.queue.settings import make_app
+from farm.worker_settings import WorkerSettings
 from tests.farm.run.queue.servers import debian_redis, free_port
 from tests.farm.run.queue.servers import redis_server as run_redis
 
@@ -68,15 +69,8 @@ def test_a_farm_works_under_the_list(
     app = make_app(guarded.url)
     coordinator = Coordinator(dataset, open_handle(dataset, guarded.url, client), poll_s=0.1)
     coordinator.submit_missing()
-    options = WorkerOptions(
-        store=str(tmp_path / "store"),
-        broker_url=guarded.url,
-        device="cpu",
-        threads=1,
-        assets=None,
-        logs=tmp_path / "logs",
-    )
-    with LocalWorkers(1, options, worker_command) as workers:
+    settings = WorkerSettings(store=str(tmp_path / "store"), name="local", logs=tmp_path / "logs")
+    with LocalWorkers(1, settings, guarded.url, worker_command) as workers:
         assert coordinator.watch(supervise=workers.supervise).done == 4
         assert len(app.control.inspect(timeout=3).ping()) == 1
     assert refusals(guarded) == []

@@ -16,10 +16,11 @@ import redis
 from farm.dataset.completion import is_done
 from farm.dataset.dataset import Dataset, Destination, create_dataset
 from farm.local.redis_server import private_redis
-from farm.local.workers import LocalWorkers, WorkerOptions
+from farm.local.workers import LocalWorkers
 from farm.run.queue.broker import connect
 from farm.run.queue.settings import QUEUE, TASK_NAME, VISIBILITY_S, make_app
 from farm.spec.job import Job
+from farm.worker_settings import WorkerSettings
 from tests.stand_in import stand_in_header
 
 pytestmark = pytest.mark.redis
@@ -79,11 +80,9 @@ def bench(tmp_path_factory: pytest.TempPathFactory, stale: list[str]) -> Iterato
         for number, entry in enumerate(stale):
             client.hset("unacked", f"stale-{number}", entry)
             client.zadd("unacked_index", {f"stale-{number}": time.time() - 2 * VISIBILITY_S})
-        options = WorkerOptions(
-            store=str(folder / "store"), broker_url=url, device="cpu", threads=1, assets=None, logs=folder / "logs"
-        )
+        settings = WorkerSettings(store=str(folder / "store"), name="local", logs=folder / "logs")
         command = [sys.executable, "-P", str(Path(__file__).parents[3] / "stand_in.py")]
-        with LocalWorkers(1, options, command) as workers:
+        with LocalWorkers(1, settings, url, command) as workers:
             yield Bench(client, make_app(url), dataset, workers.log_of("local-1"))
 
 

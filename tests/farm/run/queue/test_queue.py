@@ -20,9 +20,10 @@ from farm.run.handle import run_of
 from farm.run.queue.broker import broker_url, connect, masked, wait_for
 from farm.run.queue.celery import CeleryQueue
 from farm.run.queue.port import JobQueue
-from farm.run.queue.settings import HARD_LIMIT_S, SOFT_LIMIT_S, TASK_NAME, VISIBILITY_S, make_app, queue_name
+from farm.run.queue.settings import SOFT_LIMIT_S, TASK_NAME, VISIBILITY_S, make_app, queue_name
 from farm.run.registry.port import Priority, Run
 from farm.spec.job import Job, JobMessage
+from farm.worker_settings import HARD_LIMIT_S
 from tests.doubles.queue import MemoryQueue
 
 

@@ -10,11 +10,12 @@ from kombu.exceptions import OperationalError
 from farm.dataset.completion import is_done
 from farm.dataset.dataset import Dataset
 from farm.errors import BrokerError
-from farm.local.workers import LocalWorkers, WorkerOptions
+from farm.local.workers import LocalWorkers
 from farm.run.coordinator import Coordinator
 from farm.run.handle import open_handle
 from farm.run.queue.broker import broker_url, connect
 from farm.run.queue.settings import make_app
+from farm.worker_settings import WorkerSettings
 from tests.farm.run.queue.servers import ENCODED, PASSWORD, Certificates, debian_redis, free_port, make_certificates
 from tests.farm.run.queue.servers import redis_server as run_redis
 
@@ -52,10 +53,8 @@ def test_a_worker_does_its_jobs_over_tls_with_a_password(
     client = connect(url)
     coordinator = Coordinator(dataset, open_handle(dataset, url, client), poll_s=0.1)
     assert coordinator.submit_missing() == 4
-    options = WorkerOptions(
-        store=str(tmp_path / "store"), broker_url=url, device="cpu", threads=1, assets=None, logs=tmp_path / "logs"
-    )
-    with LocalWorkers(1, options, worker_command) as workers:
+    settings = WorkerSettings(store=str(tmp_path / "store"), name="local", logs=tmp_path / "logs")
+    with LocalWorkers(1, settings, url, worker_command) as workers:
         assert coordinator.watch(supervise=workers.supervise).done == 4
         log = workers.log_of("local-1").read_text()
     assert all(is_done(dataset, job) for job in dataset.header.spec.jobs())

@@ -1,0 +1,82 @@
+"""The renderer of one process: opened for the first job of a dataset, kept for those that follow."""
+
+import logging
+from collections.abc import Callable
+
+from celery.exceptions import SoftTimeLimitExceeded
+
+from farm.errors import AssetError, FarmError, MachineError, RenderError, TemplateError, UnfitWorkerError
+from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
+from farm.worker_settings import RendererSettings
+from worker.service.picture import Picture, Renderer
+
+log = logging.getLogger(__name__)
+
+OpenRenderer = Callable[[DatasetHeader, RendererSettings], Renderer]
+"""Opens the renderer of a dataset in the calling process. Raises FarmError if the template, an asset or the device is
+not what it must be."""
+
+_FAULTS_OF_THE_MACHINE = (AssetError, MachineError, TemplateError)
+
+
+class KeptRenderer:
+    """Makes pictures, with the renderer of the last dataset kept open.
+
+    Args:
+        open_renderer: opens the renderer of a dataset; called in this process, at its first job.
+        settings: how the renderer runs.
+    """
+
+    def __init__(self, open_renderer: OpenRenderer, settings: RendererSettings) -> None:
+        self._open_renderer = open_renderer
+        self._settings = settings
+        self._fingerprint = ""
+        self._renderer: Renderer | None = None
+
+    def make(self, job: Job, header: DatasetHeader) -> Picture:
+        """Make one picture; see `worker.service.picture.Renderer`.
+
+        Raises:
+            UnfitWorkerError: if this machine can't open the renderer, or lacks what the scene shows.
+            FarmError: another failure that the renderer foresees.
+            RenderError: if it failed in a way that nobody foresaw, or took longer than the time limit.
+        """
+        renderer = self._renderer_for(header)
+        try:
+            return renderer.make(job, header)
+        except _FAULTS_OF_THE_MACHINE as error:
+            # Textures and HDRIs are looked up when a scene first shows them.
+            raise UnfitWorkerError(str(error), error.exit_code) from error
+        except FarmError:
+            raise
+        except SoftTimeLimitExceeded as error:
+            raise RenderError("took longer than the time limit") from error
+        except Exception as error:
+            raise defect(job, error) from error
+
+    def _renderer_for(self, header: DatasetHeader) -> Renderer:
+        if self._renderer is None or self._fingerprint != header.spec_sha256:
+            self._renderer = None  # two open templates at once would need twice the memory
+            self._renderer = self._opened(header)
+            self._fingerprint = header.spec_sha256
+        return self._renderer
+
+    def _opened(self, header: DatasetHeader) -> Renderer:
+        try:
+            return self._open_renderer(header, self._settings)
+        except FarmError as error:
+            raise UnfitWorkerError(str(error), error.exit_code) from error
+        except SoftTimeLimitExceeded as error:
+            raise RenderError("opening the template took longer than the time limit") from error
+        except Exception as error:
+            # Blender's libraries, the driver or the memory failed, not the job.
+            log.exception("nothing can be rendered here")
+            reason = f"can't open Blender: {type(error).__name__}: {error}"
+            raise UnfitWorkerError(reason, MachineError.exit_code) from error
+
+
+def defect(job: Job, error: Exception) -> RenderError:
+    """An unforeseen error as one that is tried again: it ends as a reason in quarantine, not as a lost message."""
+    log.error("%s: unexpected error", job.id, exc_info=error)
+    return RenderError(f"unexpected {type(error).__name__}: {error}")
