@@ -44,7 +44,7 @@ class Dataset:
 
     def asks_for(self, job: Job) -> bool:
         """Whether the job is within the quotas."""
-        return job.index < self.header.spec.quotas[job.category]
+        return job.index < self.header.spec.quotas.get(job.category, 0)
 
 
 def parse_destination(out: str) -> Destination:

@@ -30,7 +30,7 @@ class Engine(StrEnum):
 class DatasetSpec(Model):
     """A dataset: how many images of which category, from which seed, made how.
 
-    `quotas` holds all six categories; `parse_spec` fills it in from a total, and `ranges` from the style.
+    `parse_spec` fills in `quotas`, with every category, from a total, and `ranges` from the style.
     """
 
     version: Literal[1] = 1
