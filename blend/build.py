@@ -9,9 +9,8 @@ from pathlib import Path
 
 import bpy
 
-from blend import names
+from blend import fall, names
 from blend.cable import add_cable, add_skin
-from blend.fall import add_fall
 from blend.floor import add_floor
 from blend.lights import add_camera, add_lamps
 from blend.world import add_world
@@ -33,7 +32,7 @@ def build_template(path: Path) -> None:
     picture.view_settings.view_transform = "Filmic"
     picture.view_settings.look = "None"
     picture.render.resolution_x = picture.render.resolution_y = 512
-    add_fall(bpy.data.scenes.new(names.FALL_SCENE))
+    fall.add_fall(bpy.data.scenes.new(fall.SCENE))
     partial = path.with_name(path.name + ".partial")
     bpy.ops.wm.save_as_mainfile(filepath=str(partial), compress=True, copy=True, check_existing=False)
     partial.replace(path)

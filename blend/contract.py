@@ -1,4 +1,7 @@
-"""What the farm must find in a template, and the check of it."""
+"""What the farm must find in a template, and the check of it.
+
+All of it belongs to the picture; a simulator brings what it needs itself.
+"""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,14 +14,11 @@ from blend.unsafe import find_unsafe
 from farm.errors import TemplateError
 
 _OBJECTS: Final = (
-    (names.PICTURE_SCENE, names.CABLE, "MESH", None),
-    (names.PICTURE_SCENE, names.FLOOR, "MESH", None),
-    (names.PICTURE_SCENE, names.CAMERA, "CAMERA", None),
-    (names.PICTURE_SCENE, names.POINT_LAMP, "LIGHT", "POINT"),
-    (names.PICTURE_SCENE, names.AREA_LAMP, "LIGHT", "AREA"),
-    (names.FALL_SCENE, names.FALL_CABLES, "MESH", None),
-    (names.FALL_SCENE, names.FALL_FLOOR, "MESH", None),
-    (names.FALL_SCENE, names.FALL_WIND, "EMPTY", None),
+    (names.CABLE, "MESH", None),
+    (names.FLOOR, "MESH", None),
+    (names.CAMERA, "CAMERA", None),
+    (names.POINT_LAMP, "LIGHT", "POINT"),
+    (names.AREA_LAMP, "LIGHT", "AREA"),
 )
 
 _NODES: Final = (
@@ -65,23 +65,21 @@ def open_template(path: Path) -> None:
 
 def find_missing() -> Iterator[str]:
     """What the open file lacks of the contract, one phrase each; nothing if it holds all."""
-    for scene_name in (names.PICTURE_SCENE, names.FALL_SCENE):
-        if scene_name not in bpy.data.scenes:
-            yield f"the scene '{scene_name}'"
-    for scene_name, object_name, kind, subkind in _OBJECTS:
-        yield from _missing_object(scene_name, object_name, kind, subkind)
+    if names.PICTURE_SCENE not in bpy.data.scenes:
+        yield f"the scene '{names.PICTURE_SCENE}'"
+    for object_name, kind, subkind in _OBJECTS:
+        yield from _missing_object(object_name, kind, subkind)
     for collection, owner, node, kind in _NODES:
         yield from _missing_node(collection, owner, node, kind)
     yield from _missing_links()
-    yield from _missing_physics()
     yield from _misplaced()
     yield from _wrong_ramps()
 
 
-def _missing_object(scene_name: str, name: str, kind: str, subkind: str | None) -> Iterator[str]:
-    scene = bpy.data.scenes.get(scene_name)
+def _missing_object(name: str, kind: str, subkind: str | None) -> Iterator[str]:
+    scene = bpy.data.scenes.get(names.PICTURE_SCENE)
     found = scene.objects.get(name) if scene else None
-    wanted = f"{kind.lower()} object '{name}' in the scene '{scene_name}'"
+    wanted = f"{kind.lower()} object '{name}' in the scene '{names.PICTURE_SCENE}'"
     if found is None or found.type != kind:
         yield f"the {wanted}"
     elif subkind and found.data.type != subkind:
@@ -118,25 +116,13 @@ def _missing_links() -> Iterator[str]:
             yield f"a UV map on the object '{name}'"
 
 
-def _missing_physics() -> Iterator[str]:
-    cables, floor = (bpy.data.objects.get(name) for name in (names.FALL_CABLES, names.FALL_FLOOR))
-    if cables is not None and not any(modifier.type == "CLOTH" for modifier in cables.modifiers):
-        yield f"a Cloth modifier on '{names.FALL_CABLES}'"
-    if floor is not None and not any(modifier.type == "COLLISION" for modifier in floor.modifiers):
-        yield f"a Collision modifier on '{names.FALL_FLOOR}'"
-    wind = bpy.data.objects.get(names.FALL_WIND)
-    if wind is not None and (wind.field is None or wind.field.type != "WIND"):
-        yield f"a Wind force field on '{names.FALL_WIND}'"
-
-
 def _misplaced() -> Iterator[str]:
     """What stands elsewhere than the masks and the fall take for granted."""
-    for name in (names.FLOOR, names.FALL_FLOOR):
-        floor = bpy.data.objects.get(name)
-        if floor is not None and not _is_unmoved(floor):
-            yield f"'{name}' unmoved, unturned and unscaled at the origin, with no parent or constraint"
-        elif floor is not None and floor.type == "MESH" and any(vertex.co.z != 0.0 for vertex in floor.data.vertices):
-            yield f"'{name}' flat at z = 0"
+    floor = bpy.data.objects.get(names.FLOOR)
+    if floor is not None and not _is_unmoved(floor):
+        yield f"'{names.FLOOR}' unmoved, unturned and unscaled at the origin, with no parent or constraint"
+    elif floor is not None and floor.type == "MESH" and any(vertex.co.z != 0.0 for vertex in floor.data.vertices):
+        yield f"'{names.FLOOR}' flat at z = 0"
     camera = bpy.data.objects.get(names.CAMERA)
     if camera is not None and (camera.parent is not None or len(camera.constraints)):
         yield f"'{names.CAMERA}' without parent and constraints"

@@ -1,6 +1,9 @@
-"""The scene of the fall: strips of cloth in one self-colliding mesh, a rigid floor, and the wind.
+"""The scene of a fall of cloth: strips of cloth in one self-colliding mesh, a rigid floor, and the wind.
 
-Its unit of length is chosen by the worker so that a cable's radius is a fixed number of units, because the cloth
+`worker.simulate.cloth` builds it for each fall in a scene of its own. The template that comes with the farm holds one,
+too, which nothing reads: the template's SHA-256 is part of every dataset, so that its file stays as it is.
+
+The worker chooses the scene's unit of length so that a cable's radius is a fixed number of units, because the cloth
 solver's collision distances have limits of their own (1 mm to 10 cm, whatever the scene's scale).
 
 One mesh and not one object a cable: separate cloth objects that collide with each other form dependency cycles, whose
@@ -8,34 +11,57 @@ results differ from run to run. The strips are zigzags of single triangles, narr
 abreast would be nearer to each other than the collision distance and push themselves apart for ever.
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
 
-from blend import names
+from farm.scene.physics import GRAVITY_M_S2
+
+SCENE = "fall"
+"""Name of the scene in the template that comes with the farm."""
+
+_FLOOR, _CABLES, _WIND = "fall_floor", "fall_cables", "fall_wind"
+"""Names of the objects; Blender numbers them where another has the name."""
 
 FLOOR_HALF_EDGE = 600.0
-_FIELD_SEED = 1
-"""Blender numbers the fields of a session otherwise, and builds would differ."""
+"""Half of the floor's edge, in units: no cable rolls off it."""
+
 SELF_DISTANCE = 0.1
-"""Largest that Blender takes; the solver keeps faces twice this apart."""
+"""Distance of self-collision in units, the largest that Blender takes; the solver keeps faces twice this apart."""
+
+_FIELD_SEED = 1
+"""Seed of both force fields. Blender's own choice counts the fields of a session, and builds would differ."""
 
 
-def add_fall(scene: Any) -> None:
-    """Fill the scene of the fall."""
-    scene.gravity = (0.0, 0.0, -9.81)
+@dataclass(frozen=True, slots=True)
+class FallObjects:
+    """What is in the scene of a fall: objects of Blender's.
+
+    Attributes:
+        floor: the rigid floor, with a Collision modifier.
+        cables: the strips, with a Cloth modifier.
+        wind: the force field.
+    """
+
+    floor: Any
+    cables: Any
+    wind: Any
+
+
+def add_fall(scene: Any) -> FallObjects:
+    """Fill an empty scene with what a fall needs; gravity is that of the earth, in units."""
+    scene.gravity = (0.0, 0.0, -GRAVITY_M_S2)
     scene.frame_start, scene.frame_end = 1, 250
-    add_floor(scene)
-    add_cables(scene)
-    add_wind(scene)
+    return FallObjects(floor=add_floor(scene), cables=add_cables(scene), wind=add_wind(scene))
 
 
 def add_floor(scene: Any) -> Any:
     """Add the rigid floor at z = 0 and return it."""
     edge = FLOOR_HALF_EDGE
-    mesh = bpy.data.meshes.new(names.FALL_FLOOR)
+    mesh = bpy.data.meshes.new(_FLOOR)
     mesh.from_pydata([(-edge, -edge, 0), (edge, -edge, 0), (edge, edge, 0), (-edge, edge, 0)], [], [(0, 1, 2, 3)])
-    floor = bpy.data.objects.new(names.FALL_FLOOR, mesh)
+    floor = bpy.data.objects.new(_FLOOR, mesh)
     scene.collection.objects.link(floor)
     floor.modifiers.new("Collision", "COLLISION")
     floor.collision.cloth_friction = 30.0
@@ -46,9 +72,9 @@ def add_floor(scene: Any) -> Any:
 
 def add_cables(scene: Any) -> Any:
     """Add the object of the strips, one triangle as yet, and return it."""
-    mesh = bpy.data.meshes.new(names.FALL_CABLES)
+    mesh = bpy.data.meshes.new(_CABLES)
     mesh.from_pydata([(0, -0.04, 1), (0.5, 0.04, 1), (1.0, -0.04, 1)], [], [(0, 1, 2)])
-    cables = bpy.data.objects.new(names.FALL_CABLES, mesh)
+    cables = bpy.data.objects.new(_CABLES, mesh)
     scene.collection.objects.link(cables)
     cloth = cables.modifiers.new("Cloth", "CLOTH")
     settings, collision = cloth.settings, cloth.collision_settings
@@ -71,7 +97,7 @@ def add_cables(scene: Any) -> Any:
 
 def add_wind(scene: Any) -> Any:
     """Add the wind, still, and return it."""
-    wind = bpy.data.objects.new(names.FALL_WIND, None)
+    wind = bpy.data.objects.new(_WIND, None)
     scene.collection.objects.link(wind)
     layer = scene.view_layers[0]
     with bpy.context.temp_override(scene=scene, view_layer=layer, object=wind, active_object=wind):

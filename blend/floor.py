@@ -10,14 +10,13 @@ import bpy
 
 from blend import names
 from blend.nodes import add_node, link
-
-HALF_EDGE_M = 0.6
+from farm.scene.floor import FLOOR_REACH_M
 
 
 def add_floor(scene: Any) -> None:
     """Add the floor at z = 0."""
     mesh = bpy.data.meshes.new(names.FLOOR)
-    edge = HALF_EDGE_M
+    edge = FLOOR_REACH_M
     mesh.from_pydata([(-edge, -edge, 0), (edge, -edge, 0), (edge, edge, 0), (-edge, edge, 0)], [], [(0, 1, 2, 3)])
     mesh.uv_layers.new(name="texture")
     mesh.materials.append(_material())

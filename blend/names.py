@@ -5,9 +5,6 @@ from typing import Final
 PICTURE_SCENE: Final = "picture"
 """What is rendered, in metres."""
 
-FALL_SCENE: Final = "fall"
-"""What is simulated, in a unit that follows the cable's radius (`worker.simulate.cloth.scale`)."""
-
 CABLE: Final = "cable"
 """The cable that every rendered cable is a copy of, and its material."""
 
@@ -21,12 +18,6 @@ CAMERA: Final = "camera"
 POINT_LAMP: Final = "point_lamp"
 AREA_LAMP: Final = "area_lamp"
 WORLD: Final = "world"
-
-FALL_CABLES: Final = "fall_cables"
-"""The strips of cloth, joined in one mesh."""
-
-FALL_FLOOR: Final = "fall_floor"
-FALL_WIND: Final = "fall_wind"
 
 CABLE_COLOUR_RAMP: Final = "dirt ramp"
 CABLE_REFLECTION_RAMP: Final = "reflection ramp"

@@ -29,7 +29,7 @@ from farm.scene.floor import Floor
 from farm.scene.light import PointLamp
 from farm.scene.physics import Friction, Wind
 from farm.scene.scene import Scene
-from farm.spec.category import Category
+from farm.spec.category import Background, Light
 from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
 from farm.spec.job import Job
 from farm.spec.parse import parse_spec
@@ -84,8 +84,8 @@ def stand_in_scene(job: Job) -> Scene:
         density_kg_m3=1500.0,
         material=material,
     )
-    far = job.category in {Category.FAR, Category.FAR_ALIGNED}
-    lit_by_lamp = job.category in {Category.CLOSE_CONCENTRATED, Category.CLOSE_ALIGNED_CONCENTRATED}
+    far = job.category.traits.background is Background.HDRI
+    lit_by_lamp = job.category.traits.light is Light.CONCENTRATED
     lamp = PointLamp(bearing_deg=0.0, radius_m=5.0, height_m=5.0, power_w=900.0, size_m=0.5)
     world = HdriWorld(hdri="city", rotation_deg=0.0, tilt_deg=0.0, brightness=0.0)
     return Scene(

@@ -29,7 +29,10 @@ from assets.surfaces.recipe import SurfaceRecipe, recipe_generator
 from farm.errors import AssetError
 
 COLOUR_QUALITY = 93
+"""JPEG quality of the colour, with full chroma: no block shows in a close picture."""
+
 ROUGHNESS_QUALITY = 92
+"""JPEG quality of the roughness and of a map of metal."""
 
 
 class BakedSet(BaseModel):
@@ -182,5 +185,5 @@ def _encoded(maps: SurfaceMaps) -> Iterator[tuple[MapRole, bytes]]:
 def _encode(ending: str, image: npt.NDArray[np.uint8], options: list[int]) -> bytes:
     done, data = cv2.imencode(ending, np.ascontiguousarray(image), options)
     if not done:
-        raise AssetError(f"OpenCV can't write {ending} images; install opencv-contrib-python-headless afresh")
+        raise AssetError(f"OpenCV can't write {ending} images; install opencv-contrib-python-headless again")
     return data.tobytes()

@@ -14,7 +14,10 @@ from farm.errors import AssetError
 from farm.machine import cache_folder
 
 RECORD_NAME = "surface.json"
+"""File of what is known about a surface, beside its maps; a surface without it counts as not baked."""
+
 SMALLEST_EDGE, LARGEST_EDGE = 64, 8192
+"""Texels along an edge, at least and at most."""
 
 MapRole = Literal["colour", "normal", "roughness", "metallic", "joints"]
 
@@ -118,7 +121,7 @@ def load_surface(folder: Path, name: str) -> BakedSurface:
 
     Args:
         folder: A folder that `assets.surfaces.bake.bake_surfaces` has filled.
-        name: Of the surface.
+        name: The surface's name.
 
     Raises:
         AssetError: It is not there, incomplete or damaged.

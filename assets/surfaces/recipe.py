@@ -33,11 +33,13 @@ class SurfaceRecipe:
     """A surface that can be drawn at any resolution.
 
     Attributes:
-        name: Unique, in snake case.
-        family: What it is made of.
+        name: The surface's name: unique, in snake case.
+        family: What the surface is made of.
         size_m: Edge of the square tile in metres.
-        draw: Draws the maps on a grid.
-        version: To be raised whenever the drawing changes, so that stored maps are drawn afresh.
+        draw: The function that draws the maps on a grid.
+        version: Version of the drawing, raised whenever it changes, so that stored maps are drawn again.
+        published: Whether the published set-up has it; the style `published` shows no others. No new surface has it.
+        light: Whether it is as bright as tables and benches, with a mean level of 165 of 255 at least.
     """
 
     name: str
@@ -45,6 +47,8 @@ class SurfaceRecipe:
     size_m: float
     draw: Callable[[np.random.Generator, Grid], SurfaceMaps]
     version: int = 1
+    published: bool = False
+    light: bool = False
 
     def build(self, rng: np.random.Generator, pixels: int) -> SurfaceMaps:
         """Draw the surface.

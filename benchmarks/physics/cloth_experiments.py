@@ -15,7 +15,7 @@ from blend.fall import add_cables, add_floor
 from farm.errors import SceneError
 from farm.spec.simulation import ClothFall
 from worker.curves import Points
-from worker.simulate.cloth.joined import FLOOR_SINK, set_material
+from worker.simulate.cloth.fall import FLOOR_SINK, set_material
 from worker.simulate.cloth.material import SEGMENT_UNITS, SOLVER_GRAVITY, STRIP_WIDTH, achieved_stiffness, material_for
 from worker.simulate.cloth.scale import RADIUS_UNITS
 from worker.simulate.cloth.stage import modifier, read_vertices, set_frames, temporary_scene

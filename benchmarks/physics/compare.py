@@ -6,6 +6,7 @@ from pathlib import Path
 
 from rich.progress import track
 
+from benchmarks.physics.contenders import Contender
 from benchmarks.physics.measure import play, warm_up
 from benchmarks.physics.plot import write_plot
 from benchmarks.physics.report import conclusions, falls_table, textbook_table, write_json
@@ -16,7 +17,6 @@ from benchmarks.physics.textbook import textbook
 from benchmarks.terminal import bench_console, blender_writes_to
 from blend.build import TEMPLATE
 from blend.contract import open_template
-from farm.spec.simulation import Simulator
 
 _WARM_UP_CABLES = 4
 
@@ -38,7 +38,7 @@ def compare(out: Path, settings: Sequence[Setting], *, seed: int, scenes: int, s
     console = bench_console()
     log_file = out / "physics.log"
     with blender_writes_to(log_file):
-        if any(setting.simulator is not Simulator.ROD for setting in settings):
+        if any(setting.contender is not Contender.ROD for setting in settings):
             open_template(TEMPLATE)
         warm_up(settings, bench_scenes(1, _WARM_UP_CABLES, seed)[0])
     books: dict[Setting, Textbook] = {}

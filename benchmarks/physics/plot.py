@@ -7,16 +7,16 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.lines import Line2D
 
+from benchmarks.physics.contenders import Contender
 from benchmarks.physics.rows import Row, is_rod_default
 from benchmarks.physics.settings import COMPARED_COUNT, COUNTS
-from farm.spec.simulation import Simulator
 
 mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first
 from matplotlib.axes import Axes
 
-_MARKS = {Simulator.ROD: "o", Simulator.CLOTH: "s", Simulator.CLOTH_PUBLISHED: "^"}
-_LABELS = {Simulator.ROD: (60, 36), Simulator.CLOTH: (45, 42), Simulator.CLOTH_PUBLISHED: (0, -36)}
+_MARKS = {Contender.ROD: "o", Contender.CLOTH: "s", Contender.CLOTH_PUBLISHED: "^"}
+_LABELS = {Contender.ROD: (60, 36), Contender.CLOTH: (45, 42), Contender.CLOTH_PUBLISHED: (0, -36)}
 """Where a default's label stands from its mark, in points: where no other marks are."""
 
 _COLOURS = dict(zip(COUNTS, mpl.colormaps["viridis"](np.linspace(0.9, 0.0, len(COUNTS))), strict=True))
@@ -39,7 +39,7 @@ def _draw_settings(axes: Axes, rows: Sequence[Row]) -> None:
         axes.plot(
             row.cpu_s,
             min(row.error, _BEYOND),
-            _MARKS[row.setting.simulator],
+            _MARKS[row.setting.contender],
             color=_COLOURS[row.cables],
             markeredgecolor="black" if default else "white",
             markeredgewidth=1.6 if default else 0.5,
@@ -48,9 +48,9 @@ def _draw_settings(axes: Axes, rows: Sequence[Row]) -> None:
         )
         if default and row.cables == COMPARED_COUNT:
             axes.annotate(
-                f"{row.setting.simulator}\n{row.setting.name}",
+                f"{row.setting.contender}\n{row.setting.name}",
                 (row.cpu_s, min(row.error, _BEYOND)),
-                xytext=_LABELS[row.setting.simulator],
+                xytext=_LABELS[row.setting.contender],
                 textcoords="offset points",
                 ha="center",
                 va="center",
@@ -71,8 +71,8 @@ def _draw_settings(axes: Axes, rows: Sequence[Row]) -> None:
 
 
 def _legend(rows: Sequence[Row]) -> list[Line2D]:
-    simulators = [each for each in _MARKS if any(row.setting.simulator is each for row in rows)]
-    shapes = [Line2D([], [], marker=_MARKS[each], color="0.5", linestyle="", label=each.value) for each in simulators]
+    contenders = [each for each in _MARKS if any(row.setting.contender is each for row in rows)]
+    shapes = [Line2D([], [], marker=_MARKS[each], color="0.5", linestyle="", label=each.value) for each in contenders]
     counts = [count for count in COUNTS if any(row.cables == count for row in rows)]
     names = [f"{count} cable{'s' if count > 1 else ''}" for count in counts]
     colours = [

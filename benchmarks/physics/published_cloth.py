@@ -23,7 +23,7 @@ from farm.scene.cable import Cable
 from farm.scene.scene import Scene
 from farm.spec.simulation import ClothFall
 from worker.curves import Points
-from worker.simulate.cloth.joined import set_wind, start_line
+from worker.simulate.cloth.fall import set_wind, start_line
 from worker.simulate.cloth.scale import FallScale
 from worker.simulate.cloth.stage import modifier, read_vertices, set_frames, temporary_scene
 from worker.simulate.cloth.strip import ladder, ladder_faces

@@ -12,9 +12,9 @@ from pathlib import Path
 from rich import box
 from rich.table import Table
 
+from benchmarks.physics.contenders import Contender
 from benchmarks.physics.rows import Row, best, closest, growth, is_rod_default, time_ratio
 from benchmarks.physics.settings import COMPARED_COUNT, CROWDS
-from farm.spec.simulation import Simulator
 from worker.simulate.checks.measure import Gate
 
 _PROCESSORS = Path("/proc/cpuinfo")
@@ -69,39 +69,39 @@ def textbook_table(rows: Iterable[Row]) -> Table:
 
 
 def conclusions(rows: Sequence[Row]) -> Iterator[str]:
-    """Which setting is best for each simulator, how the rods compare with the cloth, and how their cost grows."""
+    """Which setting is best for each contender, how the rods compare with the cloth, and how their cost grows."""
     yield (
         "error: the worst of gates 1, 2 and 5 over the rods' targets. off, never: scenes that miss a target of gates "
         "1 to 4, that break a bound. a s: for a simulated second. Bold: the defaults. The published cloth drops eight "
         "cables whatever it shows."
     )
     compared = [row for row in rows if row.cables == COMPARED_COUNT]
-    for simulator in Simulator:
-        those = [row for row in compared if row.setting.simulator is simulator]
+    for contender in Contender:
+        those = [row for row in compared if row.setting.contender is contender]
         if those:
-            yield f"{simulator}, {COMPARED_COUNT} cables: {_verdict(those, simulator)}"
+            yield f"{contender}, {COMPARED_COUNT} cables: {_verdict(those, contender)}"
     yield from _ratios(compared)
     yield from _growth({row.cables: row for row in rows if is_rod_default(row)})
 
 
-def _verdict(rows: Sequence[Row], simulator: Simulator) -> str:
-    strict = best(rows, Simulator.ROD)
+def _verdict(rows: Sequence[Row], contender: Contender) -> str:
+    strict = best(rows, Contender.ROD)
     if strict:
         return f"fastest that meets all targets is {_summary(strict)}"
     text = f"none meets all targets of the rods; the least error has {_summary(closest(rows))}"
-    own = best(rows, simulator)
+    own = best(rows, contender)
     return f"{text}; the fastest that meets the cloth's own is {_summary(own)}" if own else text
 
 
 def _ratios(rows: Sequence[Row]) -> Iterator[str]:
     rod = next((row for row in rows if is_rod_default(row)), None)
-    cloths = [row for row in rows if row.setting.simulator is Simulator.CLOTH]
+    cloths = [row for row in rows if row.setting.contender is Contender.CLOTH]
     if rod is None or not cloths:
         return
     rivals = {
         "default": next((row for row in cloths if row.setting.is_default), None),
-        "fastest within its own targets": best(cloths, Simulator.CLOTH),
-        "least error": best(cloths, Simulator.ROD) or closest(cloths),
+        "fastest within its own targets": best(cloths, Contender.CLOTH),
+        "least error": best(cloths, Contender.ROD) or closest(cloths),
     }
     for name, cloth in rivals.items():
         if cloth:
@@ -158,7 +158,7 @@ def machine() -> dict[str, object]:
 
 def _plain(row: Row) -> dict[str, object]:
     return {
-        "simulator": row.setting.simulator.value,
+        "simulator": row.setting.contender.value,
         "setting": row.setting.name,
         "fall": row.setting.fall.model_dump(mode="json"),
         "is_default": row.setting.is_default,
@@ -168,8 +168,8 @@ def _plain(row: Row) -> dict[str, object]:
         "simulated_s": row.fall_s,
         "cpu_s_per_simulated_s": row.cost,
         "error_over_target": _finite(row.error),
-        "meets_rod_targets": row.meets(Simulator.ROD),
-        "meets_own_targets": row.meets(row.setting.simulator),
+        "meets_rod_targets": row.meets(Contender.ROD),
+        "meets_own_targets": row.meets(row.setting.contender),
         "scenes_off_target": row.off_target,
         "scenes_never_allowed": row.broken,
         "worst": {gate.name.lower(): _finite(figure) for gate, figure in row.worst.items()},
@@ -194,7 +194,7 @@ def _finite(figure: float | None) -> float | None:
 
 
 def _name(row: Row) -> str:
-    name = f"{row.setting.simulator} {row.setting.name}"
+    name = f"{row.setting.contender} {row.setting.name}"
     return f"[bold]{name}[/bold]" if row.setting.is_default else name
 
 

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from benchmarks.physics.contenders import Contender
 from benchmarks.physics.gates import CantileverError
 from benchmarks.physics.settings import Setting
 from farm.dataset.manifest import SettleFigures
 from farm.errors import VerificationError
-from farm.spec.simulation import Simulator
 from worker.simulate.checks.measure import Gate, settled_figures
 
 SCENE_GATES = (
@@ -129,10 +129,11 @@ class Row:
         """Scenes with a figure that gates 1 to 4 never allow."""
         return sum(any(gate.is_broken_by(x) for gate, x in fall.gates.items()) for fall in self.falls)
 
-    def meets(self, simulator: Simulator) -> bool:
-        """Whether every scene and cantilever meets every target that `simulator` has in gates 1 to 5."""
-        scenes = (gate.on_target(x, simulator) for fall in self.falls for gate, x in fall.gates.items())
-        return all(scenes) and all(each.gate.on_target(each.error, simulator) for each in self.textbook.cantilevers)
+    def meets(self, contender: Contender) -> bool:
+        """Whether every scene and cantilever meets every target that `contender` has in gates 1 to 5."""
+        granted = contender.grants
+        scenes = (gate.on_target(x, granted) for fall in self.falls for gate, x in fall.gates.items())
+        return all(scenes) and all(each.gate.on_target(each.error, granted) for each in self.textbook.cantilevers)
 
     @property
     def breaches(self) -> list[str]:
@@ -147,8 +148,8 @@ def over_target(gate: Gate, figure: float) -> float:
     return abs(figure) / gate.value.target if np.isfinite(figure) else np.inf
 
 
-def best(rows: Iterable[Row], targets: Simulator) -> Row | None:
-    """The fastest of the rows that meet all targets of one simulator's column, None if none does."""
+def best(rows: Iterable[Row], targets: Contender) -> Row | None:
+    """The fastest of the rows that meet all targets of one contender, None if none does."""
     return min((row for row in rows if row.meets(targets)), key=lambda row: row.cpu_s, default=None)
 
 
@@ -170,7 +171,7 @@ def growth(few: Row, many: Row) -> float:
 
 def is_rod_default(row: Row) -> bool:
     """Whether the row is of the rod solver as the farm has it."""
-    return row.setting.simulator is Simulator.ROD and row.setting.is_default
+    return row.setting.contender is Contender.ROD and row.setting.is_default
 
 
 def verify_default(rows: Iterable[Row]) -> None:

@@ -1,8 +1,9 @@
-"""Which settings of which simulator are compared, and on how many cables."""
+"""Which settings of which contender are compared, and on how many cables."""
 
 from dataclasses import dataclass
 
-from farm.spec.simulation import ClothFall, Fall, RodFall, Simulator
+from benchmarks.physics.contenders import Contender
+from farm.spec.simulation import ClothFall, Fall, RodFall
 
 COUNTS = (1, 2, 4, 8)
 """Numbers of cables that a picture may show."""
@@ -18,6 +19,7 @@ PUBLISHED_COUNTS = (4, 8)
 tangle, and one fall takes up to 100 s."""
 
 DEFAULT_SCENES = 6
+"""Scenes that every setting plays, unless told otherwise."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,13 +27,15 @@ class Setting:
     """One row of the comparison.
 
     Attributes:
-        name: what is set, in a few characters; unique for its simulator.
+        contender: what lets the cables fall.
+        name: what is set, in a few characters; unique for its contender.
+        fall: the settings of all simulators, of which the contender takes its own.
         is_default: whether the farm takes it unless told otherwise.
-        most_scenes: a slow one is played on the first so many scenes only.
+        most_scenes: number of scenes, the first ones, to which a slow setting is limited.
         counts: numbers of cables.
     """
 
-    simulator: Simulator
+    contender: Contender
     name: str
     fall: Fall
     is_default: bool = False
@@ -52,7 +56,7 @@ def cloth_settings() -> tuple[Setting, ...]:
     """Qualities of the joined cloth, then the published set-up at Blender's."""
     pairs = [(5, 4), (5, 8), (10, 4), (10, 8), (20, 4), (20, 8), (40, 8)]
     published = Setting(
-        simulator=Simulator.CLOTH_PUBLISHED,
+        contender=Contender.CLOTH_PUBLISHED,
         name="q 5",
         fall=Fall(cloth=ClothFall(quality=5)),
         is_default=True,
@@ -63,13 +67,13 @@ def cloth_settings() -> tuple[Setting, ...]:
 
 
 def all_settings() -> tuple[Setting, ...]:
-    """Of all simulators."""
+    """The settings of all contenders."""
     return rod_settings() + cloth_settings()
 
 
 def _rod(fall: RodFall, default: RodFall) -> Setting:
     return Setting(
-        simulator=Simulator.ROD,
+        contender=Contender.ROD,
         name=f"{fall.steps_per_s}/s {fall.segment_radii:g}r",
         fall=Fall(rod=fall),
         is_default=fall == default,
@@ -80,7 +84,7 @@ def _rod(fall: RodFall, default: RodFall) -> Setting:
 def _cloth(quality: int, collision_quality: int) -> Setting:
     fall = ClothFall(quality=quality, collision_quality=collision_quality)
     return Setting(
-        simulator=Simulator.CLOTH,
+        contender=Contender.CLOTH,
         name=f"q {quality} c {collision_quality}",
         fall=Fall(cloth=fall),
         is_default=fall == ClothFall(),

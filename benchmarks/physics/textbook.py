@@ -8,12 +8,14 @@ import numpy as np
 
 from benchmarks.physics import published_cloth as published
 from benchmarks.physics.cloth_experiments import cloth_cantilever, cloth_crossing
+from benchmarks.physics.contenders import Contender
 from benchmarks.physics.gates import CantileverError, CrossingError, cantilever_error, crossing_error
 from benchmarks.physics.ridge import RidgeCrossing
 from benchmarks.physics.rows import Textbook
 from benchmarks.physics.settings import Setting
 from farm.errors import SceneError
-from farm.spec.simulation import ClothFall, RodFall, Simulator
+from farm.scene.physics import GRAVITY_M_S2
+from farm.spec.simulation import ClothFall, RodFall
 from worker.simulate.cloth import material, scale
 from worker.simulate.rod.model import Rod, Surroundings
 from worker.simulate.rod.simulation import DivergedError, RodSimulation
@@ -23,8 +25,7 @@ SLENDERNESS = (1.0, 10.0, 100.0, 1000.0)
 _RADIUS_M = 0.001
 _MODULUS_PA = 1e7
 _DENSITY_KG_M3 = 1500.0
-_GRAVITY_M_S2 = 9.81
-_STIFFNESS_OVER_WEIGHT_M3 = _MODULUS_PA * _RADIUS_M**2 / (4 * _DENSITY_KG_M3 * _GRAVITY_M_S2)
+_STIFFNESS_OVER_WEIGHT_M3 = _MODULUS_PA * _RADIUS_M**2 / (4 * _DENSITY_KG_M3 * GRAVITY_M_S2)
 
 _LEAST_SEGMENTS = 4
 
@@ -41,19 +42,19 @@ _HALF_LENGTHS = 2.2
 """Of the cable over a ridge on either side, in lift-off lengths."""
 _REFERENCE = RidgeCrossing(
     bending_stiffness_n_m2=_MODULUS_PA * np.pi * _RADIUS_M**4 / 4,
-    weight_per_length_n_m=_DENSITY_KG_M3 * np.pi * _RADIUS_M**2 * _GRAVITY_M_S2,
+    weight_per_length_n_m=_DENSITY_KG_M3 * np.pi * _RADIUS_M**2 * GRAVITY_M_S2,
     lift_m=2 * _RADIUS_M,
 )
 
 
 def textbook(setting: Setting) -> Textbook:
     """Gates 5 and 6; of a cloth's crossing the reaction can't be read, and the published one has no crossing."""
-    match setting.simulator:
-        case Simulator.ROD:
+    match setting.contender:
+        case Contender.ROD:
             return _of_rods(setting.fall.rod)
-        case Simulator.CLOTH:
+        case Contender.CLOTH:
             return Textbook(_of_cloth(setting.fall.cloth, is_published=False), _cloth_lift_off(setting.fall.cloth))
-        case Simulator.CLOTH_PUBLISHED:
+        case Contender.CLOTH_PUBLISHED:
             return Textbook(_of_cloth(setting.fall.cloth, is_published=True))
 
 
@@ -83,7 +84,7 @@ def _rod_cantilever(slenderness: float, fall: RodFall) -> CantileverError:
     rod = Rod(
         nodes_m=nodes,
         radius_m=_RADIUS_M,
-        youngs_modulus_pa=4 * _DENSITY_KG_M3 * _GRAVITY_M_S2 * length**3 / (slenderness * _RADIUS_M**2),
+        youngs_modulus_pa=4 * _DENSITY_KG_M3 * GRAVITY_M_S2 * length**3 / (slenderness * _RADIUS_M**2),
         density_kg_m3=_DENSITY_KG_M3,
         pinned=np.arange(segments + 1) < 2,
     )
@@ -100,7 +101,7 @@ def _rod_cantilever(slenderness: float, fall: RodFall) -> CantileverError:
     found = cantilever_error(
         simulation.nodes_m(0),
         bending_stiffness_n_m2=rod.bending_stiffness_n_m2,
-        weight_per_length_n_m=rod.mass_per_length_kg_m * _GRAVITY_M_S2,
+        weight_per_length_n_m=rod.mass_per_length_kg_m * GRAVITY_M_S2,
     )
     # The slenderness as measured differs in its last digits, which may be those that choose the gate.
     return CantileverError(slenderness, found.error)

@@ -15,6 +15,7 @@ from benchmarks.render.variants import BASE, Group, Variant, ladder, turns
 from benchmarks.terminal import bench_console, blender_writes_to
 from farm.errors import VerificationError
 from farm.spec.category import Category
+from farm.spec.quality import Preset
 
 DEFAULT_SCENES = 4
 """Scenes of each category that all ladders of samples are rendered on."""
@@ -40,7 +41,8 @@ def run(out: Path, *, seed: int, scenes: int | None, turn_scenes: int | None) ->
     """
     console = bench_console()
     log_file = out / "render.log"
-    header = bench_header(1, seed)
+    # A category that is calibrated for the first time can be rendered as a reference alone.
+    header = bench_header(1, seed, quality=Preset.REFERENCE)
     with blender_writes_to(log_file):
         stage = Stage(header, RESOLUTION)
         settled = list(settle(header, tuple(Category), scenes or DEFAULT_SCENES))

@@ -1,9 +1,10 @@
 """Tables, JSON, the plot and the calibration that come of the rendering benchmark."""
 
 import json
+import math
 import os
 import platform
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from rich.table import Table
 from benchmarks.render.geometry import GeometryRow
 from benchmarks.render.rows import Row, front
 from benchmarks.render.variants import Group
-from farm.spec.category import Category
+from farm.spec.category import Background, Category, Light
 from farm.spec.quality import REFERENCE, CalibratedSettings, Calibration, Preset, budget_of, cheapest
 
 mpl.use("Agg")
@@ -46,24 +47,34 @@ def turns_table(rows: Sequence[Row]) -> Table:
     """What each setting changes of the base: seconds over the base's, and the difference of FLIP and PSNR."""
     table = Table(title="one setting turned: seconds over the base's, FLIP and PSNR against it", box=box.SIMPLE_HEAD)
     table.add_column("setting", no_wrap=True)
-    for name in ("lamp", "HDRI over a floor", "far"):
-        table.add_column(name, justify="right")
+    kinds = _kinds()
+    for kind in kinds:
+        table.add_column(kind, justify="right")
     base = {row.category: row for row in rows if row.variant.name == "base"}
     for name in dict.fromkeys(row.variant.name for row in rows if row.variant.name != "base"):
         those = {row.category: row for row in rows if row.variant.name == name}
-        table.add_row(name, *(_turn(those, base, kinds) for kinds in _KINDS))
+        table.add_row(name, *(_turn(those, base, categories) for categories in kinds.values()))
     return table
 
 
-_KINDS = (
-    (Category.CLOSE_CONCENTRATED, Category.CLOSE_ALIGNED_CONCENTRATED),
-    (Category.CLOSE_DISTRIBUTED, Category.CLOSE_ALIGNED_DISTRIBUTED),
-    (Category.FAR, Category.FAR_ALIGNED),
-)
+_KIND_NAMES = {
+    (Background.FLOOR, Light.CONCENTRATED): "lamp",
+    (Background.FLOOR, Light.DISTRIBUTED): "HDRI over a floor",
+    (Background.HDRI, Light.DISTRIBUTED): "far",
+    (Background.HDRI, Light.CONCENTRATED): "lamp before an HDRI",
+}
 
 
-def _turn(rows: dict[Category, Row], base: dict[Category, Row], kinds: Iterable[Category]) -> str:
-    found = [(rows[kind], base[kind]) for kind in kinds if kind in rows]
+def _kinds() -> Mapping[str, Sequence[Category]]:
+    """Categories that render alike, by what they have in common."""
+    kinds: dict[str, list[Category]] = {}
+    for category in Category:
+        kinds.setdefault(_KIND_NAMES[category.traits.background, category.traits.light], []).append(category)
+    return kinds
+
+
+def _turn(rows: dict[Category, Row], base: dict[Category, Row], categories: Iterable[Category]) -> str:
+    found = [(rows[category], base[category]) for category in categories if category in rows]
     if not found:
         return "-"
     factor = np.mean([row.seconds for row, _ in found]) / np.mean([other.seconds for _, other in found])
@@ -149,14 +160,20 @@ def write_json(path: Path, rows: Sequence[Row], shapes: Sequence[GeometryRow], *
     path.write_text(json.dumps(content, indent=1) + "\n")
 
 
+_PANELS_A_LINE = 3
 _SECONDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 _FLIPS = (0.01, 0.02, 0.03, 0.05, 0.1)
 
 
 def write_plot(path: Path, rows: Sequence[Row]) -> None:
     """Draw FLIP over seconds, a panel a category, with the front as a line and the budget of `standard`."""
-    figure, panels = plt.subplots(2, 3, figsize=(14, 7.5), layout="constrained", sharex=True, sharey=True)
-    for axes, category in zip(panels.flat, Category, strict=True):
+    lines = math.ceil(len(Category) / _PANELS_A_LINE)
+    figure, panels = plt.subplots(
+        lines, _PANELS_A_LINE, figsize=(14, 3.75 * lines), layout="constrained", sharex=True, sharey=True
+    )
+    for axes in panels.flat[len(Category) :]:
+        axes.set_axis_off()
+    for axes, category in zip(panels.flat, Category, strict=False):
         those = [row for row in rows if row.category is category]
         for group, mark in ((Group.SAMPLES, "o"), (Group.UNGUIDED, "^"), (Group.PLAIN, "x"), (Group.ADAPTIVE, "s")):
             found = [row for row in those if row.variant.group is group]

@@ -9,8 +9,9 @@ import numpy as np
 from benchmarks.physics.gates import StressFault, stress_fault
 from benchmarks.physics.passes import PassWatch
 from benchmarks.stress.scenes import Case
-from benchmarks.stress.starts import GRAVITY_M_S2, Setting, set_up
+from benchmarks.stress.starts import Setting, set_up
 from farm.dataset.manifest import SettleFigures
+from farm.scene.physics import GRAVITY_M_S2
 from worker.simulate.checks.measure import Gate, measure, settled_figures
 from worker.simulate.rod.fall import REST_FASTEST_M_S, REST_RMS_M_S, REST_S
 from worker.simulate.rod.simulation import DivergedError, RodSimulation

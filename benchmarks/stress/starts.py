@@ -6,11 +6,11 @@ from itertools import pairwise
 import numpy as np
 
 from benchmarks.stress.scenes import MIN_LENGTH_RADII, SEGMENT_RADII, Case, Start
+from farm.scene.physics import GRAVITY_M_S2
 from worker.simulate.rod.fall import INTERNAL_DAMPING_S, RESISTANCE, curvature_at_rest, segment_m
 from worker.simulate.rod.model import Array, Breeze, Rod, Surroundings
 from worker.simulate.shapes import bent_rod
 
-GRAVITY_M_S2 = 9.81
 SPACING_RADII = 3.0
 """Of stacked cables, as in drawn scenes."""
 BEND_KNOTS = 7

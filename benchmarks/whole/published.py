@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.masks.white_on_black import white_on_black
+from benchmarks.physics.published_cloth import drop_cables
 from benchmarks.render.stage_set import SettledScene, Stage
 from benchmarks.whole.renderings import BLENDER, set_picture
 from benchmarks.whole.rows import STAGES, Shot
@@ -15,12 +16,10 @@ from benchmarks.whole.writing import write_files
 from farm.errors import VerificationError
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
-from farm.spec.simulation import Simulator
 from worker.blender.render import render_picture
 from worker.label.label import label_scene
 from worker.sample.scene import sample_scene
 from worker.simulate.settle import first_accepted
-from worker.simulate.simulate import simulate
 from worker.stopwatch import Stopwatch
 
 LEAST_AGREEMENT = 0.9
@@ -63,7 +62,7 @@ def _settle(header: DatasetHeader, job: Job, watch: Stopwatch) -> SettledScene:
         with watch.stage("randomize"):
             scene = sample_scene(header, job, number)
         with watch.stage("simulate"):
-            return SettledScene(job, scene, simulate(scene, Simulator.CLOTH_PUBLISHED, header.spec.fall))
+            return SettledScene(job, scene, drop_cables(scene, header.spec.fall.cloth))
 
     settled, _ = first_accepted(job, attempt, header.spec.fall.max_attempts)
     return settled

@@ -8,7 +8,7 @@ from assets.scan.hdris import registry, scan_hdris
 from assets.scan.photographs import scan_plates
 from assets.scan.texture_names import TextureRole
 from assets.scan.textures import TextureSet, scan_textures
-from assets.surfaces.catalogue import FLOORS, LIGHT, SURFACES
+from assets.surfaces.catalogue import SURFACES
 from farm.spec.header import BuiltinSurfaceRef, FileRef, FolderSurfaceRef, HdriRef, PlateRef
 from farm.spec.styles import Style
 
@@ -18,10 +18,10 @@ class InstalledAssets:
 
     def builtin_surfaces(self, style: Style) -> Sequence[BuiltinSurfaceRef]:
         """See `AssetSource.builtin_surfaces`."""
-        recipes = FLOORS if style is Style.PUBLISHED else SURFACES
         return [
-            BuiltinSurfaceRef(name=recipe.name, recipe_version=recipe.version, light=recipe.name in LIGHT)
-            for recipe in recipes.values()
+            BuiltinSurfaceRef(name=recipe.name, recipe_version=recipe.version, light=recipe.light)
+            for recipe in SURFACES.values()
+            if recipe.published or style is not Style.PUBLISHED
         ]
 
     def surfaces_in(self, folder: Path) -> Sequence[FolderSurfaceRef]:

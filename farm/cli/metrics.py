@@ -89,7 +89,7 @@ class _Datasets:
         for run in RedisRegistry(self._client).runs().values() if self._store is not None else ():
             if run.key not in known:
                 # A dataset of another store is another's to show.
-                with suppress(DestinationError, ConflictError):
+                with suppress(DestinationError, ConflictError, SpecError):
                     dataset = open_dataset(Destination(self._store or "", run.dataset))
                     if dataset.header.spec_sha256 == run.spec_sha256:
                         self._add(dataset)

@@ -8,9 +8,10 @@ from pathlib import Path
 from pydantic import TypeAdapter, ValidationError
 
 from farm.dataset.paths import HEADER_FILE
-from farm.errors import ConflictError, DatasetMissingError, DestinationError, MessageError, StaleMessageError
+from farm.errors import ConflictError, DatasetMissingError, DestinationError, MessageError, SpecError, StaleMessageError
 from farm.spec.header import DatasetHeader
 from farm.spec.job import DatasetName, Job, JobMessage
+from farm.spec.simulation import WITHDRAWN_FAULT
 from farm.storage import Storage, open_storage, refuse_credentials
 
 _NAME: TypeAdapter[str] = TypeAdapter(DatasetName)
@@ -43,7 +44,7 @@ class Dataset:
 
     def asks_for(self, job: Job) -> bool:
         """Whether the job is within the quotas."""
-        return job.index < self.header.spec.quotas[job.category]
+        return job.index < self.header.spec.quotas.get(job.category, 0)
 
 
 def parse_destination(out: str) -> Destination:
@@ -83,6 +84,7 @@ def open_dataset(destination: Destination) -> Dataset:
         DatasetMissingError: if there is none.
         DestinationError: if its header can't be read.
         ConflictError: if its header is damaged or of another version of the farm.
+        SpecError: if its header names a simulator that the farm no longer offers.
     """
     storage = open_storage(destination.location)
     try:
@@ -160,6 +162,10 @@ def _read_header(storage: Storage) -> DatasetHeader:
     except ValidationError as error:
         first = error.errors(include_url=False, include_context=False, include_input=False)[0]
         where = ".".join(str(part) for part in first["loc"])
+        if first["type"] == WITHDRAWN_FAULT:
+            raise SpecError(
+                f"{storage.location}/{HEADER_FILE}: {where}: {first['msg']}, in a dataset in another --out"
+            ) from error
         raise ConflictError(
             f"{storage.location}/{HEADER_FILE}: not readable by this version of the farm: {where}: {first['msg']}; "
             "choose another --out"

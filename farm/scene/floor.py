@@ -6,6 +6,9 @@ from pydantic import Field
 
 from farm.model import Model
 
+FLOOR_REACH_M = 0.6
+"""Distance from the middle of the template's floor to its nearest edge: what no camera may look beyond."""
+
 
 class JointFill(Model):
     """What fills a floor's joints, or has gathered in them: grout, sand, dirt, sealant.

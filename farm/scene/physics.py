@@ -6,6 +6,9 @@ from pydantic import Field
 
 from farm.model import Model
 
+GRAVITY_M_S2 = 9.81
+"""The acceleration of gravity with which every cable falls."""
+
 
 class Gust(Model):
     """One swing of the wind's speed: `share` of the mean, as a sine of the given period and phase."""

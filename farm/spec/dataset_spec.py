@@ -11,7 +11,7 @@ from farm.spec.category import Category
 from farm.spec.job import Job
 from farm.spec.quality import Preset, Quality, settings_for
 from farm.spec.ranges.all import Ranges
-from farm.spec.simulation import Fall, Simulator
+from farm.spec.simulation import AskedSimulator, Fall, Simulator
 from farm.spec.styles import Style
 
 Quota = Annotated[int, Field(ge=0, le=10**7)]
@@ -30,7 +30,7 @@ class Engine(StrEnum):
 class DatasetSpec(Model):
     """A dataset: how many images of which category, from which seed, made how.
 
-    `quotas` holds all six categories; `parse_spec` fills it in from a total, and `ranges` from the style.
+    `parse_spec` fills in `quotas`, with every category, from a total, and `ranges` from the style.
     """
 
     version: Literal[1] = 1
@@ -41,7 +41,7 @@ class DatasetSpec(Model):
     quality: Quality = Preset.STANDARD
     close_distributed_hdri: str | None = None
     style: Style = Style.PUBLISHED
-    simulator: Simulator = Simulator.ROD
+    simulator: AskedSimulator = Simulator.ROD
     fall: Fall = Fall()
     ranges: Ranges = Ranges()
 

@@ -3,16 +3,17 @@
 import hashlib
 import importlib.util
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
 from farm import __version__
 from farm.errors import AssetError, SpecError, TemplateError
+from farm.spec.category import Category
 from farm.spec.dataset_spec import DatasetSpec, Engine
 from farm.spec.header import DatasetHeader, HdriRef, PlateRef, SurfaceRef, TemplateRef
-from farm.spec.quality import settings_for
+from farm.spec.quality import ChosenSettings, settings_for
 from farm.spec.styles import Style
 
 # A .blend file is plain, or compressed by Zstandard or (older ones) gzip.
@@ -24,7 +25,7 @@ class Inputs:
     """What a dataset takes from outside, as named by the user.
 
     Attributes:
-        template: None for the one that comes with the farm.
+        template: the template's file; None for the one that comes with the farm.
         textures: folders of PBR textures.
         hdris: folders of .hdr and .exr files.
         backgrounds: folders of photographs.
@@ -76,7 +77,7 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
     Raises:
         AssetError: if a texture, HDRI or photograph is unreadable, two have one name, or no surface or HDRI is left.
         TemplateError: if the template is not readable or no .blend file.
-        SpecError: if the description names an HDRI that is not there.
+        SpecError: if the description names an HDRI that is not there, or a category can't be rendered so well.
     """
     surfaces = list(assets.builtin_surfaces(spec.style)) if inputs.builtin_textures else []
     for folder in inputs.textures:
@@ -101,10 +102,20 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
         surfaces=tuple(surfaces),
         hdris=tuple(hdris),
         plates=tuple(plates),
-        rendering={category: settings_for(spec.quality, category) for category in spec.quotas}
-        if spec.engine is Engine.CYCLES
-        else {},
+        rendering=_rendering(spec) if spec.engine is Engine.CYCLES else {},
     )
+
+
+def _rendering(spec: DatasetSpec) -> Mapping[Category, ChosenSettings]:
+    """The settings of every category, but for those that make no picture and can't be rendered so well."""
+    chosen: dict[Category, ChosenSettings] = {}
+    for category, quota in spec.quotas.items():
+        try:
+            chosen[category] = settings_for(spec.quality, category)
+        except ValueError as error:
+            if quota:
+                raise SpecError(str(error)) from error
+    return chosen
 
 
 def _check_names(kind: str, flag: str, names: list[str]) -> None:

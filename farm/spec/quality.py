@@ -29,6 +29,7 @@ class Preset(StrEnum):
 
 
 MOST_FLIP = 0.5
+"""The greatest mean FLIP that can be asked for: beyond it a picture is hardly one of its scene."""
 
 
 def _check_quality(value: object) -> str | float:
@@ -47,10 +48,10 @@ class Budget(Model):
     """What a picture must keep to.
 
     Attributes:
-        flip: mean FLIP, at most.
-        psnr_db: peak signal over noise, at least.
-        samples: a pixel, at least. With fewer, cables are ragged or smeared, which a mean over a picture that is mostly
-            something else does not tell.
+        flip: the greatest mean FLIP.
+        psnr_db: the least peak signal over noise.
+        samples: the least number of samples a pixel. With fewer, cables are ragged or smeared, which a mean over a
+            picture that is mostly something else does not tell.
     """
 
     flip: float
@@ -62,9 +63,10 @@ class CalibratedSettings(Model):
     """Settings, and what they were measured to cost and to miss over a category's calibration scenes.
 
     Attributes:
-        seconds: of realizing and rendering, on the machine of the calibration; only good to compare.
-        flip: mean over scenes of the mean FLIP.
-        psnr_db: mean over scenes.
+        settings: what is set.
+        seconds: time to build and render a scene on the machine of the calibration; good only to compare.
+        flip: mean FLIP of a picture, mean over the scenes.
+        psnr_db: peak signal over noise, mean over the scenes.
     """
 
     settings: PictureSettings
@@ -77,9 +79,11 @@ class Calibration(Model):
     """What comes with the farm: per category, settings of which none is both faster and better than another.
 
     Attributes:
+        version: version of this format.
         measured_on: the machine, in words.
-        samples: Cycles samples a pixel of the references.
-        scenes: of each category.
+        samples: samples a pixel of the references.
+        scenes: number of scenes of each category.
+        categories: the settings by category; one without any is rendered as a reference alone.
     """
 
     version: int
@@ -90,16 +94,23 @@ class Calibration(Model):
 
 
 class ChosenSettings(Model):
-    """Settings of a picture, and the error to expect; None where they are the reference themselves."""
+    """Settings of a picture.
+
+    Attributes:
+        settings: what is set.
+        expected_flip: the mean FLIP to expect; None where the settings are the reference's.
+    """
 
     settings: PictureSettings
     expected_flip: float | None
 
 
 STANDARD_SAMPLES = 6
+"""The least samples a pixel where a floor is rendered behind the cables."""
 
 BACKDROP_SAMPLES = 4
-"""Where cables are laid over a backdrop, as how much of a pixel they cover is exact with any number of samples."""
+"""The least samples a pixel where cables are laid over a backdrop: how much of a pixel they cover is exact with any
+number."""
 
 REFERENCE = PictureSettings(
     cycles=CyclesSettings(
@@ -158,11 +169,17 @@ def settings_for(quality: Quality, category: Category) -> ChosenSettings:
     """The settings that a quality means for a category.
 
     Raises:
-        ValueError: if no calibrated settings keep to the budget; the text names the least that can be asked for.
+        ValueError: if the category has no calibrated settings, or none of them keeps to the budget; the text says what
+            to run, or the least that can be asked for.
     """
     if quality is Preset.REFERENCE:
         return ChosenSettings(settings=REFERENCE, expected_flip=None)
-    rows = calibration().categories[category]
+    rows = calibration().categories.get(category, ())
+    if not rows:
+        raise ValueError(
+            f"quality {quality}: no settings are calibrated for {category}; run `make bench-render` and copy the "
+            f"category's settings from results/calibration.json to {CALIBRATION.name}, or ask for 'reference'"
+        )
     found = cheapest(rows, budget_of(quality, category))
     if found is None:
         least = min(row.flip for row in rows)

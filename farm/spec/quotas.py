@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from farm.spec.category import Category
 
 PUBLISHED_WEIGHTS: Mapping[Category, int] = {category: category.traits.weight for category in Category}
-"""The published shares, 2:2:1:1:2:2."""
+"""The published shares, 2:2:1:1:2:2; a category that the publication has not gets nothing of a total."""
 
 
 def split_total(total: int, weights: Mapping[Category, int] = PUBLISHED_WEIGHTS) -> dict[Category, int]:

@@ -1,23 +1,45 @@
-"""How the cables fall: which simulator, at which settings. More accuracy costs time; the defaults pass every gate."""
+"""How the cables fall: which simulator, at which settings. More accuracy costs time; the defaults pass every gate.
+
+A simulator is a member of `Simulator`, a model of its settings, and a field of `Fall` that bears the simulator's name.
+What lets the cables fall is the folder of `worker/simulate` that bears this name, too.
+"""
 
 from enum import StrEnum
+from types import MappingProxyType
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field
+from pydantic_core import PydanticCustomError
 
 from farm.model import Model
 
 
 class Simulator(StrEnum):
-    """What lets the cables fall.
-
-    `ROD` is the farm's own rod solver; `CLOTH` is Blender's cloth, in one joined mesh; `CLOTH_PUBLISHED` is the
-    published set-up of eight cloth objects over 100 frames, for comparison only: nothing warrants that it repeats.
-    """
+    """What lets the cables fall: the farm's own rod solver, or Blender's cloth in one joined mesh."""
 
     ROD = "rod"
     CLOTH = "cloth"
-    CLOTH_PUBLISHED = "cloth-published"
+
+
+WITHDRAWN = MappingProxyType({"cloth-published": "nothing warrants that it repeats; ask for 'rod' or 'cloth'"})
+"""Simulators that the farm no longer offers: why, and what to ask for instead."""
+
+WITHDRAWN_FAULT = "withdrawn_simulator"
+"""Type of the validation error that such a name raises."""
+
+
+def _refuse_withdrawn(value: object) -> object:
+    if isinstance(value, str) and value in WITHDRAWN:
+        raise PydanticCustomError(
+            WITHDRAWN_FAULT,
+            "'{name}' is no longer offered, as {reason}",
+            {"name": value, "reason": WITHDRAWN[value]},
+        )
+    return value
+
+
+AskedSimulator = Annotated[Simulator, BeforeValidator(_refuse_withdrawn)]
+"""A simulator in a description; one that was withdrawn is refused by its name."""
 
 
 class RodFall(Model):
@@ -26,7 +48,7 @@ class RodFall(Model):
     Attributes:
         steps_per_s: time steps per second of the fall.
         segment_radii: length of a segment over the cable's radius.
-        max_time_s: a fall that has not come to rest by then is captured as it is, and fails its gate.
+        max_time_s: seconds after which a fall that has not come to rest is captured as it is, and fails its gate.
     """
 
     steps_per_s: Annotated[int, Field(ge=100, le=100_000)] = 1000
@@ -35,7 +57,13 @@ class RodFall(Model):
 
 
 class ClothFall(Model):
-    """Settings of Blender's cloth: frames, and solver steps a frame for the cloth and for its collisions."""
+    """Settings of Blender's cloth.
+
+    Attributes:
+        max_frames: frames after which a fall that has not come to rest is captured as it is, and fails its gate.
+        quality: the solver's steps in a frame.
+        collision_quality: the solver's steps in a frame for collisions.
+    """
 
     max_frames: Annotated[int, Field(ge=10, le=2000)] = 250
     quality: Annotated[int, Field(ge=1, le=80)] = 10
@@ -43,8 +71,17 @@ class ClothFall(Model):
 
 
 class Fall(Model):
-    """Settings of every simulator, and how often a scene that fails a gate is drawn again."""
+    """Settings of every simulator, each under the simulator's name.
+
+    Attributes:
+        max_attempts: scenes that may be drawn for one picture, until one passes every gate.
+    """
 
     max_attempts: Annotated[int, Field(ge=1, le=50)] = 8
     rod: RodFall = RodFall()
     cloth: ClothFall = ClothFall()
+
+    def settings_of(self, simulator: Simulator) -> Model:
+        """The settings of one simulator."""
+        settings: Model = getattr(self, simulator.value)
+        return settings

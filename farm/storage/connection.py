@@ -1,8 +1,8 @@
 """fsspec's filesystems: one for each place and process.
 
 Such a filesystem has a thread with an event loop, and open sockets. None of them survives a fork: the child would wait
-for a thread that is not there, and talk on its parent's sockets. So nobody keeps a filesystem; who needs it asks here
-at each use. Before a fork all are closed, and parent and child each open their own when they next need one.
+for a thread that is not there, and talk on its parent's sockets. So nobody keeps a filesystem: whatever needs one asks
+here at each use. Before a fork all are closed, and parent and child each open their own when they next need one.
 """
 
 import gc
@@ -12,8 +12,7 @@ from typing import Any
 
 import fsspec
 
-_S3_ROUNDS = 2
-"""How often s3fs repeats a request that hung; the AWS client's own attempts, AWS_MAX_ATTEMPTS, are within each."""
+from farm.storage.services import service_of
 
 
 @lru_cache(maxsize=16)
@@ -27,14 +26,10 @@ def connect(url: str) -> tuple[Any, str]:
         ValueError: if the protocol is unknown.
     """
     filesystem, root = fsspec.core.url_to_fs(url, use_listings_cache=False, skip_instance_cache=True)
-    if is_s3(url):
-        filesystem.retries = _S3_ROUNDS
+    retries = service_of(url).retries
+    if retries is not None:
+        filesystem.retries = retries
     return filesystem, root.rstrip("/")
-
-
-def is_s3(url: str) -> bool:
-    """Whether the URL is that of a bucket of an S3-compatible store."""
-    return url.startswith(("s3://", "s3a://"))
 
 
 def _close_all() -> None:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from farm.errors import DestinationError, FarmError
-from farm.storage.connection import is_s3
+from farm.storage.services import service_of
 
 _USER_IN_URL = re.compile(r"//[^/\s@]*@")
 
@@ -19,7 +19,7 @@ def as_destination_error(action: str, place: str) -> Iterator[None]:
     """Tell any failure inside `with` as the farm's, without credentials.
 
     Args:
-        action: what is tried, as in "can't read".
+        action: the verb of what is tried, as in "can't read".
         place: URL of the object or folder.
 
     Raises:
@@ -52,10 +52,13 @@ def _reason(error: Exception) -> str:
 
 
 def _advice(error: Exception, place: str) -> str:
+    service = service_of(place)
     if _lacks_bucket(error):
         return "make it, or check its name"
     if isinstance(error, PermissionError) or "Credentials" in type(error).__name__:
-        names = " (AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY, or AWS_PROFILE)" if is_s3(place) else ""
-        return f"check the credentials{names} and the bucket's rights"
-    names = " (AWS_ENDPOINT_URL)" if is_s3(place) else ""
-    return f"check the store's address{names}, and that it runs and can be reached"
+        return f"check the credentials{_in_brackets(service.credentials)} and the bucket's rights"
+    return f"check the store's address{_in_brackets(service.address)}, and that it runs and can be reached"
+
+
+def _in_brackets(names: str) -> str:
+    return f" ({names})" if names else ""

@@ -1,17 +1,19 @@
 """From a path or URL to the storage there."""
 
 import re
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from farm.errors import DestinationError, MachineError
-from farm.storage.connection import is_s3
 from farm.storage.faults import as_destination_error
 from farm.storage.local import LocalStorage
 from farm.storage.objects import ObjectStorage
 from farm.storage.port import Storage
+from farm.storage.services import SERVICES, service_of
 
-# A name, a colon and a password before an @; the password may hold slashes. A port is none, nor is Amazon's `arn:`.
 _USER = re.compile(r"(?!arn:)[^/:@]*:(?!\d+/)[^@]*@")
+"""A name, a colon and a password before an @; the password may hold slashes. A port is none, nor is Amazon's `arn:`."""
 
 
 def open_storage(location: str) -> Storage:
@@ -21,20 +23,34 @@ def open_storage(location: str) -> Storage:
         MachineError: if the URL's filesystem needs a package that is not installed.
         DestinationError: if the URL's protocol is unknown or refuses, or the URL holds credentials.
     """
-    if "://" not in location:
-        return LocalStorage(Path(location))
-    if location.startswith("file://"):
-        return LocalStorage(Path(location.removeprefix("file://")))
+    scheme, separator, _ = location.partition("://")
+    return _STORES.get(scheme if separator else _PLAIN_PATH, _open_objects)(location)
+
+
+def _open_folder(location: str) -> Storage:
+    return LocalStorage(Path(location.removeprefix("file://")))
+
+
+def _open_objects(location: str) -> Storage:
+    """What fsspec knows by the URL's scheme."""
     refuse_credentials(location)
     protocol = location.partition("://")[0]
     with as_destination_error("open", location):
         try:
             return ObjectStorage(location)
         except ImportError as error:
-            advice = "; run: pip install 'cable-farm[s3]'" if is_s3(location) else ""
+            package = service_of(location).install
+            advice = f"; run: pip install '{package}'" if package else ""
             raise MachineError(f"{protocol}://: {error}{advice}") from error
         except ValueError as error:
             raise DestinationError(f"{protocol}://: no such kind of storage; see fsspec's list of protocols") from error
+
+
+_PLAIN_PATH = ""
+"""Stands for the scheme of a path, which has none."""
+
+_STORES: Mapping[str, Callable[[str], Storage]] = MappingProxyType({_PLAIN_PATH: _open_folder, "file": _open_folder})
+"""What opens a location, by its URL's scheme; fsspec opens those that are not here."""
 
 
 def refuse_credentials(location: str) -> None:
@@ -44,8 +60,10 @@ def refuse_credentials(location: str) -> None:
         DestinationError: if it holds a password or key; the text does not.
     """
     protocol, _, rest = location.partition("://")
-    if _USER.match(rest) or (is_s3(location) and "@" in rest.partition("/")[0]):
+    if _USER.match(rest) or (service_of(location).at_sign_is_credential and "@" in rest.partition("/")[0]):
+        by_service = {service.title: service.credentials for service in SERVICES.values()}
+        variables = "; ".join(f"for {title}: {names}" for title, names in by_service.items())
         raise DestinationError(
             f"{protocol}://: this URL holds credentials, which would be shown wherever it is; "
-            "give them by the environment instead (for S3: AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY)"
+            f"give them by the environment instead ({variables})"
         )

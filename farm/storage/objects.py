@@ -7,24 +7,14 @@ from datetime import datetime
 from typing import Any
 
 from farm.errors import DestinationError
-from farm.storage.connection import connect, is_s3
+from farm.storage.connection import connect
 from farm.storage.faults import as_destination_error
 from farm.storage.port import StoredFile
-
-_PART_BYTES = 8 * 1024 * 1024
-"""Of an object of at least two of them, each is sent on its own; the store joins them once it has all."""
-
-PUT_PATIENCE_S = 120.0
-"""A put is given up after so long, and the time that its bytes take on the slowest line.
-
-The client has limits of its own for all else. But it may ask whether to send a body before it does, and would wait for
-the answer forever.
-"""
-_SLOWEST_BYTES_S = 50_000.0
+from farm.storage.services import service_of
 
 
 class ObjectStorage:
-    """A folder of any fsspec filesystem: a bucket, or `memory://` for tests. May be kept across a fork."""
+    """A folder of any fsspec filesystem, such as a bucket. May be kept across a fork."""
 
     def __init__(self, url: str) -> None:
         """Nothing is read or written yet.
@@ -36,8 +26,7 @@ class ObjectStorage:
         self._url = url
         filesystem, self._root = connect(url)
         self._location = str(filesystem.unstrip_protocol(self._root))
-        # A get is one request, not two with its size asked first; and it tells a missing object from a missing bucket.
-        self._get_options = {"max_concurrency": 1} if is_s3(url) else {}
+        self._service = service_of(url)
 
     @property
     def location(self) -> str:
@@ -54,24 +43,19 @@ class ObjectStorage:
     def read(self, path: str) -> bytes:
         """The content of an object; see `Storage.read`."""
         with as_destination_error("read", f"{self._location}/{path}"):
-            return bytes(self._filesystem.cat_file(self._full(path), **self._get_options))
+            return bytes(self._filesystem.cat_file(self._full(path), **self._service.get_options))
 
     def write(self, path: str, content: bytes) -> None:
         """Put the object at once, then ask what is there; see `Storage.write`."""
         place = f"{self._location}/{path}"
         try:
             with as_destination_error("write", place):
-                self._filesystem.pipe_file(self._full(path), content, **self._put_options(len(content)))
+                self._filesystem.pipe_file(self._full(path), content, **self._service.put_options(len(content)))
                 if not self._holds(path, content):
                     # It is left there: it may be the good one of another writer of the same file.
                     raise DestinationError(f"{place}: the store holds other than was sent; write it again")
         except FileNotFoundError as error:
             raise DestinationError(f"{place}: can't write: {error}; check the bucket") from error
-
-    def _put_options(self, size: int) -> dict[str, Any]:
-        if not is_s3(self._url):
-            return {}
-        return {"chunksize": _PART_BYTES, "timeout": PUT_PATIENCE_S + size / _SLOWEST_BYTES_S}
 
     def _holds(self, path: str, content: bytes) -> bool:
         info = self._filesystem.info(self._full(path))

@@ -1,11 +1,38 @@
-"""The fall: a drawn scene becomes settled cables, by the simulator that the dataset names."""
+"""The fall: a drawn scene becomes settled cables, by the simulator that the dataset names.
 
-from benchmarks.physics.published_cloth import drop_cables as drop_as_published_cloth
+A simulator is the folder here that bears its name in `farm.spec.simulation.Simulator`. In it the module `fall` lets the
+cables fall (`FallModule`), and the module `grants` says which targets the simulator is granted.
+"""
+
+from collections.abc import Mapping
+from importlib import import_module
+from types import MappingProxyType
+from typing import Any, Protocol, cast
+
 from farm.scene.scene import Scene
 from farm.spec.simulation import Fall, Simulator
-from worker.simulate.cloth.joined import drop_cables as drop_as_joined_cloth
-from worker.simulate.rod.fall import drop_cables as drop_as_rods
 from worker.simulate.shapes import CableShapes
+
+
+class FallModule(Protocol):
+    """What the module `fall` of a simulator's folder holds."""
+
+    def drop_cables(self, scene: Scene, fall: Any) -> CableShapes:
+        """Let the cables of a scene fall until they rest.
+
+        Args:
+            scene: the drawn scene.
+            fall: the simulator's settings, from the field of `Fall` that bears its name.
+
+        Raises:
+            SceneError: if the simulator diverges.
+        """
+        ...
+
+
+_MODULES: Mapping[Simulator, FallModule] = MappingProxyType(
+    {each: cast("FallModule", import_module(f"worker.simulate.{each.value}.fall")) for each in Simulator}
+)
 
 
 def simulate(scene: Scene, simulator: Simulator, fall: Fall) -> CableShapes:
@@ -16,10 +43,4 @@ def simulate(scene: Scene, simulator: Simulator, fall: Fall) -> CableShapes:
     Raises:
         SceneError: if the simulator diverges.
     """
-    match simulator:
-        case Simulator.CLOTH:
-            return drop_as_joined_cloth(scene, fall.cloth)
-        case Simulator.CLOTH_PUBLISHED:
-            return drop_as_published_cloth(scene, fall.cloth)
-        case Simulator.ROD:
-            return drop_as_rods(scene, fall.rod)
+    return _MODULES[simulator].drop_cables(scene, fall.settings_of(simulator))

@@ -112,7 +112,7 @@ def _clouds(rng: np.random.Generator, grid: Grid) -> Field:
 
 
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.CONCRETE, 0.4, draw)
+    SurfaceRecipe(name, SurfaceFamily.CONCRETE, 0.4, draw, published=True)
     for name, draw in (
         ("concrete_smooth", concrete_smooth),
         ("concrete_rough", concrete_rough),

@@ -200,7 +200,7 @@ def _hairs(rng: np.random.Generator, grid: Grid, count: int, width_mm: float, le
 
 
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.FABRIC, size_m, draw)
+    SurfaceRecipe(name, SurfaceFamily.FABRIC, size_m, draw, published=True)
     for name, size_m, draw in (
         ("linen", 0.3, linen),
         ("denim", 0.288, denim),

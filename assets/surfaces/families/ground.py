@@ -158,7 +158,7 @@ def _dry(roughness: Field) -> Field:
 
 
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.GROUND, 0.4, draw)
+    SurfaceRecipe(name, SurfaceFamily.GROUND, 0.4, draw, published=True)
     for name, draw in (
         ("soil", soil),
         ("gravel", gravel),

@@ -141,7 +141,7 @@ def _pencil(rng: np.random.Generator, grid: Grid, count: int) -> Field:
 
 
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.SHEET, 0.4, draw)
+    SurfaceRecipe(name, SurfaceFamily.SHEET, 0.4, draw, light=True)
     for name, draw in (
         ("laminate_white", laminate_white),
         ("laminate_grey", laminate_grey),

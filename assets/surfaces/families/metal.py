@@ -146,7 +146,7 @@ def _rust(rng: np.random.Generator, grid: Grid) -> tuple[Field, Field]:
 
 
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.METAL, 0.4, draw, version=2)
+    SurfaceRecipe(name, SurfaceFamily.METAL, 0.4, draw, version=2, published=True)
     for name, draw in (
         ("brushed_steel", brushed_steel),
         ("rusted_steel", rusted_steel),

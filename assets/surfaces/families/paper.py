@@ -167,7 +167,7 @@ PLAN_M = 700 * CELL_MM / 1000
 """Edge of the plan's tile: a whole number of cells of the lattice on which it is laid out."""
 
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.PAPER, size_m, draw)
+    SurfaceRecipe(name, SurfaceFamily.PAPER, size_m, draw, light=True)
     for name, size_m, draw in (
         ("paper_sheets", 0.4, paper_sheets),
         ("squared_paper", 0.4, squared_paper),

@@ -228,5 +228,5 @@ RECIPES = (
             ("aluminium_profile", aluminium_profile),
         )
     ),
-    SurfaceRecipe("pegboard_white", SurfaceFamily.SHEET, 0.4, pegboard_white, version=2),
+    SurfaceRecipe("pegboard_white", SurfaceFamily.SHEET, 0.4, pegboard_white, version=2, light=True),
 )

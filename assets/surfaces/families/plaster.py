@@ -75,7 +75,7 @@ def stucco(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.PLASTER, 0.4, draw)
+    SurfaceRecipe(name, SurfaceFamily.PLASTER, 0.4, draw, published=True, light=name == "plaster_white")
     for name, draw in (
         ("plaster_white", plaster_white),
         ("plaster_peeling", plaster_peeling),

@@ -203,7 +203,7 @@ def _fibres(rng: np.random.Generator, across_mm: Field, width_mm: float) -> Fiel
 
 
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.SHEET, 0.4, draw)
+    SurfaceRecipe(name, SurfaceFamily.SHEET, 0.4, draw, published=True)
     for name, draw in (
         ("osb_board", osb_board),
         ("particle_board", particle_board),

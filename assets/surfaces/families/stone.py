@@ -161,8 +161,10 @@ def _polished(
     return finish(grid, colour, np.asarray(rough, np.float32), np.asarray(height, np.float32))
 
 
+_LIGHT = ("marble_white", "terrazzo_light")
+
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.STONE, size_m, draw)
+    SurfaceRecipe(name, SurfaceFamily.STONE, size_m, draw, published=True, light=name in _LIGHT)
     for name, size_m, draw in (
         ("granite_grey", 0.4, granite_grey),
         ("granite_red", 0.4, granite_red),

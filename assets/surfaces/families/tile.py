@@ -185,7 +185,7 @@ def _from_labels(labels: Labels, grid: Grid) -> Layout:
 
 
 RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.TILE, 0.4, draw)
+    SurfaceRecipe(name, SurfaceFamily.TILE, 0.4, draw, published=True, light=name == "ceramic_white")
     for name, draw in (
         ("ceramic_white", ceramic_white),
         ("slate_tiles", slate_tiles),

@@ -159,8 +159,8 @@ def _floor(
     return finish(grid, colour, rough, np.asarray(height + (tilt - cup) * bevel, np.float32), to_joint_mm=to_joint_mm)
 
 
-RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.WOOD, 0.4, draw)
+_PUBLISHED = tuple(
+    SurfaceRecipe(name, SurfaceFamily.WOOD, 0.4, draw, published=True, light=name == "birch_veneer")
     for name, draw in (
         ("oak_planks", oak_planks),
         ("walnut_planks", walnut_planks),
@@ -174,8 +174,9 @@ RECIPES = tuple(
     )
 )
 
-WORKPLACE_RECIPES = tuple(
-    SurfaceRecipe(name, SurfaceFamily.WOOD, 0.4, draw)
-    for name, draw in (("oak_chevron", oak_chevron), ("maple_bench", maple_bench), ("beech_bench", beech_bench))
+RECIPES = (
+    *_PUBLISHED,
+    SurfaceRecipe("oak_chevron", SurfaceFamily.WOOD, 0.4, oak_chevron),
+    SurfaceRecipe("maple_bench", SurfaceFamily.WOOD, 0.4, maple_bench, light=True),
+    SurfaceRecipe("beech_bench", SurfaceFamily.WOOD, 0.4, beech_bench, light=True),
 )
-"""Wood that the published set-up has not."""

@@ -7,6 +7,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from farm.model import Model
 from farm.scene.camera import FOCAL_LENGTH_MM, SENSOR_MM
+from farm.scene.floor import FLOOR_REACH_M
 from farm.spec.ranges.types import (
     Fraction,
     FractionRange,
@@ -20,9 +21,6 @@ from farm.spec.ranges.types import (
 )
 
 FNumber = Annotated[float, Field(ge=0.5, le=128)]
-FLOOR_REACH_M = 0.6
-"""From the middle of the template's floor to its nearest edge."""
-
 FocalLength = Annotated[float, Field(ge=10, le=500)]
 Angle = Annotated[float, Field(ge=0, le=30)]
 Distortion = Annotated[float, Field(ge=-0.2, le=0.2)]

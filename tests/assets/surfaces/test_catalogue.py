@@ -1,15 +1,26 @@
+import hashlib
 import re
+import sys
+from importlib import import_module
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 import pytest
 
-from assets.surfaces.catalogue import FLOORS, SURFACES, WORKPLACE
-from assets.surfaces.catalogue import LIGHT as BRIGHT
+from assets.surfaces.catalogue import SURFACES, collect
 from assets.surfaces.recipe import SurfaceFamily, recipe_generator
 from tests.assets.built import PIXELS, built, steps
 
 NAMES = list(SURFACES)
+
+FIRST_OTHERS = (
+    *("oak_chevron", "maple_bench", "beech_bench", "brick_wall", "brick_paving", "circuit_board_green"),
+    *("circuit_board_blue", "keyboard_black", "keyboard_white", "laminate_white", "laminate_grey", "melamine_board"),
+    *("whiteboard", "cutting_mat", "antistatic_mat_blue", "antistatic_mat_green", "foam_mat", "honeycomb_mat"),
+    *("paper_sheets", "squared_paper", "wiring_plan", "perforated_steel", "cable_tray", "bar_grating"),
+    *("aluminium_profile", "pegboard_white"),
+)
 
 
 LIGHT = (
@@ -51,16 +62,38 @@ def test_some_surfaces_are_light_some_dark() -> None:
     assert sum(mean >= 160 for mean in means) >= 8
 
 
-@pytest.mark.parametrize("name", sorted(BRIGHT))
+@pytest.mark.parametrize("name", [name for name, recipe in SURFACES.items() if recipe.light])
 def test_light_surfaces_are_light(name: str) -> None:
     """As a style that prefers them takes for granted."""
     assert built(name).colour.mean() > 165
 
 
-def test_the_published_floors_are_apart_from_the_workplace() -> None:
-    """Together they are all there is."""
-    assert not FLOORS.keys() & WORKPLACE.keys()
-    assert dict(SURFACES) == {**FLOORS, **WORKPLACE}
+def test_the_published_surfaces_are_those_of_every_dataset_so_far() -> None:
+    """66, in the order that the datasets' draws count them in, before all others: told by a checksum of the names."""
+    published = [name for name, recipe in SURFACES.items() if recipe.published]
+    assert published == NAMES[: len(published)]
+    assert hashlib.sha256("\n".join(published).encode()).hexdigest()[:16] == "cb34a919027ad9af"
+
+
+def test_the_other_surfaces_keep_their_order() -> None:
+    """The first 26 of them are in every dataset of the wide style so far; new ones come between, in their families."""
+    first = [name for name in NAMES if name in FIRST_OTHERS]
+    assert first == list(FIRST_OTHERS)
+    assert not any(SURFACES[name].published for name in first)
+
+
+def test_two_surfaces_of_one_name_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Told by that name, though they be of two families."""
+    package = tmp_path / "twins"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    for name in ("one", "other"):
+        (package / f"{name}.py").write_text("from assets.surfaces.families.plaster import RECIPES\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    with pytest.raises(ValueError, match="two surfaces are called 'plaster_white'"):
+        collect(import_module("twins"))
+    for name in ("twins", "twins.one", "twins.other"):
+        sys.modules.pop(name, None)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks.physics.command import one_core
+from benchmarks.physics.contenders import Contender
 from benchmarks.physics.gates import CantileverError
 from benchmarks.physics.plot import write_plot
 from benchmarks.physics.report import conclusions, falls_table, textbook_table, write_json
@@ -17,13 +18,12 @@ from benchmarks.physics.scenes import SPACING_M, bench_scenes
 from benchmarks.physics.settings import COMPARED_COUNT, COUNTS, CROWDS, Setting, all_settings, rod_settings
 from benchmarks.terminal import bench_console
 from farm.errors import VerificationError
-from farm.spec.simulation import Simulator
 from tests.worker.settled import rod, shapes
 from worker.simulate.checks.measure import measure
 
 FIGURES = measure(shapes(rod())).model_copy(update={"length_error": 0.0, "floor_penetration": 0.0})
 EXACT = Textbook((CantileverError(1.0, 0.0), CantileverError(1000.0, 0.0)))
-DEFAULTS = {setting.simulator: setting for setting in all_settings() if setting.is_default}
+DEFAULTS = {setting.contender: setting for setting in all_settings() if setting.is_default}
 
 
 def played(cpu_s: float = 1.0, fall_s: float = 0.5, **figures: float) -> Played:
@@ -33,13 +33,13 @@ def played(cpu_s: float = 1.0, fall_s: float = 0.5, **figures: float) -> Played:
 
 def row(
     *falls: Played,
-    simulator: Simulator = Simulator.ROD,
+    contender: Contender = Contender.ROD,
     book: Textbook = EXACT,
     cables: int = COMPARED_COUNT,
     name: str = "",
 ) -> Row:
-    """A row of a simulator's default."""
-    setting = DEFAULTS[simulator]
+    """A row of a contender's default."""
+    setting = DEFAULTS[contender]
     return Row(replace(setting, name=name or setting.name), cables, falls or (played(),), book)
 
 
@@ -48,13 +48,13 @@ def bent(up_to_100: float, above: float = 0.0) -> Textbook:
     return Textbook((CantileverError(100.0, up_to_100), CantileverError(1000.0, above)))
 
 
-def test_settings_have_names_of_their_own_and_each_simulator_a_default() -> None:
-    """Names tell the rows of a simulator apart; crowds are for the rods' default alone."""
+def test_settings_have_names_of_their_own_and_each_contender_a_default() -> None:
+    """Names tell the rows of a contender apart; crowds are for the rods' default alone."""
     settings = all_settings()
-    assert len({(setting.simulator, setting.name) for setting in settings}) == len(settings)
-    assert set(DEFAULTS) == set(Simulator)
-    assert sum(setting.is_default for setting in settings) == len(Simulator)
-    assert DEFAULTS[Simulator.ROD].counts == COUNTS + CROWDS
+    assert len({(setting.contender, setting.name) for setting in settings}) == len(settings)
+    assert set(DEFAULTS) == set(Contender)
+    assert sum(setting.is_default for setting in settings) == len(Contender)
+    assert DEFAULTS[Contender.ROD].counts == COUNTS + CROWDS
 
 
 def test_a_scene_of_fewer_cables_is_the_start_of_the_same_scene() -> None:
@@ -94,17 +94,17 @@ def test_what_can_not_be_measured_has_an_infinite_error() -> None:
 
 def test_a_cloth_may_meet_its_own_targets_and_not_the_rods() -> None:
     """0.5 % in length and 5 % of H/W up to 100."""
-    cloth = row(played(length_error=0.004), simulator=Simulator.CLOTH, book=bent(0.04))
-    assert cloth.meets(Simulator.CLOTH)
-    assert not cloth.meets(Simulator.ROD)
+    cloth = row(played(length_error=0.004), contender=Contender.CLOTH, book=bent(0.04))
+    assert cloth.meets(Contender.CLOTH)
+    assert not cloth.meets(Contender.ROD)
     assert cloth.off_target == 1
 
 
 def test_a_passage_or_a_speed_misses_a_target_though_the_error_does_not_count_it() -> None:
     """Gates 3 and 4 say yes or no."""
     assert row(played(pass_throughs=1)).error == row(played(speed_rms_mm_s=3.0)).error == 0
-    assert not row(played(pass_throughs=1)).meets(Simulator.ROD)
-    assert not row(played(speed_rms_mm_s=3.0)).meets(Simulator.ROD)
+    assert not row(played(pass_throughs=1)).meets(Contender.ROD)
+    assert not row(played(speed_rms_mm_s=3.0)).meets(Contender.ROD)
     assert row(played(pass_throughs=1), played()).broken == 1
 
 
@@ -115,8 +115,8 @@ def test_the_best_is_the_fastest_of_those_that_meet_all_targets() -> None:
         row(played(1.0, cable_penetration=0.019)),
         row(played(2.0)),
     )
-    assert best([slow, fast, right], Simulator.ROD) is right
-    assert best([fast], Simulator.ROD) is None
+    assert best([slow, fast, right], Contender.ROD) is right
+    assert best([fast], Contender.ROD) is None
     assert closest([fast, right, slow]) is slow
 
 
@@ -134,7 +134,7 @@ def test_growth_is_a_power_of_the_number_of_cables() -> None:
 def test_only_the_rods_default_can_fail_the_benchmark() -> None:
     """By a bound that is broken at its default, or a fall without an end."""
     broken = played(length_error=0.02)
-    verify_default([row(), row(broken, simulator=Simulator.CLOTH)])
+    verify_default([row(), row(broken, contender=Contender.CLOTH)])
     other = next(setting for setting in rod_settings() if not setting.is_default)
     verify_default([replace(row(broken), setting=other)])
     with pytest.raises(VerificationError, match=r"length error 0\.02"):
@@ -150,8 +150,8 @@ def test_the_report_names_the_best_and_the_ratio_and_writes_whatever_happened(tm
     rows = [
         row(played(0.2)),
         row(played(0.8), cables=16),
-        row(played(4.0), simulator=Simulator.CLOTH, book=bent(0.04)),
-        row(Played(9.0, 0.0, 0, None, "diverged"), simulator=Simulator.CLOTH_PUBLISHED),
+        row(played(4.0), contender=Contender.CLOTH, book=bent(0.04)),
+        row(Played(9.0, 0.0, 0, None, "diverged"), contender=Contender.CLOTH_PUBLISHED),
     ]
     text = "\n".join(conclusions(rows))
     assert "fastest that meets all targets is 1000/s 4r (0.20 s, error 0)" in text
@@ -184,7 +184,7 @@ def test_a_small_run_of_the_rods_alone(tmp_path: Path, monkeypatch: pytest.Monke
     from benchmarks.physics import compare, textbook  # noqa: PLC0415  # after importorskip
 
     monkeypatch.setattr(textbook, "SLENDERNESS", (1.0, 10.0))
-    setting: Setting = replace(DEFAULTS[Simulator.ROD], counts=(1, 2))
+    setting: Setting = replace(DEFAULTS[Contender.ROD], counts=(1, 2))
     assert compare.compare(tmp_path, [setting], seed=0, scenes=2, start_s=0.0) == 0
     content = json.loads((tmp_path / "physics.json").read_text())
     assert [each["cables"] for each in content["rows"]] == [1, 2]

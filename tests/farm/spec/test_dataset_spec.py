@@ -21,8 +21,10 @@ QUOTAS = st.fixed_dictionaries({str(category): st.integers(0, 30) for category i
 
 
 def test_published_quotas() -> None:
-    """25,000 images are split as published."""
-    assert list(split_total(25_000).values()) == [5000, 5000, 2500, 2500, 5000, 5000]
+    """25,000 images are split as published, and categories that the publication has not get none."""
+    shares = split_total(25_000)
+    assert list(shares.values())[:6] == [5000, 5000, 2500, 2500, 5000, 5000]
+    assert not any(list(shares.values())[6:])
 
 
 @given(TOTALS, WEIGHTS)

@@ -9,6 +9,7 @@ from pydantic import ValidationError
 from assets.environments import ENVIRONMENTS
 from farm.cli.installed_assets import InstalledAssets
 from farm.errors import AssetError, SpecError, TemplateError
+from farm.spec.category import Category
 from farm.spec.dataset_spec import DatasetSpec
 from farm.spec.header import BuiltinSurfaceRef, HdriRef, PlateRef, SurfaceRef
 from farm.spec.make_header import Inputs, make_header
@@ -197,3 +198,11 @@ def test_hdri_over_the_floor_must_be_there(template: Path) -> None:
     spec = parse_spec({"images": 1, "close_distributed_hdri": "moon"}, source="test")
     with pytest.raises(SpecError, match="there are city"):
         make_header(spec, Inputs(template), Shelf())
+
+
+def test_a_category_that_makes_no_picture_may_be_beyond_its_budget(template: Path) -> None:
+    """The header does not say how it is rendered, as no settings of it are so good."""
+    spec = parse_spec({"quotas": {"far": 1}, "quality": 0.015}, source="test")
+    rendering = make_header(spec, Inputs(template), Shelf()).rendering
+    assert Category.FAR in rendering
+    assert Category.CLOSE_CONCENTRATED not in rendering

@@ -4,7 +4,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from farm.errors import SpecError
+from farm.spec import quality
 from farm.spec.category import Background, Category
+from farm.spec.parse import parse_spec
 from farm.spec.quality import (
     REFERENCE,
     Budget,
@@ -89,6 +92,30 @@ def test_a_budget_that_nothing_keeps_names_the_least() -> None:
         settings_for(1e-9, Category.FAR)
 
 
+@pytest.fixture
+def without_far(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A calibration that knows nothing of far pictures."""
+    known = {category: rows for category, rows in calibration().categories.items() if category is not Category.FAR}
+    partial = calibration().model_copy(update={"categories": known})
+    monkeypatch.setattr(quality, "calibration", lambda: partial)
+
+
+@pytest.mark.usefixtures("without_far")
+def test_a_category_without_calibration_is_refused_with_what_to_run() -> None:
+    """As a fault of the description, at the key."""
+    with pytest.raises(
+        SpecError, match=r"spec\.toml: quality standard: no settings .* for far; run `make bench-render`"
+    ):
+        parse_spec({"quotas": {"far": 1}}, source="spec.toml")
+
+
+@pytest.mark.usefixtures("without_far")
+def test_a_category_without_calibration_is_rendered_as_a_reference() -> None:
+    """So that it can be calibrated."""
+    spec = parse_spec({"quotas": {"far": 1}, "quality": "reference"}, source="test")
+    assert spec.quotas[Category.FAR] == 1
+
+
 def test_calibrated_settings_are_worth_having() -> None:
     """None is both slower and worse than another of its category."""
     for rows in calibration().categories.values():
@@ -100,7 +127,7 @@ def test_calibrated_settings_are_worth_having() -> None:
             ]
 
 
-@pytest.mark.parametrize(("text", "quality"), [("draft", "draft"), ("0.02", 0.02), ("1e-2", 0.01), ("best", "best")])
-def test_a_flag_is_a_name_or_a_number(text: str, quality: str | float) -> None:
+@pytest.mark.parametrize(("text", "expected"), [("draft", "draft"), ("0.02", 0.02), ("1e-2", 0.01), ("best", "best")])
+def test_a_flag_is_a_name_or_a_number(text: str, expected: str | float) -> None:
     """Whether there is such a preset, the spec says."""
-    assert read_quality(text) == quality
+    assert read_quality(text) == expected

@@ -7,7 +7,7 @@ import pytest
 from fsspec.implementations.memory import MemoryFileSystem
 
 from farm.errors import DestinationError
-from farm.storage import Storage, objects, open_storage
+from farm.storage import Storage, open_storage, services
 from tests.object_store import ObjectStore
 from tests.relay import relay
 
@@ -96,7 +96,7 @@ def test_server_that_hangs_up(bucket: str, monkeypatch: pytest.MonkeyPatch) -> N
 def test_server_that_hangs(bucket: str, object_store: ObjectStore, monkeypatch: pytest.MonkeyPatch) -> None:
     """A server that takes a request and never answers is given up."""
     monkeypatch.setattr(fsspec.get_filesystem_class("s3"), "read_timeout", 0.2)
-    monkeypatch.setattr(objects, "PUT_PATIENCE_S", 0.5)
+    monkeypatch.setattr(services, "PUT_PATIENCE_S", 0.5)
     ended = threading.Event()
     with relay(object_store.port, on_answer=lambda _: ended.wait()) as between:
         monkeypatch.setenv("AWS_ENDPOINT_URL", f"http://127.0.0.1:{between.port}")

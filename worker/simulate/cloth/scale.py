@@ -10,11 +10,13 @@ from typing import Self
 
 import numpy as np
 
+from farm.scene.physics import GRAVITY_M_S2
+
 RADIUS_UNITS = 0.09
 """Measured: loaded contacts of cloth kept 0.2 apart settle at 0.18 to 0.2, so that cables of radius 0.09 touch."""
 
-GRAVITY = 9.81
-"""In units of the fall per its unit of time squared, as on earth in metres and seconds."""
+GRAVITY = GRAVITY_M_S2
+"""Gravity in units of the fall per its unit of time squared: the number that it is in metres and seconds."""
 
 FRAME_TIME_UNITS = 1.0 / 31.6
 """The cloth's clock per frame; it does not follow the scene's frames per second."""

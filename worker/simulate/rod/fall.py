@@ -5,7 +5,7 @@ import numpy as np
 from farm.errors import SceneError
 from farm.scene.cable import Cable
 from farm.scene.clutter import Stick, StickKind
-from farm.scene.physics import Wind
+from farm.scene.physics import GRAVITY_M_S2, Wind
 from farm.scene.scene import Scene
 from farm.spec.simulation import RodFall
 from worker.simulate.rod.model import Array, Breeze, Rod, Surroundings
@@ -79,12 +79,13 @@ def rods_of(scene: Scene, fall: RodFall) -> list[Rod]:
 def surroundings_of(scene: Scene) -> Surroundings:
     """The scene's floor, friction and wind; still air if its speed is 0."""
     highest = max(cable.start_height_m + cable.rise_m for cable in scene.cables)
+    landing_s = float(np.sqrt(2 * highest / GRAVITY_M_S2))
     return Surroundings(
         friction_floor=scene.friction.floor,
         friction_rods=scene.friction.cable,
         damping_s=INTERNAL_DAMPING_S,
         resistance=RESISTANCE,
-        breeze=_breeze(scene.wind, landing_s=float(np.sqrt(2 * highest / 9.81))) if scene.wind.speed_m_s > 0 else None,
+        breeze=_breeze(scene.wind, landing_s=landing_s) if scene.wind.speed_m_s > 0 else None,
     )
 
 
@@ -93,7 +94,7 @@ def segment_m(radius_m: float, youngs_modulus_pa: float, density_kg_m3: float, s
 
     That length is (EI / rho g A)^(1/3). It is below eight radii only for rods much softer than any cable.
     """
-    bending_m = (youngs_modulus_pa * radius_m**2 / (4 * density_kg_m3 * 9.81)) ** (1 / 3)
+    bending_m = (youngs_modulus_pa * radius_m**2 / (4 * density_kg_m3 * GRAVITY_M_S2)) ** (1 / 3)
     return float(min(segment_radii * radius_m, max(bending_m / 2, FINEST_RADII * radius_m)))
 
 

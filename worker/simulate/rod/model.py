@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from farm.scene.physics import GRAVITY_M_S2
+
 Array = NDArray[np.float64]
 
 
@@ -75,7 +77,7 @@ class Surroundings:
         breeze: the wind, or None for still air without drag.
     """
 
-    gravity_m_s2: tuple[float, float, float] = (0.0, 0.0, -9.81)
+    gravity_m_s2: tuple[float, float, float] = (0.0, 0.0, -GRAVITY_M_S2)
     floor: bool = True
     friction_floor: float = 0.4
     friction_rods: float = 0.3

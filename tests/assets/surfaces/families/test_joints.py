@@ -5,6 +5,7 @@ import pytest
 
 from assets.surfaces.catalogue import SURFACES
 from assets.surfaces.kit.maps import JOINT_REACH_MM, joint_distance_mm, joint_levels
+from assets.surfaces.recipe import SurfaceFamily
 from tests.assets.built import built, steps
 
 JOINTED = (
@@ -24,9 +25,19 @@ def test_distances_come_back_to_half_a_level() -> None:
     assert np.abs(found - np.clip(distance, -JOINT_REACH_MM, JOINT_REACH_MM)).max() <= 0.51 * step
 
 
-def test_what_is_laid_in_pieces_has_joints() -> None:
-    """And nothing else has."""
-    assert {name for name in SURFACES if built(name).joints is not None} == set(JOINTED)
+@pytest.mark.parametrize("name", JOINTED)
+def test_what_is_laid_in_pieces_has_joints(name: str) -> None:
+    """Planks, tiles, bricks, slabs and stones."""
+    assert built(name).joints is not None
+
+
+WHOLE = (SurfaceFamily.GROUND, SurfaceFamily.FABRIC, SurfaceFamily.PLASTER, SurfaceFamily.CONCRETE, SurfaceFamily.METAL)
+
+
+@pytest.mark.parametrize("name", [name for name, recipe in SURFACES.items() if recipe.family in WHOLE])
+def test_what_is_of_one_piece_has_no_joints(name: str) -> None:
+    """Ground, cloth, plaster, concrete and metal."""
+    assert built(name).joints is None
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,6 @@ from benchmarks.physics.gates import (
     stress_fault,
 )
 from benchmarks.physics.ridge import RidgeCrossing
-from farm.spec.simulation import Simulator
 from tests.worker.settled import RADIUS, looped, rod, shapes
 from worker.curves import Points
 from worker.simulate.checks.measure import Gate, measure, settled_figures
@@ -33,10 +32,13 @@ def test_every_gate_has_a_figure() -> None:
     assert all(gate.value.target <= gate.value.never for gate in Gate)
 
 
-def test_the_cloth_is_granted_more_length_than_the_rod() -> None:
-    """0.5 % against 0.1 %."""
+def test_a_grant_takes_the_place_of_its_own_gates_target_alone() -> None:
+    """What is granted in length leaves the other targets as they are."""
+    grants = {Gate.LENGTH: 0.005}
     assert not Gate.LENGTH.on_target(0.004)
-    assert Gate.LENGTH.on_target(0.004, Simulator.CLOTH)
+    assert Gate.LENGTH.on_target(0.004, grants)
+    assert not Gate.LENGTH.on_target(0.006, grants)
+    assert not Gate.CABLE_PENETRATION.on_target(0.03, grants)
 
 
 def test_an_order_may_also_be_too_low() -> None:

@@ -4,12 +4,10 @@ import itertools
 from dataclasses import dataclass
 from typing import Any
 
-import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from blend import names
-from blend.fall import SELF_DISTANCE
+from blend.fall import SELF_DISTANCE, FallObjects, add_fall
 from farm.errors import SceneError
 from farm.scene.cable import Cable
 from farm.scene.physics import Friction, Wind
@@ -18,23 +16,26 @@ from farm.spec.simulation import ClothFall
 from worker.curves import Points
 from worker.simulate.checks.accept import MAX_SPEED_MM_S, MAX_SPEED_RMS_MM_S
 from worker.simulate.cloth.material import SEGMENT_UNITS, STRIP_WIDTH, StripMaterial, strip_material
-from worker.simulate.cloth.scale import GRAVITY, RADIUS_UNITS, FallScale
-from worker.simulate.cloth.stage import modifier, read_vertices, set_frames
+from worker.simulate.cloth.scale import RADIUS_UNITS, FallScale
+from worker.simulate.cloth.stage import modifier, read_vertices, set_frames, temporary_scene
 from worker.simulate.cloth.strip import centreline, zigzag, zigzag_faces
 from worker.simulate.shapes import CableShapes, bent_rod
 
 FLOOR_SINK = 0.0115
-"""How far a loaded strip sinks into the floor's collision layer, in units, as measured at crossings of two cables: a
-cable alone rests so much above the floor, a loaded one on it."""
+"""Depth in units to which a loaded strip sinks into the floor's collision layer, measured at crossings of two cables: a
+cable alone rests this much above the floor, a loaded one on it."""
 
 WIND_GAIN = 2.0
-"""From the published strength to this scale's: the strongest wind shifts cables by millimetres, yet friction holds
-them once they lie (at twice the gain they slide along the floor for ever)."""
+"""Factor on the published strength of the wind at this scale: the strongest wind shifts cables by millimetres, yet
+friction holds them once they lie (at twice the gain they slide along the floor for ever)."""
 
 REST_FRAMES = 3
-"""Cables rest when they are slower than `worker.simulate.checks.accept` asks for, over so many frames."""
+"""Frames in a row in which all cables must be slower than `worker.simulate.checks.accept` asks for, to count as
+resting."""
 
 _MOST_FRICTION = 80.0
+"""Blender's greatest setting of friction, in hundredths of Coulomb's coefficient."""
+
 _BENDING_GROUP = "bending"
 _STRETCHING_GROUP = "stretching"
 
@@ -49,7 +50,11 @@ class _Strips:
 
 
 def drop_cables(scene: Scene, fall: ClothFall) -> CableShapes:
-    """Let the cables of `scene` fall in the open template's scene of the fall.
+    """Let the cables of `scene` fall, in a scene of Blender's that exists only while they do.
+
+    Args:
+        scene: the drawn scene.
+        fall: the cloth's settings.
 
     Raises:
         SceneError: if the solver diverges.
@@ -57,10 +62,11 @@ def drop_cables(scene: Scene, fall: ClothFall) -> CableShapes:
     radii = np.array([cable.diameter_m / 2 for cable in scene.cables])
     scale = FallScale.for_radius(float(radii.max()))
     strips = _join([zigzag(start_line(cable, scale, SEGMENT_UNITS), STRIP_WIDTH) for cable in scene.cables])
-    fall_scene = bpy.data.scenes[names.FALL_SCENE]
-    _prepare(fall_scene, strips, scene, fall)
-    set_material(bpy.data.objects[names.FALL_CABLES], strips.slices, strip_material(scene, scale, fall))
-    vertices, speeds, frames = _step_until_rest(fall_scene, strips, fall, scale)
+    with temporary_scene() as fall_scene:
+        objects = add_fall(fall_scene)
+        _prepare(fall_scene, objects, strips, scene, fall)
+        set_material(objects.cables, strips.slices, strip_material(scene, scale, fall))
+        vertices, speeds, frames = _step_until_rest(fall_scene, objects.cables, strips, fall, scale)
     return CableShapes(
         nodes_m=tuple(centreline(vertices[part]) * scale.unit_m for part in strips.slices),
         radii_m=radii,
@@ -102,34 +108,37 @@ def _join(strips: list[Points]) -> _Strips:
     )
 
 
-def _prepare(fall_scene: Any, strips: _Strips, scene: Scene, fall: ClothFall) -> None:
-    cables = bpy.data.objects[names.FALL_CABLES]
+def _prepare(fall_scene: Any, objects: FallObjects, strips: _Strips, scene: Scene, fall: ClothFall) -> None:
+    cables, floor = objects.cables, objects.floor
     cables.data.clear_geometry()
     cables.data.from_pydata(strips.vertices.tolist(), [], strips.faces)
     cloth = modifier(cables, "CLOTH")
     cloth.settings.quality = fall.quality
     cloth.settings.effector_weights.wind = 1.0 if scene.wind.strength > 0 else 0.0
-    fall_scene.use_gravity = True
-    fall_scene.gravity = (0.0, 0.0, -GRAVITY)
     collision = cloth.collision_settings
     collision.collision_quality = fall.collision_quality
     collision.use_self_collision = len(strips.slices) > 1
     collision.self_distance_min = SELF_DISTANCE
-    _set_friction(collision, bpy.data.objects[names.FALL_FLOOR], scene.friction)
-    floor = bpy.data.objects[names.FALL_FLOOR]
+    _set_friction(collision, floor, scene.friction)
     floor.collision.thickness_outer = RADIUS_UNITS - collision.distance_min + FLOOR_SINK
     set_frames(fall_scene, cloth, fall.max_frames)
-    set_wind(bpy.data.objects[names.FALL_WIND], scene.wind, WIND_GAIN)
+    set_wind(objects.wind, scene.wind, WIND_GAIN)
 
 
 def _set_friction(collision: Any, floor: Any, friction: Friction) -> None:
-    """Blender's settings are hundredths of Coulomb's coefficient, 80 at most."""
+    """Set both coefficients of friction, as far as Blender's settings go."""
     floor.collision.cloth_friction = collision.friction = min(100 * friction.floor, _MOST_FRICTION)
     collision.self_friction = min(100 * friction.cable, _MOST_FRICTION)
 
 
 def set_material(cables: Any, slices: tuple[slice, ...], material: StripMaterial) -> None:
-    """Give each strip of the object `cables` its material: vertex groups carry its share of the largest setting."""
+    """Give each strip of the object `cables` its material: vertex groups carry each strip's share of the largest one.
+
+    Args:
+        cables: the object, with a Cloth modifier.
+        slices: each strip's vertices.
+        material: the settings, one of each kind for every strip.
+    """
     settings = modifier(cables, "CLOTH").settings
     settings.mass = material.vertex_mass
     settings.bending_model = "ANGULAR"
@@ -149,7 +158,13 @@ def _weigh(cables: Any, name: str, slices: tuple[slice, ...], values: tuple[floa
 
 
 def set_wind(wind_object: Any, wind: Wind, gain: float) -> None:
-    """Stand the field off to a side, blowing towards the cables; its axis is its local z. `gain` multiplies it."""
+    """Stand the field off to a side, blowing towards the cables along its local z.
+
+    Args:
+        wind_object: the force field.
+        wind: the drawn wind.
+        gain: factor on its strength.
+    """
     bearing = np.radians(wind.bearing_deg)
     wind_object.location = (wind.distance * np.cos(bearing), wind.distance * np.sin(bearing), wind.height)
     wind_object.rotation_euler = (0.0, -np.radians(wind.tilt_deg), bearing)
@@ -158,12 +173,11 @@ def set_wind(wind_object: Any, wind: Wind, gain: float) -> None:
 
 
 def _step_until_rest(
-    fall_scene: Any, strips: _Strips, fall: ClothFall, scale: FallScale
+    fall_scene: Any, cables: Any, strips: _Strips, fall: ClothFall, scale: FallScale
 ) -> tuple[Points, NDArray[np.float64], int]:
     previous = strips.vertices
     quiet = 0
     speeds = np.zeros(len(previous))
-    cables = bpy.data.objects[names.FALL_CABLES]
     # A skipped frame would multiply the time step, so every one is visited in turn.
     for frame in range(1, fall.max_frames + 1):
         fall_scene.frame_set(frame)
