@@ -5,7 +5,7 @@ from typing import Any
 import bpy
 
 from farm.errors import MachineError
-from farm.worker_settings import DeviceChoice
+from farm.run.worker_settings import DeviceChoice
 
 GPU_CHOICES = (DeviceChoice.OPTIX, DeviceChoice.CUDA, DeviceChoice.HIP, DeviceChoice.ONEAPI)
 """The choices that name a backend of Cycles, in the order in which `auto` tries them."""

@@ -18,7 +18,7 @@ from farm.run.progress import RunHandle
 from farm.run.queue.broker import connect
 from farm.run.registry.port import Priority, RunState, WorkerReport, WorkerState
 from farm.run.registry.redis import RedisRegistry
-from farm.worker_settings import WorkerSettings
+from farm.run.worker_settings import WorkerSettings
 from tests.stand_in import stand_in_header
 
 PATIENCE_S = 120.0

@@ -22,6 +22,7 @@ from farm import __version__
 from farm.dataset.manifest import RejectedAttempt, RenderSettings, SettleFigures
 from farm.dataset.outputs import IMAGE, INSTANCES, MASK, Output, outputs_of
 from farm.errors import AssetError, MachineError, RenderError, SceneError
+from farm.run.worker_settings import RendererSettings
 from farm.scene.backdrop import HdriWorld
 from farm.scene.cable import Cable, CableMaterial
 from farm.scene.camera import Camera
@@ -34,7 +35,6 @@ from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, Template
 from farm.spec.job import Job
 from farm.spec.parse import parse_spec
 from farm.spec.rendering import CableDetail
-from farm.worker_settings import RendererSettings
 from worker.cli import main
 from worker.sample.seeds import Stage, generator
 from worker.service.picture import Picture, Renderer

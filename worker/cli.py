@@ -14,10 +14,10 @@ from assets.environments import DEFAULT_WIDTH
 from farm.dataset.outputs import IMAGE, MASK
 from farm.errors import FarmError, MachineError, MessageError
 from farm.run.queue.broker import broker_url
+from farm.run.worker_settings import RendererSettings, WorkerSettings
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.storage import LocalStorage
-from farm.worker_settings import RendererSettings, WorkerSettings
 from worker.service.cores import limit_visible_cores
 from worker.service.kept_renderer import OpenRenderer
 from worker.service.picture import Renderer

@@ -10,8 +10,8 @@ from rich.progress import track
 from benchmarks.examples.groups import GROUPS, Example
 from benchmarks.examples.sheet import draw_sheet, examples_a_row
 from benchmarks.terminal import bench_console, blender_writes_to
+from farm.run.worker_settings import DeviceChoice, RendererSettings
 from farm.spec.job import Job
-from farm.worker_settings import DeviceChoice, RendererSettings
 from worker.blender.renderer import open_renderer
 
 DEFAULT_EACH = 4

@@ -13,10 +13,10 @@ from benchmarks.masks.reference import SAMPLES, render_coverage
 from benchmarks.masks.results import LabelledImage, check, table, times
 from benchmarks.terminal import bench_console, blender_writes_to
 from farm.errors import VerificationError
+from farm.run.worker_settings import DeviceChoice, RendererSettings
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.header import DatasetHeader
-from farm.worker_settings import DeviceChoice, RendererSettings
 from worker.blender.renderer import open_renderer
 from worker.camera.view import View
 from worker.geometry import SettledGeometry

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from blend import names
 from farm.errors import RenderError
+from farm.run.worker_settings import DeviceChoice, RendererSettings
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.spec.rendering import CableDetail, PictureSettings
-from farm.worker_settings import DeviceChoice, RendererSettings
 from worker.blender.build_scene import BuiltScene
 from worker.blender.renderer import open_renderer
 from worker.geometry import SettledGeometry

@@ -19,9 +19,9 @@ from farm.run.coordinator import Coordinator
 from farm.run.handle import open_handle
 from farm.run.progress import Progress
 from farm.run.queue.broker import connect
+from farm.run.worker_settings import DeviceChoice, RendererSettings, WorkerSettings
 from farm.spec.make_header import Inputs, make_header
 from farm.spec.parse import parse_spec
-from farm.worker_settings import DeviceChoice, RendererSettings, WorkerSettings
 
 RECYCLED_AFTER = 50
 

@@ -24,7 +24,7 @@ def main(spawned_s: float, result: str) -> None:
     marks.append(time.perf_counter())
     # Whatever else the measurement needs comes after the imports that it times, and between the marks.
     from benchmarks.startup import watch  # noqa: PLC0415
-    from farm.worker_settings import RendererSettings  # noqa: PLC0415
+    from farm.run.worker_settings import RendererSettings  # noqa: PLC0415
 
     header, job = watch.read_task(sys.stdin.read())
     pause_s = time.perf_counter() - marks[-1]

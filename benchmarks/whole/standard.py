@@ -19,8 +19,8 @@ from farm.dataset.outputs import IMAGE
 from farm.dataset.paths import file_path, manifest_path
 from farm.dataset.verify import verify
 from farm.errors import VerificationError
+from farm.run.worker_settings import DeviceChoice, RendererSettings
 from farm.spec.job import Job
-from farm.worker_settings import DeviceChoice, RendererSettings
 from worker.blender.renderer import open_renderer
 from worker.service.upload import upload
 from worker.simulate.simulate import simulate

@@ -29,7 +29,7 @@ from assets.scan.hdris import mean_luminance
 from blend.devices import choose_device
 from blend.environments.build import build_environment
 from farm.errors import AssetError, RenderError
-from farm.worker_settings import DeviceChoice
+from farm.run.worker_settings import DeviceChoice
 
 SAMPLES = 4
 """Of each pixel; a denoiser led by the sharp colours and normals of what is seen does the rest."""

@@ -11,12 +11,12 @@ from typing import Annotated, Any
 import typer
 
 from farm.errors import SpecError
+from farm.run.worker_settings import DeviceChoice
 from farm.spec.dataset_spec import Engine
 from farm.spec.parse import Description, describe, parse_quotas
 from farm.spec.quality import read_quality
 from farm.spec.simulation import Simulator
 from farm.spec.styles import Style
-from farm.worker_settings import DeviceChoice
 
 _DATASET = "What to make"
 

@@ -12,10 +12,10 @@ from farm.cli.installed_assets import InstalledAssets
 from farm.cli.options import Assets, DatasetOptions, Device, Logs, log_folder, takes_dataset_options
 from farm.cli.worker_program import ask_worker, require_blender
 from farm.errors import DestinationError, SpecError
+from farm.run.worker_settings import DeviceChoice, RendererSettings
 from farm.spec.category import Category
 from farm.spec.job import Job
 from farm.spec.make_header import make_header
-from farm.worker_settings import DeviceChoice, RendererSettings
 
 
 @takes_dataset_options

@@ -24,8 +24,8 @@ from farm.dataset.report import write_overview
 from farm.errors import IncompleteError
 from farm.local.run import LocalRun, default_workers, run_locally
 from farm.machine import usable_cores
+from farm.run.worker_settings import MIN_FREE_MIB, DeviceChoice, RendererSettings
 from farm.spec.make_header import make_header
-from farm.worker_settings import MIN_FREE_MIB, DeviceChoice, RendererSettings
 
 
 @takes_dataset_options

@@ -13,8 +13,7 @@ from farm.cli.options import Assets, Broker, Device, Logs, MinFree, log_folder
 from farm.cli.worker_program import become_worker, check_device, require_blender
 from farm.machine import usable_cores
 from farm.run.queue.broker import broker_url, wait_for
-from farm.storage import open_storage
-from farm.worker_settings import (
+from farm.run.worker_settings import (
     HARD_LIMIT_S,
     MEMORY_PER_CHILD_KIB,
     MIN_FREE_MIB,
@@ -23,6 +22,7 @@ from farm.worker_settings import (
     RendererSettings,
     WorkerSettings,
 )
+from farm.storage import open_storage
 
 
 def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter

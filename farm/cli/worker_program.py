@@ -12,8 +12,8 @@ from pathlib import Path
 from farm.errors import MachineError, RenderError, error_of
 from farm.local.workers import WORKER_COMMAND
 from farm.run.queue.broker import BROKER_VARIABLE
+from farm.run.worker_settings import DeviceChoice, RendererSettings, WorkerSettings
 from farm.spec.header import DatasetHeader
-from farm.worker_settings import DeviceChoice, RendererSettings, WorkerSettings
 
 
 def blender_is_installed() -> bool:

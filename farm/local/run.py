@@ -13,8 +13,8 @@ from farm.run.feeder import LOST_AFTER_S
 from farm.run.handle import open_handle
 from farm.run.progress import Progress
 from farm.run.queue.broker import connect
+from farm.run.worker_settings import MIN_FREE_MIB, RendererSettings, WorkerSettings
 from farm.spec.header import DatasetHeader
-from farm.worker_settings import MIN_FREE_MIB, RendererSettings, WorkerSettings
 
 _WORKER_BYTES = 2 * 2**30
 """Memory that one worker needs, for Blender, the solver and textures."""

@@ -14,7 +14,7 @@ from farm.errors import BrokerError, DestinationError, MachineError, error_of
 from farm.local.processes import stop
 from farm.local.tied import tied
 from farm.run.queue.broker import BROKER_VARIABLE
-from farm.worker_settings import WorkerSettings
+from farm.run.worker_settings import WorkerSettings
 
 WORKER_COMMAND = (sys.executable, "-P", "-m", "worker")
 """Start of the command that runs the worker's program; `farm` never imports it."""

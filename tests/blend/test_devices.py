@@ -7,7 +7,7 @@ import pytest
 pytest.importorskip("bpy")
 
 from blend.devices import GPU_CHOICES, choose_device
-from farm.worker_settings import DeviceChoice
+from farm.run.worker_settings import DeviceChoice
 
 pytestmark = pytest.mark.blender
 

@@ -10,9 +10,9 @@ pytest.importorskip("bpy")
 
 from farm.cli.installed_assets import InstalledAssets  # after importorskip
 from farm.errors import TemplateError
+from farm.run.worker_settings import DeviceChoice, RendererSettings
 from farm.spec.make_header import Inputs, make_header
 from farm.spec.parse import parse_spec
-from farm.worker_settings import DeviceChoice, RendererSettings
 
 pytestmark = [pytest.mark.blender, pytest.mark.slow]
 

@@ -11,8 +11,8 @@ from farm.dataset.dataset import Dataset, Destination, create_dataset
 from farm.dataset.paths import manifest_folder
 from farm.errors import IncompleteError
 from farm.run.queue.broker import BROKER_VARIABLE
+from farm.run.worker_settings import DeviceChoice, RendererSettings, WorkerSettings
 from farm.spec.header import DatasetHeader
-from farm.worker_settings import DeviceChoice, RendererSettings, WorkerSettings
 from tests.chaos.clock import WrongClock, find_faketime
 from tests.chaos.disk import SmallDisk, small_disk
 from tests.chaos.manifest_watch import ManifestWatch

@@ -9,7 +9,7 @@ from farm.run.feeder import WINDOW
 from farm.run.handle import run_of
 from farm.run.progress import Progress, RunHandle
 from farm.run.registry.port import RunState
-from farm.worker_settings import RendererSettings
+from farm.run.worker_settings import RendererSettings
 from tests.doubles.ledger import MemoryLedger
 from tests.doubles.queue import MemoryQueue
 from tests.doubles.registry import MemoryRegistry

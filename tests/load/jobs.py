@@ -20,7 +20,7 @@ from farm.run.coordinator import Coordinator
 from farm.run.handle import open_handle
 from farm.run.progress import RunHandle
 from farm.run.queue.broker import BROKER_VARIABLE, connect
-from farm.worker_settings import WorkerSettings
+from farm.run.worker_settings import WorkerSettings
 from tests.load.processor_time import processor_s
 from tests.stand_in import StandInRenderer, stand_in_header
 

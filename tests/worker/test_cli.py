@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from farm.worker_settings import WorkerSettings
+from farm.run.worker_settings import WorkerSettings
 from tests.stand_in import open_stand_in
 from worker.cli import main
 

@@ -20,6 +20,7 @@ from blend.devices import choose_device
 from farm.dataset.manifest import RejectedAttempt, RenderSettings
 from farm.dataset.outputs import IMAGE, OUTPUTS, Output, outputs_of
 from farm.errors import SpecError
+from farm.run.worker_settings import RendererSettings
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.dataset_spec import DatasetSpec, Engine
@@ -27,7 +28,6 @@ from farm.spec.header import DatasetHeader, FileRef
 from farm.spec.job import Job
 from farm.spec.quality import ChosenSettings, Quality
 from farm.spec.rendering import Economy, PictureSettings
-from farm.worker_settings import RendererSettings
 from worker.blender import eevee
 from worker.blender.asset_files import AssetLibrary, checked
 from worker.blender.build_scene import BuiltScene, build_scene

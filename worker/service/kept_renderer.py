@@ -6,9 +6,9 @@ from collections.abc import Callable
 from celery.exceptions import SoftTimeLimitExceeded
 
 from farm.errors import AssetError, FarmError, MachineError, RenderError, TemplateError, UnfitWorkerError
+from farm.run.worker_settings import RendererSettings
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
-from farm.worker_settings import RendererSettings
 from worker.service.picture import Picture, Renderer
 
 log = logging.getLogger(__name__)

@@ -18,8 +18,8 @@ from farm.run.queue.celery import CeleryQueue
 from farm.run.queue.settings import QUEUE, SOFT_LIMIT_S, make_app
 from farm.run.queue.wire import install, keep_only_task
 from farm.run.registry.port import RunState, WorkerState
+from farm.run.worker_settings import HARD_LIMIT_S, WorkerSettings
 from farm.storage import open_storage
-from farm.worker_settings import HARD_LIMIT_S, WorkerSettings
 from worker.service.backoff import Backoff
 from worker.service.job_log import JobLogs
 from worker.service.kept_renderer import KeptRenderer, OpenRenderer

@@ -44,7 +44,7 @@ class Supervisor:
         backoff: tells why no job may be taken.
         logs: logs of the jobs that run here.
         memory_per_child_kib: memory above which a child is replaced after its job; see
-            `farm.worker_settings.WorkerSettings`.
+            `farm.run.worker_settings.WorkerSettings`.
 
     Attributes:
         ticked_s: when it last looked, by the monotonic clock.

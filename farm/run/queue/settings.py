@@ -6,7 +6,7 @@ from celery import Celery
 from kombu.entity import Queue
 
 from farm.run.registry.port import PRIORITY_STEPS, Priority
-from farm.worker_settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, TASKS_PER_CHILD
+from farm.run.worker_settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, TASKS_PER_CHILD
 
 TASK_NAME = "farm.render_image"
 

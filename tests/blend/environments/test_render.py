@@ -27,7 +27,7 @@ from blend.environments.materials import is_known
 from blend.environments.render import normalised, render_environments, without_seam, write_environment
 from blend.environments.scene import Light, stage
 from farm.errors import AssetError, RenderError
-from farm.worker_settings import DeviceChoice, RendererSettings
+from farm.run.worker_settings import DeviceChoice, RendererSettings
 
 pytestmark = pytest.mark.blender
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from farm.cli import end_on_signals
 from farm.dataset.dataset import parse_destination
 from farm.local.run import LocalRun, run_locally
-from farm.worker_settings import RendererSettings
+from farm.run.worker_settings import RendererSettings
 from tests.stand_in import stand_in_header
 
 if __name__ == "__main__":

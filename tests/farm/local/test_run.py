@@ -17,8 +17,8 @@ from farm.dataset.verify import verify
 from farm.errors import DestinationError, IncompleteError, MachineError
 from farm.local.run import LocalRun, run_locally
 from farm.run.progress import Progress
+from farm.run.worker_settings import RendererSettings
 from farm.spec.header import DatasetHeader
-from farm.worker_settings import RendererSettings
 from tests.live_farm import processes_with, wait_for
 from tests.stand_in import stand_in_header
 

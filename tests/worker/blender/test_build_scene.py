@@ -12,6 +12,7 @@ from assets.surfaces.bake import bake_surfaces  # noqa: E402  # after importorsk
 from blend import names  # noqa: E402
 from blend.world import is_as_built  # noqa: E402
 from farm.cli.installed_assets import InstalledAssets  # noqa: E402
+from farm.run.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from farm.scene.camera import Camera  # noqa: E402
 from farm.spec.category import Category  # noqa: E402
 from farm.spec.header import DatasetHeader  # noqa: E402
@@ -20,7 +21,6 @@ from farm.spec.make_header import Inputs, make_header  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
 from farm.spec.quality import REFERENCE  # noqa: E402
 from farm.spec.rendering import CyclesSettings, Denoiser, Economy, PictureSettings  # noqa: E402
-from farm.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from worker.blender.build_scene import BuiltScene  # noqa: E402
 from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
 from worker.geometry import SettledGeometry  # noqa: E402

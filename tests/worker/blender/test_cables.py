@@ -12,6 +12,7 @@ from benchmarks.masks.agreement import compare  # noqa: E402
 from benchmarks.masks.reference import render_coverage  # noqa: E402
 from blend import names  # noqa: E402
 from farm.cli.installed_assets import InstalledAssets  # noqa: E402
+from farm.run.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from farm.scene.cable import (  # noqa: E402
     Bundle,
     Cable,
@@ -27,7 +28,6 @@ from farm.spec.header import DatasetHeader  # noqa: E402
 from farm.spec.job import Job  # noqa: E402
 from farm.spec.make_header import Inputs, make_header  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
-from farm.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from tests.worker.scenes import make_skin  # noqa: E402
 from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
 from worker.sample.scene import sample_scene  # noqa: E402

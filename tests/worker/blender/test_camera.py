@@ -9,12 +9,12 @@ bpy = pytest.importorskip("bpy")
 from benchmarks.masks.agreement import compare  # noqa: E402
 from benchmarks.masks.reference import render_coverage  # noqa: E402
 from farm.dataset.outputs import INSTANCES  # noqa: E402
+from farm.run.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from farm.scene.camera import Camera  # noqa: E402
 from farm.scene.scene import Scene  # noqa: E402
 from farm.spec.category import Category  # noqa: E402
 from farm.spec.make_header import template_ref  # noqa: E402
 from farm.spec.rendering import CableDetail, CyclesSettings, Denoiser, PictureSettings  # noqa: E402
-from farm.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from tests.worker.scenes import make_header, make_scene  # noqa: E402
 from worker.backdrop.matte import covered_by  # noqa: E402
 from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402

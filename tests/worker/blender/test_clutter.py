@@ -10,6 +10,7 @@ bpy = pytest.importorskip("bpy")
 
 from assets.surfaces.bake import bake_surfaces  # noqa: E402  # after importorskip
 from farm.cli.installed_assets import InstalledAssets  # noqa: E402
+from farm.run.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from farm.scene.clutter import PartKind, SheetKind, StickKind  # noqa: E402
 from farm.scene.floor import Wear  # noqa: E402
 from farm.scene.scene import Scene  # noqa: E402
@@ -20,7 +21,6 @@ from farm.spec.make_header import Inputs  # noqa: E402
 from farm.spec.make_header import make_header as catalogue_header  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
 from farm.spec.rendering import CyclesSettings, Denoiser, PictureSettings  # noqa: E402
-from farm.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from tests.worker.clutter.things import make_part, make_sheet, make_stick  # noqa: E402
 from worker.blender.clutter import PREFIX  # noqa: E402
 from worker.blender.renderer import open_renderer  # noqa: E402

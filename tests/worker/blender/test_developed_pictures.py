@@ -11,6 +11,7 @@ bpy = pytest.importorskip("bpy")
 
 from assets.surfaces.bake import bake_surfaces  # noqa: E402  # after importorskip
 from farm.cli.installed_assets import InstalledAssets  # noqa: E402
+from farm.run.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from farm.scene.camera import Camera, Development  # noqa: E402
 from farm.scene.light import GreyWorld, StudioLamp  # noqa: E402
 from farm.scene.scene import Scene  # noqa: E402
@@ -19,7 +20,6 @@ from farm.spec.header import DatasetHeader  # noqa: E402
 from farm.spec.job import Job  # noqa: E402
 from farm.spec.make_header import Inputs, make_header  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
-from farm.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
 from worker.sample.scene import sample_scene  # noqa: E402
 from worker.service.picture import Picture  # noqa: E402

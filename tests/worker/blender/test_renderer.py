@@ -17,12 +17,12 @@ from blend.build import TEMPLATE  # noqa: E402
 from blend.contract import open_template  # noqa: E402
 from farm.cli.installed_assets import InstalledAssets  # noqa: E402
 from farm.errors import AssetError, SceneError, SpecError, TemplateError  # noqa: E402
+from farm.run.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from farm.spec.category import Background, Category  # noqa: E402
 from farm.spec.header import DatasetHeader, FileRef  # noqa: E402
 from farm.spec.job import Job  # noqa: E402
 from farm.spec.make_header import Inputs, make_header, template_ref  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
-from farm.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from worker.blender.asset_files import checked  # noqa: E402
 from worker.blender.render import render_picture  # noqa: E402
 from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402

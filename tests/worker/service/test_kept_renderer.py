@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 from farm.errors import AssetError, FarmError, MachineError, RenderError, SceneError, TemplateError, UnfitWorkerError
+from farm.run.worker_settings import RendererSettings
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
-from farm.worker_settings import RendererSettings
 from tests.stand_in import StandInRenderer, stand_in_header
 from worker.service.kept_renderer import KeptRenderer
 from worker.service.picture import Renderer

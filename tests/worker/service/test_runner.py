@@ -29,9 +29,9 @@ from farm.errors import (
 )
 from farm.run.ledger.owner import this_process
 from farm.run.ledger.port import MAX_ABSENCES, RETRY_OWNER
+from farm.run.worker_settings import RendererSettings
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
-from farm.worker_settings import RendererSettings
 from tests.doubles.ledger import MemoryLedger
 from tests.stand_in import StandInRenderer
 from worker.service.failures import FAILED_IN_A_ROW, MAX_TRIES, TryLaterError

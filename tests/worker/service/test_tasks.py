@@ -20,8 +20,8 @@ from farm.run.queue.celery import CeleryQueue
 from farm.run.queue.settings import QUEUE, TASK_NAME, make_app
 from farm.run.registry.port import Run
 from farm.run.registry.redis import RedisRegistry
+from farm.run.worker_settings import WorkerSettings
 from farm.spec.job import Job
-from farm.worker_settings import WorkerSettings
 
 pytestmark = pytest.mark.redis
 

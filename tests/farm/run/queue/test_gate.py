@@ -19,8 +19,8 @@ from farm.local.redis_server import private_redis
 from farm.local.workers import LocalWorkers
 from farm.run.queue.broker import connect
 from farm.run.queue.settings import QUEUE, TASK_NAME, VISIBILITY_S, make_app
+from farm.run.worker_settings import WorkerSettings
 from farm.spec.job import Job
-from farm.worker_settings import WorkerSettings
 from tests.stand_in import stand_in_header
 
 pytestmark = pytest.mark.redis

@@ -22,8 +22,8 @@ from farm.run.queue.celery import CeleryQueue
 from farm.run.queue.port import JobQueue
 from farm.run.queue.settings import SOFT_LIMIT_S, TASK_NAME, VISIBILITY_S, make_app, queue_name
 from farm.run.registry.port import Priority, Run
+from farm.run.worker_settings import HARD_LIMIT_S
 from farm.spec.job import Job, JobMessage
-from farm.worker_settings import HARD_LIMIT_S
 from tests.doubles.queue import MemoryQueue
 
 

@@ -15,7 +15,7 @@ from farm.run.coordinator import Coordinator
 from farm.run.handle import open_handle
 from farm.run.queue.broker import broker_url, connect
 from farm.run.queue.settings import make_app
-from farm.worker_settings import WorkerSettings
+from farm.run.worker_settings import WorkerSettings
 from tests.farm.run.queue.servers import ENCODED, PASSWORD, Certificates, debian_redis, free_port, make_certificates
 from tests.farm.run.queue.servers import redis_server as run_redis
 

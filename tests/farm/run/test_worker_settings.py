@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from farm.worker_settings import HARD_LIMIT_S, DeviceChoice, RendererSettings, WorkerSettings
+from farm.run.worker_settings import HARD_LIMIT_S, DeviceChoice, RendererSettings, WorkerSettings
 
 SETTINGS = WorkerSettings(
     store="s3://bucket/datasets",
