@@ -63,7 +63,7 @@ def _image_fault(pixels: NDArray[np.generic], resolution: int) -> str | None:
 
 def _binary_fault(pixels: NDArray[np.generic], resolution: int) -> str | None:
     fault = array_fault(pixels, (resolution, resolution), np.uint8)
-    if fault is None and not np.isin(pixels, (0, 255)).all():
+    if fault is None and not ((pixels == 0) | (pixels == 255)).all():
         fault = "has other values than 0, 255"
     return fault
 

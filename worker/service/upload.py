@@ -28,11 +28,11 @@ class Guard(Protocol):
     """Tells whether the job may still be written; see `worker.service.lease.Lease`."""
 
     def renew(self) -> None:
-        """Ask whoever knows; raises LeaseLostError or BrokerError."""
+        """Ask the ledger; raises LeaseLostError or BrokerError."""
         ...
 
     def check(self) -> None:
-        """Ask no one; raises LeaseLostError."""
+        """Go by the last answer, without asking; raises LeaseLostError."""
         ...
 
 
@@ -57,7 +57,7 @@ def upload(made: Picture, job: Job, dataset: Dataset, guard: Guard | None = None
         DestinationError: if a file can't be written.
         LeaseLostError: if the guard finds that another may be writing; then what is in place is whole, or has no
             manifest.
-        BrokerError: if the guard can't find out; likewise.
+        BrokerError: if the guard can't find out; then, too, what is in place is whole, or has no manifest.
     """
     _check(made, dataset.header.spec)
     guard = guard or Unguarded()
