@@ -58,7 +58,7 @@ def test_below_the_horizon_it_is_black() -> None:
     assert not lit[int(UPPER_WIDTH_PX / 4 * (1 + 3 / 90)) :].any()
 
 
-@settings(max_examples=15)
+@settings(max_examples=15, deadline=None)
 @given(azimuth=st.floats(0, 360), elevation=st.floats(20, 80), turn=st.floats(-180, 180))
 def test_a_small_sun_keeps_its_light_however_it_is_turned(azimuth: float, elevation: float, turn: float) -> None:
     """About the zenith, the light that a floor gets does not depend on the turn, within 3 %."""
@@ -93,7 +93,7 @@ def test_the_backdrop_is_seen_upright() -> None:
     assert row == pytest.approx(64 - 0.15 * pixels_per_unit, abs=1.0)
 
 
-@settings(max_examples=15)
+@settings(max_examples=15, deadline=None)
 @given(f_number=st.floats(2, 64), height=st.floats(0.09, 0.33))
 def test_blur_keeps_an_even_light(f_number: float, height: float) -> None:
     """The lens's disc has unit sum, at the picture's edge too."""
