@@ -19,8 +19,8 @@ EDGE_M = 0.6
 """Edge of the square about the origin in which marks lie, in metres; beyond it, stains and dust are mirrored."""
 
 CELL_M = 1.25e-3
-"""Edge of a cell of the grid on which stains and dust are drawn, in metres. They are smooth there; their sharp edges are
-made at the texels."""
+"""Edge of a cell of the grid on which stains and dust are drawn, in metres. They are smooth there; the texels give them
+their sharp edges."""
 
 CELLS = round(EDGE_M / CELL_M)
 """Number of cells along an edge of the square."""

@@ -17,8 +17,8 @@ from worker.camera.view import View
 from worker.colour import Texels, levels_of, light_of
 
 MARGIN = 0.06
-"""Margin of a window on each side, as a share of the view's width: the reach of the pixel filter, of blur, and of tilted
-normals of the floor."""
+"""Margin of a window on each side, as a share of the view's width: the reach of the pixel filter, of blur, and of the
+floor's tilted normals."""
 
 TEXELS_PER_PIXEL = 2
 """Texels for each pixel along an edge. With one, weave and grain look blurred (FLIP 0.054, of which 0.017 is noise);
