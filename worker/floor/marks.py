@@ -19,8 +19,7 @@ EDGE_M = 0.6
 """Edge of the square about the origin in which marks lie, in metres; beyond it, stains and dust are mirrored."""
 
 CELL_M = 1.25e-3
-"""Edge of a cell of the grid on which stains and dust are drawn, in metres. They are smooth there; the texels give them
-their sharp edges."""
+"""Edge of a cell of the grid on which stains and dust are drawn, in metres; the texels give them their sharp edges."""
 
 CELLS = round(EDGE_M / CELL_M)
 """Number of cells along an edge of the square."""
@@ -245,7 +244,6 @@ def scratch_lines(density: float, rng: np.random.Generator) -> Iterator[tuple[ND
     t = np.linspace(-0.5, 0.5, 13)
     while left > 0:
         sheaf = min(left, int(rng.geometric(0.6)) if rng.random() < 0.8 else int(rng.integers(3, 9)))
-
         left -= sheaf
         length = float(np.exp(rng.uniform(low, high)))
         bearing, bend = float(rng.uniform(0, np.pi)), float(rng.normal(0, 0.25))
@@ -283,10 +281,7 @@ def _filled(fill: JointFill, to_joint_m: Field, rng: np.random.Generator, window
 
 
 def _grain(window: _Window) -> Field:
-    """Make noise (rows, columns) with grains of a fifth of a millimetre, or a texel if that is larger.
-
-    The noise is the same for every floor.
-    """
+    """Make noise (rows, columns), the same for every floor, with grains of 0.2 mm, or of a texel if that is larger."""
     tile = _grain_tile()
     texels = max(1.0, 0.2e-3 * window.texels_per_m)
     edge = round(len(tile) * texels)
