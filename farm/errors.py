@@ -1,8 +1,8 @@
-"""One tree of errors. What the farm does with a failure follows from its type.
+"""The tree of errors. Its type decides what the farm does about a failure.
 
-`RetryableError`: the same job may succeed later, elsewhere or unchanged. `PermanentError`: it never will, until
-a person changes something. `UnfitWorkerError` tells of a worker, not of its job. Each class carries the exit code with
-which the command line ends.
+`RetryableError`: the same job may succeed later or on another machine. `PermanentError`: the job fails until a person
+changes something. `UnfitWorkerError`: the worker is at fault, not its job. Each class holds the exit code with which
+the command line ends.
 
 Exit codes: 0 done, 1 an unexpected error (a defect: please report it), 2 wrong usage (from the argument parser),
 75 a worker that hung and ended itself, 128 + N stopped by signal N (130 by Ctrl-C, 143 by SIGTERM), and those below.
@@ -12,17 +12,17 @@ from typing import ClassVar
 
 
 class FarmError(Exception):
-    """Any failure the farm foresees; its text says what was wrong, where, and what to do."""
+    """Any failure that the farm foresees; its text says what is wrong, where, and what to do."""
 
     exit_code: ClassVar[int] = 1
 
 
 class RetryableError(FarmError):
-    """May succeed when tried again."""
+    """A failure that may not happen again when the job is tried again."""
 
 
 class PermanentError(FarmError):
-    """Fails the same way until its cause is changed."""
+    """A failure that happens again until a person removes its cause."""
 
 
 class SpecError(PermanentError):
@@ -44,17 +44,17 @@ class AssetError(PermanentError):
 
 
 class DestinationError(RetryableError):
-    """The dataset's place can't be read or written."""
+    """The dataset's folder or store can't be read or written."""
 
     exit_code = 6
 
 
 class DatasetMissingError(DestinationError):
-    """The place holds no dataset."""
+    """The folder or store holds no dataset of that name."""
 
 
 class ConflictError(PermanentError):
-    """The dataset's place already holds something else."""
+    """The dataset's folder already holds something else, or its run is not in the state that the command needs."""
 
     exit_code = 7
 
@@ -66,17 +66,17 @@ class BrokerError(RetryableError):
 
 
 class MessageError(PermanentError):
-    """A job message is malformed, of an unknown version, or names what it must not."""
+    """A job message is malformed, has an unknown version, or names something that it must not."""
 
     exit_code = 9
 
 
 class StaleMessageError(MessageError):
-    """A job message was made for another description than that of the dataset in its place."""
+    """A job message was made for another description than that of the dataset of this name."""
 
 
 class SceneError(PermanentError):
-    """No scene drawn for this job passed the physics checks within the allowed attempts."""
+    """No scene sampled for this job passed the physics checks within the allowed attempts."""
 
     exit_code = 10
 
@@ -112,12 +112,16 @@ class RunCancelledError(PermanentError):
 
 
 class UnfitWorkerError(FarmError):
-    """A worker can't work, whatever the job: its device, template, assets or store are not what they must be.
+    """A worker can't do any job: its device, template, assets or store are not as they must be.
 
-    The job did not fail: its message goes back to the queue, and the worker ends with the fault's exit code.
+    The job did not fail: its message goes back to the queue, and the worker ends with the exit code of its own fault.
+
+    Args:
+        reason: text of the error that was found.
+        code: exit code of that error.
 
     Attributes:
-        code: the exit code of what was wrong.
+        code: exit code of the error that was found.
     """
 
     def __init__(self, reason: str, code: int) -> None:
@@ -125,16 +129,24 @@ class UnfitWorkerError(FarmError):
         self.code = code
 
     def __reduce__(self) -> tuple[type, tuple[str, int]]:
-        """Whole: it goes from the pool's child to the worker's main process by pickle."""
+        """Keep the code in a pickle: the error goes from the pool's child process to the worker's main process."""
         return UnfitWorkerError, (str(self), self.code)
 
     def as_fault(self) -> FarmError:
-        """What was wrong, as the error that it was."""
+        """Return the error that was found, with its own type."""
         return error_of(self.code, str(self)) or MachineError(str(self))
 
 
 def error_of(exit_code: int, text: str) -> FarmError | None:
-    """The error with which a program of the farm ended; None if the code is none of the farm's own."""
+    """Make the error that a program of the farm ended with.
+
+    Args:
+        exit_code: exit code of the program.
+        text: text of the error.
+
+    Returns:
+        The error of the type that has this exit code; None if no type has it.
+    """
     kinds = (*RetryableError.__subclasses__(), *PermanentError.__subclasses__())
     kind = next((kind for kind in kinds if kind.exit_code == exit_code != FarmError.exit_code), None)
     return None if kind is None else kind(text)

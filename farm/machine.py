@@ -1,4 +1,4 @@
-"""This machine: what tells it from all others, where its user's cache is, what it has to work with."""
+"""This machine: its unique name, the user's cache folder, its cores and its memory."""
 
 import functools
 import os
@@ -12,9 +12,9 @@ _PROCESSES = Path("/proc/self/ns/pid")
 
 @functools.cache
 def machine_name() -> str:
-    """Host name, machine id and pid namespace, joined by `-`; what can't be read is left out.
+    """Name this machine: host name, machine id and pid namespace, joined by `-`; a part that can't be read is left out.
 
-    Two machines may bear one host name, and containers may share it without seeing each other's processes.
+    Two machines may have the same host name, and containers may share it without seeing each other's processes.
     """
     parts = [socket.gethostname()]
     with suppress(OSError):
@@ -25,18 +25,18 @@ def machine_name() -> str:
 
 
 def cache_folder() -> Path:
-    """Where this user keeps what can be made again: `cable-farm` below XDG_CACHE_HOME or ~/.cache."""
+    """Name the folder for files that can be made again: `cable-farm` below XDG_CACHE_HOME or ~/.cache."""
     cache = os.environ.get("XDG_CACHE_HOME")
     return (Path(cache) if cache else Path.home() / ".cache") / "cable-farm"
 
 
 def usable_cores() -> int:
-    """How many cores this process may run on."""
+    """Count the cores that this process may run on."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def memory_bytes() -> int:
-    """How much memory the machine has."""
+    """Size of this machine's memory, in bytes."""
     return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")

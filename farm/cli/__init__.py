@@ -1,4 +1,4 @@
-"""The command line. Each command has a module of its own; failures that the farm foresees end in one line."""
+"""The command line. Each command has its own module; a failure that the farm foresees ends in one line."""
 
 import signal
 import sys
@@ -47,7 +47,7 @@ def _options(
         bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and end.")
     ] = False,
 ) -> None:
-    """The options of the program itself; its help is the application's."""
+    """Declare the program's own options; the application above holds the help text."""
 
 
 COMMANDS = (
@@ -60,7 +60,7 @@ app.add_typer(assets_app, name="assets")
 
 
 def end_on_signals() -> None:
-    """Let SIGTERM and SIGHUP end this process by an exception: it unwinds every `with`, which ends what was started."""
+    """Make SIGTERM and SIGHUP raise SystemExit, so that every `with` closes and ends the processes it started."""
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _end)
 

@@ -1,4 +1,4 @@
-"""`farm assets`: the built-in surfaces and HDRIs, and checking one's own."""
+"""`farm assets`: lists and builds the built-in surfaces and environments, and checks the user's own files."""
 
 from pathlib import Path
 from typing import Annotated
@@ -19,7 +19,7 @@ from farm.cli.options import Assets
 from farm.cli.worker_program import blender_is_installed
 from farm.errors import AssetError, SpecError
 
-assets_app = typer.Typer(no_args_is_help=True, help="The built-in surfaces and HDRIs, and checking your own.")
+assets_app = typer.Typer(no_args_is_help=True, help="List and build the built-in surfaces and HDRIs; check your own.")
 assets_app.command()(fetch)
 
 

@@ -1,4 +1,4 @@
-"""Drawing the built-in surfaces that are not on this machine yet; done once."""
+"""Draws the built-in surfaces and renders the environments that this machine does not have yet; each is made once."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -16,12 +16,15 @@ from farm.spec.header import BuiltinSurfaceRef, DatasetHeader
 
 
 def bake(names: Iterable[str], folder: Path | None, screen: Console) -> BakedSet:
-    """Draw surfaces, showing how far it is.
+    """Draw the surfaces that are missing, and show a progress bar.
 
     Args:
-        names: which ones; those that are there already take no time.
-        folder: where they go; None for the usual place.
-        screen: for the bar, or a plain line for each.
+        names: names of the surfaces; those that exist already take no time.
+        folder: folder of the surfaces; None for the default one in the user's cache.
+        screen: console for the bar, on a terminal, and for the closing line.
+
+    Returns:
+        The surfaces asked for, and which of them were drawn now.
 
     Raises:
         AssetError: if the folder can't be written.
@@ -39,19 +42,20 @@ def bake(names: Iterable[str], folder: Path | None, screen: Console) -> BakedSet
 def render_environments(
     names: Iterable[str], folder: Path | None, screen: Console, *, pixels: int | None = None
 ) -> tuple[str, ...]:
-    """Render environments in a process of its own, showing how far it is.
+    """Render the environments that are missing, in another process, and show a progress bar.
 
     Args:
-        names: which ones; those that are there already take no time.
-        folder: where they go; None for the usual place.
-        screen: for the bar, or a plain line for each.
-        pixels: width of the panoramas; None for the usual one, and any will do.
+        names: names of the environments; those that exist already take no time.
+        folder: folder of the surfaces, which holds the environments too; None for the default one in the user's cache.
+        screen: console for the bar, on a terminal, and for the closing line.
+        pixels: width of the panoramas, px; None accepts existing ones of any width, and renders at the default width.
 
     Returns:
-        Those that were rendered now.
+        Names of the environments that were rendered now.
 
     Raises:
         AssetError: if the folder can't be written.
+        MachineError: if Blender is not installed.
         FarmError: if the worker's program fails.
     """
     directory = folder or surface_directory()
@@ -75,14 +79,20 @@ def render_environments(
 def bake_for(header: DatasetHeader, folder: Path | None, screen: Console) -> None:
     """Draw the surfaces that a dataset shows, and render the environments that light it.
 
+    Args:
+        header: header of the dataset; categories without a quota need nothing.
+        folder: folder of the surfaces and environments; None for the default one in the user's cache.
+        screen: console for the progress bars.
+
     Raises:
         AssetError: if the folder can't be written.
+        MachineError: if environments are missing and Blender is not installed.
         FarmError: if the worker's program fails.
     """
     shown = [category.traits for category, quota in header.spec.quotas.items() if quota]
     environments = [hdri.name for hdri in header.hdris if hdri.recipe_version is not None]
     if environments and any(traits.light is Light.DISTRIBUTED for traits in shown):
         render_environments(environments, folder, screen)
-    # Surfaces are drawn at random from all of them, so a single picture over a floor may need any.
+    # A floor is chosen at random from all surfaces, so a single picture over a floor may need any of them.
     if any(traits.background is Background.FLOOR for traits in shown):
         bake([surface.name for surface in header.surfaces if isinstance(surface, BuiltinSurfaceRef)], folder, screen)

@@ -1,4 +1,4 @@
-"""Joining a dataset to its run in Redis, from the command line's options."""
+"""Connects a dataset to its run in Redis, as the command line's options say."""
 
 from farm.dataset.dataset import Dataset
 from farm.errors import BrokerError
@@ -9,20 +9,35 @@ from farm.run.registry.port import Priority
 
 
 def handle_of(dataset: Dataset, broker: str | None, priority: Priority | None = None) -> RunHandle:
-    """The dataset's run.
+    """Open the run of a dataset.
+
+    Args:
+        dataset: the dataset.
+        broker: address of Redis; None for FARM_BROKER_URL or the default.
+        priority: priority of the run; None keeps that of a registered run, else takes the normal one.
+
+    Returns:
+        The run's ledger, queue and registry.
 
     Raises:
-        BrokerError: if Redis is not there.
+        BrokerError: if Redis can't be reached.
     """
     url = broker_url(broker)
     return open_handle(dataset, url, connect(url), priority)
 
 
 def handle_if_reachable(dataset: Dataset, broker: str | None) -> RunHandle | None:
-    """The dataset's run; None where Redis is not there and none was asked for.
+    """Open the run of a dataset if Redis answers.
+
+    Args:
+        dataset: the dataset.
+        broker: address of Redis; None for FARM_BROKER_URL or the default.
+
+    Returns:
+        The run's ledger, queue and registry; None if `broker` is None and Redis can't be reached.
 
     Raises:
-        BrokerError: if the Redis that was asked for is not there.
+        BrokerError: if `broker` names a Redis that can't be reached.
     """
     try:
         return handle_of(dataset, broker)

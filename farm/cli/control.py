@@ -1,4 +1,4 @@
-"""`farm pause`, `resume`, `cancel`: what a person wants of a run."""
+"""`farm pause`, `resume`, `cancel`: set the state of a run."""
 
 from typing import Annotated
 
@@ -11,11 +11,11 @@ from farm.errors import ConflictError
 from farm.run.progress import RunHandle
 from farm.run.registry.port import Priority, RunState
 
-NewPriority = Annotated[Priority | None, typer.Option("--priority", help="Also change its priority.")]
+NewPriority = Annotated[Priority | None, typer.Option("--priority", help="New priority of the run.")]
 
 
 def pause(place: DatasetPlace, broker: Broker = None) -> None:
-    """Let workers finish what they render and take no more of this dataset, until it is resumed."""
+    """Stop handing out a dataset's images until it is resumed; workers finish those that they are making."""
     handle = _change(place, broker, RunState.PAUSED)
     typer.echo(f"paused: {place}; {handle.queue.length(handle.run)} images wait; farm resume lets them go on")
 
@@ -27,7 +27,7 @@ def resume(place: DatasetPlace, broker: Broker = None, priority: NewPriority = N
 
 
 def cancel(place: DatasetPlace, broker: Broker = None) -> None:
-    """Empty a dataset's queue; images in the making are finished, those that are done stay."""
+    """Empty a dataset's queue; workers finish the images that they are making, and finished ones stay."""
     handle = _change(place, broker, RunState.CANCELLED)
     count = handle.queue.clear(handle.run)
     typer.echo(f"cancelled: {place}; {count} images were waiting; farm submit makes what is missing")
@@ -37,9 +37,9 @@ def _change(place: str, broker: str | None, state: RunState, priority: Priority 
     dataset = open_dataset(parse_destination(place))
     handle = handle_of(dataset, broker, priority)
     if handle.run.key not in handle.registry.runs():
-        raise ConflictError(f"{place}: nothing of it was submitted here, or all is done; see farm status {place}")
+        raise ConflictError(f"{place}: it was not submitted to this Redis, or all is done; see farm status {place}")
     if priority is not None and (waiting := handle.queue.length(handle.run)):
-        # What waits lies in lists of the former priority.
+        # The queued messages lie in the lists of the old priority.
         typer.echo(f"the {waiting} images that wait keep their priority", err=True)
     handle.registry.replace(handle.run.model_copy(update={"state": state}))
     return handle

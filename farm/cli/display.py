@@ -1,4 +1,4 @@
-"""Progress for people: bars on a terminal, a plain line now and then elsewhere."""
+"""Shows progress to people: bars on a terminal, elsewhere a plain line at intervals."""
 
 import time
 from contextlib import ExitStack
@@ -14,6 +14,7 @@ from farm.run.registry.port import RunState, WorkerState
 from farm.spec.category import Category
 
 _PLAIN_EVERY_S = 15.0
+"""Time between two plain lines, in seconds, where the output is no terminal: a long run does not fill a log."""
 
 
 def console(*, results: bool = False) -> Console:
@@ -22,7 +23,7 @@ def console(*, results: bool = False) -> Console:
 
 
 def duration(seconds: float) -> str:
-    """For people: `2 h 05 min`, `3 min 20 s`, `12 s`."""
+    """Write a number of seconds for people: `2 h 05 min`, `3 min 20 s`, `12 s`."""
     minutes, rest = divmod(round(seconds), 60)
     if minutes >= 60:
         return f"{minutes // 60} h {minutes % 60:02d} min"
@@ -30,7 +31,7 @@ def duration(seconds: float) -> str:
 
 
 def summary(progress: DatasetProgress) -> str:
-    """One line: how far, how fast, how long still, what failed."""
+    """Put progress in one line: images done, images an hour, time left, failures, held workers."""
     parts = [f"{progress.done} of {progress.quota} done"]
     if progress.running:
         parts.append(f"{len(progress.running)} running")
@@ -51,7 +52,7 @@ def summary(progress: DatasetProgress) -> str:
 
 
 def table(progress: DatasetProgress) -> Table:
-    """Done and quota of each category."""
+    """Make a table with a row for each category: images done, and quota."""
     grid = Table(box=None, pad_edge=False)
     grid.add_column("category")
     grid.add_column("done", justify="right")
@@ -75,7 +76,7 @@ class ProgressDisplay:
         self._last_done = -1
 
     def __enter__(self) -> Self:
-        """Take the terminal, if there is one."""
+        """Start the bars, if the output is a terminal."""
         if self._screen.is_terminal:
             columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
             self._bars = self._stack.enter_context(Progress(*columns, console=self._screen))
@@ -84,11 +85,11 @@ class ProgressDisplay:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        """Give it back."""
+        """Stop the bars, which restores the terminal."""
         self._stack.close()
 
     def show(self, progress: DatasetProgress) -> None:
-        """Show the newest look."""
+        """Show the newest progress."""
         if self._bars is None:
             self._show_plain(progress)
             return

@@ -1,4 +1,4 @@
-"""`farm doctor`: what this machine has and lacks."""
+"""`farm doctor`: tells what this machine has and lacks for rendering."""
 
 import ctypes
 import importlib.util
@@ -24,7 +24,7 @@ from farm.model import Model
 
 
 def doctor(as_json: AsJson = False) -> None:
-    """Tell what this machine has and lacks, and the command that mends each lack."""
+    """Tell what this machine has and lacks, and the command that installs what is missing."""
     screen = console(results=True)
     with console().status("looking"):
         checks = examine(Path.cwd())
@@ -42,25 +42,24 @@ def doctor(as_json: AsJson = False) -> None:
 
 
 _MEMORY_GIB = 4.0
-
+"""Memory, in GiB, below which the doctor advises a single worker."""
 
 _DISK_GIB = 2.0
-
+"""Free disk space, in GiB, below which the doctor advises another disk."""
 
 _BLENDER_S = 120.0
-
+"""Time, in seconds, after which Blender's module counts as not starting; it is large for slow disks."""
 
 _DEVICES = Path("/dev")
-
 
 _GPU_SIGNS = (
     ("optix or cuda", "nvidia[0-9]*", "NVIDIA"),
     ("hip", "kfd", "AMD"),
     ("oneapi or hip", "dri/renderD*", "a render node"),
 )
+"""GPU backends of Cycles, each with the pattern of its device files below `_DEVICES` and the name shown for it."""
 
-
-# Mesa's, of older and newer packages, and NVIDIA's own; below the root.
+# Paths below the root of Mesa's EGL drivers, in older and newer packages, and of NVIDIA's.
 _DRIVERS = (
     "usr/lib/*/dri/swrast_dri.so",
     "usr/lib/*/dri/libdril_dri.so",
@@ -69,7 +68,7 @@ _DRIVERS = (
 )
 
 
-# Debian's packages of the libraries that bpy is linked to.
+# The libraries that bpy is linked to, and the Debian package that holds each.
 _PACKAGES = {
     "libEGL.so.1": "libegl1",
     "libGL.so.1": "libgl1",
@@ -86,11 +85,14 @@ _PACKAGES = {
 
 
 class Check(Model):
-    """One thing the farm looks for.
+    """The result of one check of the machine.
 
     Attributes:
-        needed: without it nothing is rendered; the others are for some uses.
-        remedy: the command that mends it; empty where it is fine.
+        name: name of what was looked for.
+        ok: whether the machine has it, or enough of it.
+        needed: whether every rendering needs it; what is not needed serves some uses only.
+        detail: what was found, such as a version, a size or an error.
+        remedy: command that installs or mends it; empty if `ok`.
     """
 
     name: str
@@ -101,10 +103,13 @@ class Check(Model):
 
 
 def examine(folder: Path) -> list[Check]:
-    """Look at this machine.
+    """Check this machine.
 
     Args:
-        folder: where datasets would go, for its disk's free space.
+        folder: folder on the disk whose free space is measured.
+
+    Returns:
+        The results, in the order in which they are shown.
     """
     return [
         _python(),
@@ -178,7 +183,7 @@ def _redis_server() -> Check:
     found = find_redis_server()
     remedy = "" if found else "pip install 'cable-farm[local]', or apt-get install redis-server"
     detail = str(found) if found else "not found; farm run needs it"
-    # Only `farm run` starts one; workers and coordinators of a cluster are given theirs.
+    # Only `farm run` starts a Redis; workers and coordinators of a cluster get the address of one.
     return Check(name="redis-server", ok=found is not None, needed=False, detail=detail, remedy=remedy)
 
 
@@ -208,7 +213,7 @@ def _egl() -> Check:
 
 
 def _gpu() -> Check:
-    # Whether Cycles can use it, only Blender knows; this tells in no time what is worth a try.
+    # Only Blender knows whether Cycles can use a GPU; this quick look tells which backends are worth a try.
     found = [
         f"{backend} ({sign})"
         for backend, pattern, sign in _GPU_SIGNS

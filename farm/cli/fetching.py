@@ -1,4 +1,4 @@
-"""`farm assets fetch`: HDRIs and textures from public libraries, for those who have internet."""
+"""`farm assets fetch`: downloads HDRIs and textures from public libraries."""
 
 from pathlib import Path
 from typing import Annotated
@@ -18,15 +18,17 @@ _LABELS = {Kind.HDRI: "HDRI", Kind.TEXTURE: "texture"}
 
 def fetch(
     names: Annotated[
-        list[str] | None, typer.Argument(metavar="[NAME]...", help="What to fetch; all if none is named.")
+        list[str] | None, typer.Argument(metavar="[NAME]...", help="Names of HDRIs and textures; none means all.")
     ] = None,
-    list_them: Annotated[bool, typer.Option("--list", help="Only list what there is.")] = False,
-    to: Annotated[Path | None, typer.Option(metavar="FOLDER", help="Where to; default: in the user's cache.")] = None,
+    list_them: Annotated[bool, typer.Option("--list", help="Only list what can be fetched.")] = False,
+    to: Annotated[
+        Path | None, typer.Option(metavar="FOLDER", help="Folder for the files; default: in the user's cache.")
+    ] = None,
     mirror: Annotated[
-        str | None, typer.Option(metavar="URL", help="Ask this address in place of every server; the paths stay.")
+        str | None, typer.Option(metavar="URL", help="Server to ask in place of all others, with the same paths.")
     ] = None,
     registry: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Your own registry, in the form of the farm's.")
+        Path | None, typer.Option(metavar="FILE", help="Your own registry, in the format of the farm's.")
     ] = None,
 ) -> None:
     """Fetch HDRIs and textures from public libraries, each checked against the checksum registered here."""
@@ -50,10 +52,19 @@ def fetch(
 
 
 def _fetch(assets: tuple[Asset, ...], registry: Registry, root: Path, mirror: str | None) -> list[str]:
-    """Fetch one after another, whatever becomes of each; returns the names of those that failed.
+    """Fetch assets one after another; a failure does not stop the next ones.
+
+    Args:
+        assets: assets to fetch.
+        registry: registry that lists them.
+        root: folder for the files.
+        mirror: address of the server to ask in place of all others, if any.
+
+    Returns:
+        Names of the assets that failed.
 
     Raises:
-        AssetError: if the only one failed, or the mirror is no address.
+        AssetError: if there is one asset and it failed, or if the mirror is not an address.
     """
     failed: list[str] = []
     screen = console()

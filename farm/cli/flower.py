@@ -1,4 +1,4 @@
-"""`farm flower`: the live view of tasks and workers."""
+"""`farm flower`: starts Flower, the live view of tasks and workers in a browser."""
 
 import importlib.util
 import ipaddress
@@ -17,12 +17,13 @@ _PASSWORD_VARIABLE = "FLOWER_BASIC_AUTH"  # noqa: S105 - a name, no password
 
 def flower(
     broker: Broker = None,
-    address: Annotated[str, typer.Option(help="Any but this machine's own needs FLOWER_BASIC_AUTH.")] = "127.0.0.1",
-    port: Annotated[int, typer.Option(min=1, max=65535)] = 5555,
+    address: Annotated[str, typer.Option(help="Address to listen at; others need FLOWER_BASIC_AUTH.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(min=1, max=65535, help="Port to listen at.")] = 5555,
 ) -> None:
     """Start Flower, the live view of tasks and workers in a browser.
 
-    Whoever reaches it can stop workers; with FLOWER_BASIC_AUTH=USER:PASSWORD in the environment it asks for both.
+    Anybody who reaches Flower can stop workers. With FLOWER_BASIC_AUTH=USER:PASSWORD in the environment it asks for
+    both.
     """
     _check_password(address)
     if importlib.util.find_spec("flower") is None:
@@ -32,30 +33,33 @@ def flower(
     command = [sys.executable, "-P", "-m", "celery", "flower", f"--address={address}", f"--port={port}"]
     typer.echo(f"Flower: http://{address}:{port}")
     sys.stdout.flush()
-    # Celery reads the address from the environment; arguments, and a password in them, can be seen by all.
+    # Celery reads the broker's address from the environment: every user sees arguments, and a password in them.
     os.execve(command[0], command, {**os.environ, "BROKER_URL": url})  # noqa: S606 - no shell is wanted
 
 
 def _check_password(address: str) -> None:
-    """Refuse to let the network in without a password.
+    """Refuse to listen to the network without a password.
+
+    Args:
+        address: address to listen at.
 
     Raises:
-        SpecError: if there is none, or one that Flower can't use.
+        SpecError: if the address is not this machine's own and no password is set, or if Flower can't use it.
     """
     given = os.environ.get(_PASSWORD_VARIABLE, "")
-    # Flower takes users divided by commas.
+    # Flower takes a list of users, separated by commas.
     pairs = [user.strip().partition(":") for user in given.split(",")] if given else []
     if not all(name and password for name, _, password in pairs):
         raise SpecError(f"{_PASSWORD_VARIABLE}: write it as USER:PASSWORD, neither of them empty")
     if not pairs and not _is_loopback(address):
         raise SpecError(
-            f"--address {address}: whoever reaches Flower can stop workers; set {_PASSWORD_VARIABLE}=USER:PASSWORD in "
-            "the environment, or keep to 127.0.0.1"
+            f"--address {address}: anybody who reaches Flower can stop workers; set {_PASSWORD_VARIABLE}=USER:PASSWORD "
+            "in the environment, or keep to 127.0.0.1"
         )
 
 
 def _is_loopback(address: str) -> bool:
-    # Another name might be resolved to anything, and an empty one is all of this machine's addresses.
+    # Another name may resolve to any address, and an empty one means all of this machine's addresses.
     try:
         return address == "localhost" or ipaddress.ip_address(address).is_loopback
     except ValueError:

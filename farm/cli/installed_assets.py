@@ -1,4 +1,4 @@
-"""The surfaces, HDRIs and photographs of this machine, as a dataset's header names them."""
+"""Lists the surfaces, HDRIs and photographs of this machine in the form that a dataset's header has for them."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -29,14 +29,14 @@ class InstalledAssets:
         return [_surface(texture) for texture in scan_textures(folder)]
 
     def builtin_hdris(self) -> Sequence[HdriRef]:
-        """See `AssetSource.builtin_hdris`. Told by the registry, as a coordinator may be without Blender's files."""
+        """See `AssetSource.builtin_hdris`. The registry lists them, as a coordinator may lack Blender's files."""
         return [
             HdriRef(name=hdri.name, path=None, sha256=hdri.sha256, dark=hdri.dark, backdrop=hdri.backdrop)
             for hdri in registry()
         ]
 
     def environments(self) -> Sequence[HdriRef]:
-        """See `AssetSource.environments`. Told by the registry, as each machine renders its own."""
+        """See `AssetSource.environments`. The recipes list them, as each machine renders its own panoramas."""
         return [
             HdriRef(name=recipe.name, path=None, dark=False, recipe_version=recipe.version)
             for recipe in ENVIRONMENTS.values()
@@ -64,7 +64,7 @@ class InstalledAssets:
 
 
 _RENDERED = frozenset({TextureRole.COLOUR, TextureRole.ROUGHNESS, TextureRole.NORMAL, TextureRole.METALLIC})
-"""Roles that the floor's material has a place for; occlusion and height maps are checked and left aside."""
+"""Roles of the texture maps that the floor's material uses; occlusion and height maps are checked and not used."""
 
 
 def _surface(texture: TextureSet) -> FolderSurfaceRef:

@@ -1,4 +1,4 @@
-"""`farm repair`, `farm retry`: putting back what was lost, damaged or given up."""
+"""`farm repair` and `farm retry`: queue images again that were lost, damaged or given up."""
 
 from collections.abc import Mapping
 from typing import Annotated
@@ -22,10 +22,10 @@ def repair(
     place: DatasetPlace,
     broker: Broker = None,
     checksums: Annotated[
-        bool, typer.Option("--checksums", help="Read every file, and make again the images of which one is damaged.")
+        bool, typer.Option("--checksums", help="Read every file too, and make images with a damaged file again.")
     ] = False,
 ) -> None:
-    """Compare folder and queue once, and queue every image that is neither done nor on its way."""
+    """Compare folder and queue once, and queue every image that is neither done, nor waiting, nor being made."""
     dataset = open_dataset(parse_destination(place))
     handle = handle_of(dataset, broker)
     damaged = list(damaged_jobs(dataset)) if checksums else []
@@ -39,16 +39,16 @@ def repair(
 
 def retry(
     place: DatasetPlace,
-    jobs: Annotated[list[str] | None, typer.Argument(metavar="[JOB]...", help="Ids; all, if none.")] = None,
+    jobs: Annotated[list[str] | None, typer.Argument(metavar="[JOB]...", help="Ids of images; none means all.")] = None,
     broker: Broker = None,
 ) -> None:
-    """Put images that were given up back: into the queue if Redis is there, else for the next farm run."""
+    """Take images out of quarantine, and queue them; without Redis the next farm run makes them."""
     dataset = open_dataset(parse_destination(place))
     handle = handle_if_reachable(dataset, broker)
     quarantine = Quarantine(dataset)
     released = _chosen(dataset, quarantine.look(), jobs or [])
     if handle is not None:
-        # First, or a job whose attempts are used up would be given up again at once.
+        # The ledger forgets the attempts first: a job that has used them up would be given up again at once.
         handle.ledger.forgive(released)
     quarantine.release(released)
     if handle is None:

@@ -1,4 +1,4 @@
-"""`farm metrics`: the farm's figures for Prometheus, over HTTP."""
+"""`farm metrics`: serves the farm's figures to Prometheus over HTTP."""
 
 import importlib.util
 import signal
@@ -21,22 +21,22 @@ from farm.run.registry.redis import RedisRegistry
 
 def metrics(
     places: Annotated[
-        list[str] | None, typer.Argument(metavar="[DATASET]...", help="Folders or URLs; or name a --store.")
+        list[str] | None, typer.Argument(metavar="[DATASET]...", help="Folders or URLs of datasets; or give --store.")
     ] = None,
     store: Annotated[
         str | None,
-        typer.Option(envvar="FARM_STORE", help="Show the runs of datasets in this folder or URL."),
+        typer.Option(envvar="FARM_STORE", help="Folder or URL of datasets: show those with a run."),
     ] = None,
     broker: Broker = None,
     address: Annotated[
-        str, typer.Option(help="The page has no password: keep it where only Prometheus is.")
+        str, typer.Option(help="Address to listen at; the page has no password, so only Prometheus should reach it.")
     ] = "127.0.0.1",
-    port: Annotated[int, typer.Option(min=0, max=65535, help="0 takes a free one.")] = 9464,
+    port: Annotated[int, typer.Option(min=0, max=65535, help="Port to listen at; 0 takes a free one.")] = 9464,
 ) -> None:
-    """Serve images by category and state, seconds a stage, retries, queue and workers to Prometheus."""
+    """Serve figures to Prometheus: images by category and state, seconds a stage, retries, queue and workers."""
     if importlib.util.find_spec("prometheus_client") is None:
         raise MachineError("prometheus_client is not installed; run: pip install 'cable-farm[metrics]'")
-    # Not every machine of a farm has it.
+    # Only machines that serve metrics have prometheus_client.
     from prometheus_client import CollectorRegistry, start_http_server  # noqa: PLC0415
 
     from farm.run.metrics import FarmCollector  # noqa: PLC0415
@@ -66,7 +66,14 @@ def metrics(
 
 
 class _Datasets:
-    """The datasets that were named, and those in the store whose runs are up now or were."""
+    """The datasets that were named, and those in the store whose runs are registered or were at an earlier scrape.
+
+    Args:
+        url: address of Redis.
+        client: client of the same Redis.
+        named: datasets to show in any case.
+        store: folder or URL of datasets; None to show the named ones only.
+    """
 
     def __init__(self, url: str, client: "redis.Redis", named: list[Dataset], store: str | None) -> None:
         self._url = url
@@ -77,8 +84,8 @@ class _Datasets:
         self._found: dict[str, tuple[Dataset, RunHandle]] = {}
 
     def find(self) -> list[tuple[Dataset, RunHandle]]:
-        """All of them; raises BrokerError."""
-        with self._lock:  # each scrape has a thread of its own
+        """Look for new runs, and return all datasets found so far; raises BrokerError if Redis can't be read."""
+        with self._lock:  # each scrape has its own thread
             return self._look()
 
     def _look(self) -> list[tuple[Dataset, RunHandle]]:
@@ -88,7 +95,7 @@ class _Datasets:
         known = {handle.run.key for _, handle in self._found.values()}
         for run in RedisRegistry(self._client).runs().values() if self._store is not None else ():
             if run.key not in known:
-                # A dataset of another store is another's to show.
+                # The registry lists runs of other stores too, whose datasets are not found here.
                 with suppress(DestinationError, ConflictError, SpecError):
                     dataset = open_dataset(Destination(self._store or "", run.dataset))
                     if dataset.header.spec_sha256 == run.spec_sha256:
@@ -97,5 +104,5 @@ class _Datasets:
 
     def _add(self, dataset: Dataset) -> None:
         handle = open_handle(dataset, self._url, self._client)
-        # Another that took its place takes its name, too.
+        # A dataset that replaced another in the same folder replaces it here too.
         self._found[dataset.storage.location] = (dataset, handle)

@@ -1,4 +1,4 @@
-"""`farm preview`: one picture, now, without queue or dataset."""
+"""`farm preview`: makes one picture at once, without queue or dataset."""
 
 import os
 from pathlib import Path
@@ -21,15 +21,15 @@ from farm.spec.make_header import make_header
 @takes_dataset_options
 def preview(
     options: DatasetOptions,
-    category: Annotated[Category, typer.Option(help="What kind of picture.", show_default=False)],
-    index: Annotated[int, typer.Option(min=0, help="Which of its pictures.")] = 0,
-    out: Annotated[Path, typer.Option(help="The picture; its mask goes beside it.")] = Path("preview.png"),
+    category: Annotated[Category, typer.Option(help="Category of the picture.", show_default=False)],
+    index: Annotated[int, typer.Option(min=0, help="Number of the picture in its category, from 0.")] = 0,
+    out: Annotated[Path, typer.Option(help="File of the picture; its mask goes beside it.")] = Path("preview.png"),
     device: Device = DeviceChoice.AUTO,
-    threads: Annotated[int, typer.Option(min=0, help="Of the renderer; 0: all cores.")] = 0,
+    threads: Annotated[int, typer.Option(min=0, help="Threads of the renderer; 0: all cores.")] = 0,
     assets: Assets = None,
     logs: Logs = None,
 ) -> None:
-    """Make one picture as it would be in the dataset described, and its mask."""
+    """Make one picture, and its mask, as the described dataset would hold them."""
     if options.images is not None or options.quota:
         raise SpecError("farm preview makes one image: leave --images and --quota out")
     if out.suffix != ".png":
@@ -40,7 +40,7 @@ def preview(
         raise DestinationError(f"{out}: can't be written; check the rights of {out.parent}")
     mask = out.with_name(f"{out.stem}-mask.png")
     if taken := next((path for path in (out, mask) if path.is_dir()), None):
-        raise DestinationError(f"{taken}: is a folder; name a file by --out")
+        raise DestinationError(f"{taken}: this is a folder; name a file with --out")
     description = options.describe(quotas={str(category): index + 1})
     header = make_header(description.spec, description.inputs, InstalledAssets())
     require_blender()

@@ -1,4 +1,4 @@
-"""`farm ranges`: every range of a style, as a description takes them."""
+"""`farm ranges`: prints every range of a style in the format of a description."""
 
 from typing import Annotated
 
@@ -10,8 +10,8 @@ from farm.spec.styles import RANGES_OF, Style
 
 
 def ranges(
-    style: Annotated[Style, typer.Option(help="Whose ranges to print.")] = DEFAULT_STYLE,
+    style: Annotated[Style, typer.Option(help="Style whose ranges to print.")] = DEFAULT_STYLE,
 ) -> None:
-    """Print every range that pictures are drawn from, as TOML: change some and name the file to farm run or submit."""
-    drawn_from = {"style": style.value, "ranges": RANGES_OF[style].model_dump(mode="json", exclude_none=True)}
-    typer.echo(tomli_w.dumps(drawn_from), nl=False)
+    """Print every range that scenes are sampled from, as TOML: change some, and give the file to farm run or submit."""
+    description = {"style": style.value, "ranges": RANGES_OF[style].model_dump(mode="json", exclude_none=True)}
+    typer.echo(tomli_w.dumps(description), nl=False)

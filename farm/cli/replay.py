@@ -1,4 +1,4 @@
-"""`farm replay`: one of a dataset's images again, here and now, to see why it failed."""
+"""`farm replay`: makes one of a dataset's images again on this machine, to see why it failed."""
 
 from pathlib import Path
 from typing import Annotated
@@ -17,14 +17,14 @@ from farm.spec.job import Job
 
 def replay(
     place: DatasetPlace,
-    job_id: Annotated[str, typer.Argument(metavar="JOB", help="Its id, as in far-000042.")],
+    job_id: Annotated[str, typer.Argument(metavar="JOB", help="Id of the image, such as far-000042.")],
     out: Annotated[Path, typer.Option(help="Folder for the picture and its mask.")] = Path(),
     device: Device = DeviceChoice.AUTO,
-    threads: Annotated[int, typer.Option(min=0, help="Of the renderer; 0: all cores.")] = 0,
+    threads: Annotated[int, typer.Option(min=0, help="Threads of the renderer; 0: all cores.")] = 0,
     assets: Assets = None,
     logs: Logs = None,
 ) -> None:
-    """Make one of a dataset's images again, beside the dataset: nothing in it is changed."""
+    """Make one of a dataset's images again, in another folder: the dataset does not change."""
     dataset = open_dataset(parse_destination(place))
     job = Job.from_id(job_id)
     if not dataset.asks_for(job):

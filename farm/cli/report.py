@@ -1,4 +1,4 @@
-"""`farm report`: the page of pictures and the index."""
+"""`farm report`: writes the page of pictures, the index, and a contact sheet."""
 
 from pathlib import Path
 from typing import Annotated
@@ -14,12 +14,13 @@ from farm.dataset.report import write_report
 from farm.storage import open_storage
 
 _SHEET_EDGE_PX = 192
+"""Edge of a picture on the contact sheet, in pixels."""
 
 
 def report(
     place: DatasetPlace,
-    pictures: Annotated[int, typer.Option(min=0, help="Pictures shown of each category.")] = 40,
-    sheet: Annotated[Path | None, typer.Option(help="Write a contact sheet too, a JPEG.")] = None,
+    pictures: Annotated[int, typer.Option(min=0, help="Pictures of each category on the page.")] = 40,
+    sheet: Annotated[Path | None, typer.Option(help="JPEG file for a contact sheet, if one is wanted.")] = None,
     columns: Annotated[int, typer.Option(min=1, max=40, help="Pictures of each category on the sheet.")] = 4,
 ) -> None:
     """Write report.html, the pictures beside their masks, and index.jsonl."""

@@ -1,4 +1,4 @@
-"""`farm status` and `farm watch`: how far a dataset is."""
+"""`farm status` and `farm watch`: show the progress of a dataset."""
 
 import typer
 
@@ -17,14 +17,14 @@ from farm.run.registry.port import RunState, WorkerReport
 
 
 def status(place: DatasetPlace, broker: Broker = None, as_json: AsJson = False) -> None:
-    """Tell how far a dataset is, from its folder; with Redis also the rate, what runs, and the workers."""
+    """Show a dataset's progress, from its folder; with Redis also the rate, running images and workers."""
     dataset = open_dataset(parse_destination(place))
     handle = handle_if_reachable(dataset, broker)
     progress = on_disk(dataset, Completion(dataset).audit(), Quarantine(dataset).look())
     if handle is not None:
         progress = with_handle(progress, handle)
         if progress.ended:
-            # Nobody may have watched to the end.
+            # If nobody watched to the end, the run is still registered.
             handle.registry.remove(handle.run.key)
     if as_json:
         typer.echo(progress.model_dump_json(indent=1))
@@ -58,13 +58,17 @@ def _worker(report: WorkerReport) -> str:
 
 
 def watch(place: DatasetPlace, broker: Broker = None) -> None:
-    """See a dataset through until it is done: what is missing is queued, and again what is lost on the way."""
+    """Wait until a dataset is done; queue the images that are missing, and again those that are lost meanwhile."""
     dataset = open_dataset(parse_destination(place))
     watch_to_the_end(dataset, Coordinator(dataset, handle_of(dataset, broker)))
 
 
 def watch_to_the_end(dataset: Dataset, coordinator: Coordinator) -> None:
-    """Show a dataset grow, then write its index and report, as far as it got.
+    """Show progress until a dataset is done or its images are given up, then write its index and report.
+
+    Args:
+        dataset: the dataset.
+        coordinator: coordinator of its run.
 
     Raises:
         IncompleteError: if images were given up.

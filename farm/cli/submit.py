@@ -1,4 +1,4 @@
-"""`farm submit`: hand a dataset's jobs to whatever workers listen."""
+"""`farm submit`: queues a dataset's jobs for the workers that listen to the same Redis."""
 
 from typing import Annotated
 
@@ -23,12 +23,12 @@ def submit(
     out: Out,
     broker: Broker = None,
     priority: Annotated[
-        Priority, typer.Option(help="Runs of a higher priority go first; runs of one priority take turns.")
+        Priority, typer.Option(help="Priority of the run; runs with a higher one go first, equal ones take turns.")
     ] = Priority.NORMAL,
-    wait: Annotated[bool, typer.Option("--wait", help="Stay until all is done, and mend what gets lost.")] = False,
+    wait: Annotated[bool, typer.Option("--wait", help="Wait until all is done, and queue lost images again.")] = False,
     logs: Logs = None,
 ) -> None:
-    """Queue a dataset's images for the workers; only those that are missing."""
+    """Queue the missing images of a dataset for the workers."""
     destination = parse_destination(out)
     description = options.describe()
     header = make_header(description.spec, description.inputs, InstalledAssets())

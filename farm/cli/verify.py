@@ -1,4 +1,4 @@
-"""`farm verify`: every file against its manifest."""
+"""`farm verify`: checks every file of a dataset against its manifest."""
 
 from collections import Counter
 
@@ -13,6 +13,7 @@ from farm.dataset.verify import verify as verify_dataset
 from farm.errors import IncompleteError, VerificationError
 
 _SHOWN = 50
+"""Findings listed at most in the error message; `--json` lists all."""
 
 
 def verify(place: DatasetPlace, as_json: AsJson = False) -> None:
@@ -28,11 +29,11 @@ def verify(place: DatasetPlace, as_json: AsJson = False) -> None:
         raise VerificationError(_summary(verdict, listed=not as_json))
     if verdict.quarantined:
         raise IncompleteError(
-            f"{verdict.location}: {verdict.images} images, every file as its manifest tells; "
+            f"{verdict.location}: {verdict.images} images, every file agrees with its manifest; "
             f"{len(verdict.quarantined)} are in quarantine; farm status tells why, farm retry puts them back"
         )
     if not as_json:
-        typer.echo(f"{verdict.location}: {verdict.images} images, every file as its manifest tells")
+        typer.echo(f"{verdict.location}: {verdict.images} images, every file agrees with its manifest")
 
 
 def _summary(verdict: Verdict, *, listed: bool) -> str:

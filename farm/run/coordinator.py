@@ -1,4 +1,4 @@
-"""Sees to it that a dataset gets done: queues what is missing, and again what got lost on the way."""
+"""Completes a dataset: queues its missing jobs, and queues lost ones again, until all are done or given up."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -19,29 +19,34 @@ from farm.spec.job import Job
 from farm.spec.job_set import JobSet
 
 _REST = 20
-"""Pause between two looks, in the time that one took: at a full dataset they must not take a core from the workers."""
+"""Pause between two looks, as a multiple of the time that a look takes: looks at a large dataset take little of a core
+from the workers."""
 
 _LONGEST_REST_S = 60.0
+"""Longest pause between two looks that `_REST` asks for, in seconds: lost jobs are noticed within a few minutes."""
 
 _AUDIT_S = 30.0
+"""Shortest time between two audits, which compare the sizes of all files, in seconds; one more precedes the end."""
+
 _AUDIT_REST = 100
-"""The files' sizes are compared so often, or after so many times what it takes, and before a run ends."""
+"""Shortest time between two audits, as a multiple of the time that one takes: large datasets are audited rarely."""
 
 _LEAD_S = 30.0
-"""Whoever queues a dataset's jobs is followed by another after this time, and three rests, without a word."""
+"""Time, in seconds, beyond three of the longest pauses, after which another coordinator replaces a silent leader."""
 
 _REASONS_SHOWN = 20
+"""Failed jobs listed at most in the error message."""
 
 
 class Coordinator:
-    """Sees one dataset through. Of several for one dataset, one queues jobs and the others look on.
+    """Completes one dataset. If several coordinators watch a dataset, one queues jobs and the others only look.
 
     Args:
-        dataset: with its header in place.
-        hints: its run in Redis.
-        poll_s: pause between two looks, in seconds; longer where a look takes long.
-        lost_after_s: see `farm.run.feeder.LOST_AFTER_S`.
-        window: see `farm.run.feeder.WINDOW`.
+        dataset: dataset whose header is written.
+        handle: ledger, queue and registry of the dataset's run in Redis.
+        poll_s: shortest pause between two looks, in seconds; `_REST` makes it longer if a look takes long.
+        lost_after_s: time, in seconds, after which a missing job counts as lost; see `farm.run.feeder.LOST_AFTER_S`.
+        window: number of jobs that may wait in Redis; see `farm.run.feeder.WINDOW`.
     """
 
     def __init__(
@@ -65,16 +70,16 @@ class Coordinator:
         self._audit_took_s = 0.0
 
     def submit_missing(self, on_submitted: Callable[[int], None] = lambda _: None) -> int:
-        """Queue every job that is neither done, given up, nor on its way; of a large dataset, a window.
+        """Queue every job that is neither done, given up, waiting nor held by a worker, up to the window.
 
         Args:
-            on_submitted: told the number so far, now and then.
+            on_submitted: function that gets the number of jobs queued so far, at every hundredth and at the end.
 
         Returns:
-            How many jobs were queued.
+            The number of jobs queued.
 
         Raises:
-            BrokerError: if Redis goes away.
+            BrokerError: if Redis can't be reached.
             DestinationError: if the folder can't be read.
             RunCancelledError: if the run was cancelled, and not submitted again since.
         """
@@ -92,7 +97,7 @@ class Coordinator:
 
     @property
     def left_out(self) -> int:
-        """Jobs that were undone at the last look and are not on their way, as the window is full."""
+        """Number of jobs that were undone at the last look and are neither queued nor held: the window is full."""
         return self._feeder.left_out(self._undone())
 
     def _undone(self) -> JobSet:
@@ -110,7 +115,7 @@ class Coordinator:
     def _look_at_quarantine(self) -> None:
         found = self._quarantine.look()
         done = [job_id for job_id in found if Job.from_id(job_id) in self._completion.done]
-        # Made after all, say by a worker that was thought dead.
+        # A job in quarantine may be done after all, for example by a worker that was thought dead.
         self._quarantine.release(done)
         self._quarantined = {job_id: why for job_id, why in found.items() if job_id not in done}
 
@@ -120,19 +125,20 @@ class Coordinator:
         *,
         supervise: Callable[[], None] = lambda: None,
     ) -> Progress:
-        """Wait until every job is done or given up. A Redis or folder that goes away meanwhile is waited for.
+        """Wait until every job is done or given up; wait also while Redis or the folder can't be reached.
 
         Args:
-            on_progress: told after every look.
-            supervise: called at every look; may restart workers.
+            on_progress: function that gets the progress after every look.
+            supervise: function called before every look; it may restart workers.
 
         Returns:
-            The last look.
+            The progress at the last look.
 
         Raises:
             IncompleteError: if jobs were given up; it lists their reasons.
             RunCancelledError: if somebody cancelled the run.
-            FarmError: what `supervise` raises.
+            DatasetMissingError: if worker after worker finds no such dataset in its store.
+            FarmError: if `supervise` raises one.
         """
         try:
             while True:
@@ -140,7 +146,7 @@ class Coordinator:
                 start_s = time.monotonic()
                 progress = self._look(mend=True)
                 on_progress(progress)
-                # Of a Redis that is away nothing is needed any more.
+                # The end needs nothing from Redis, so it may be away.
                 if progress.ended and self._ends_well():
                     return self._end(progress)
                 took_s = time.monotonic() - start_s
@@ -152,11 +158,14 @@ class Coordinator:
     def end_if_complete(self, on_progress: Callable[[Progress], None] = lambda _: None) -> Progress | None:
         """Look once, and queue nothing.
 
+        Args:
+            on_progress: function that gets the progress if every job is done or given up.
+
         Returns:
-            The look, if every job is done; None if some are not.
+            The progress, if every job is done; None if some are neither done nor given up.
 
         Raises:
-            IncompleteError: if those that are not were given up.
+            IncompleteError: if every job that is not done was given up.
         """
         progress = self._look(mend=False)
         if not progress.ended or not self._ends_well():
@@ -181,13 +190,13 @@ class Coordinator:
                 self._tend()
             progress = with_handle(progress, self._handle)
         except BrokerError as error:
-            # Redis may come back empty: then nothing that was on its way is.
+            # Redis may come back empty, without the jobs that were queued: the next lead begins with a survey.
             self._leads = False
             trouble = f"{error}; waiting for it"
         return progress.model_copy(update={"trouble": trouble})
 
     def _require_header(self) -> None:
-        # Of a folder that is gone, say with its mount, no file is listed, as if nothing were done.
+        # A folder that is gone, for example with its mount, lists no file, as if no job were done.
         try:
             self._dataset.storage.read(HEADER_FILE)
         except FileNotFoundError as error:
@@ -207,12 +216,12 @@ class Coordinator:
         self._feeder.top_up(undone)
 
     def _follow_notice(self) -> None:
-        """Put the run's notice up, as it was last seen: a Redis that lost its memory does not undo a pause."""
+        """Register the run as it was last seen, and take up its changes: a Redis that lost its data keeps a pause."""
         run = self._handle.registry.register(self._handle.run)
         self._handle = replace(self._handle, run=run)
         self._feeder.follow(run)
         if run.state is RunState.CANCELLED:
-            # What a coordinator was about to queue when it was cancelled goes, too.
+            # Jobs that a coordinator queued while the run was being cancelled are removed too.
             self._handle.queue.clear(run)
             raise RunCancelledError(
                 f"{self._dataset.storage.location}: cancelled by farm cancel; submit it again to go on"
@@ -229,7 +238,7 @@ class Coordinator:
         return self._leads
 
     def _ends_well(self) -> bool:
-        """Whether the end still stands after a look at the files themselves."""
+        """Whether every job is still done or given up after an audit of the files."""
         try:
             self._require_header()
             self._audit()

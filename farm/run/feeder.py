@@ -1,4 +1,7 @@
-"""Keeps a run's queue filled, at most a window of it, and notices what got lost on the way."""
+"""Keeps a run's queue filled, up to a window of jobs, and notices jobs that were queued and got lost.
+
+A job is *on its way* from the moment it is queued until it is done or given up: it waits, or a worker holds it.
+"""
 
 import itertools
 import time
@@ -14,11 +17,13 @@ from farm.spec.job import Job
 from farm.spec.job_set import JobSet
 
 WINDOW = 30_000
-"""At most so many jobs of a run wait in Redis, 40 MB: the published 25,000 fit, a million come as the queue drains."""
+"""Number of a run's jobs that may wait in Redis, where they take 40 MB: the published 25,000 images fit, and a million
+are queued bit by bit."""
 
 LOST_AFTER_S = 10.0
-"""A job that is neither done, given up, claimed nor queued for so long is lost. A message is in nobody's hands for an
-instant when a worker has taken it and not yet claimed its job; a duplicate would do no harm, but cost a look."""
+"""Time, in seconds, after which a job that is neither done, given up, claimed nor queued counts as lost. For an instant
+a message is in no list: a worker has taken it and has not claimed its job yet. A job queued twice does no harm, but it
+costs a look."""
 
 
 class Feeder:
@@ -26,9 +31,9 @@ class Feeder:
 
     Args:
         dataset: the dataset.
-        hints: its run in Redis.
-        window: see `WINDOW`.
-        lost_after_s: see `LOST_AFTER_S`.
+        handle: ledger, queue and registry of the dataset's run in Redis.
+        window: number of jobs that may wait; see `WINDOW`.
+        lost_after_s: time, in seconds, after which a missing job counts as lost; see `LOST_AFTER_S`.
     """
 
     def __init__(
@@ -45,12 +50,12 @@ class Feeder:
         return JobSet(self._dataset.header.spec.quotas)
 
     def survey(self) -> None:
-        """Find out afresh which jobs are on their way: those that wait, and those that somebody holds.
+        """Read from Redis which jobs are on their way: those that wait, and those that a worker holds.
 
         Raises:
             BrokerError: if Redis can't be read.
         """
-        # The queue is looked at before the claims: a job moves from there to here, never back.
+        # The queue is read before the claims: a job moves from the queue to the claims, never back.
         self._on_the_way = self._waiting() | self._claimed()
         self._suspected_s = {}
 
@@ -63,7 +68,7 @@ class Feeder:
     def _claimed(self) -> JobSet:
         found = self._none()
         for job_id in live_claims(self._handle.ledger):
-            # What is no job's id was not written by this farm.
+            # A key that is not a job's id was not written by this farm.
             try:
                 found.add(Job.from_id(job_id))
             except MessageError:
@@ -71,11 +76,21 @@ class Feeder:
         return found
 
     def follow(self, run: Run) -> None:
-        """Take up a changed notice: a new priority, for what is queued from now on."""
+        """Take up a changed run: its priority holds for the jobs queued from now on."""
         self._handle = replace(self._handle, run=run)
 
     def top_up(self, undone: JobSet) -> int:
-        """As `feed`, once the queue is half empty: a full one is not measured out at every look."""
+        """Feed the queue if it is at least half empty, which saves the work at most looks.
+
+        Args:
+            undone: jobs that are neither done nor given up.
+
+        Returns:
+            The number of jobs queued.
+
+        Raises:
+            BrokerError: if Redis can't be reached.
+        """
         if self._handle.queue.length(self._handle.run) > self._window // 2:
             return 0
         return self.feed(undone)
@@ -84,14 +99,14 @@ class Feeder:
         """Queue undone jobs that are not on their way, up to the window.
 
         Args:
-            undone: neither done nor given up.
-            on_submitted: told the number so far, now and then.
+            undone: jobs that are neither done nor given up.
+            on_submitted: function that gets the number of jobs queued so far, at every hundredth and at the end.
 
         Returns:
-            How many were queued.
+            The number of jobs queued.
 
         Raises:
-            BrokerError: if Redis goes away; what was queued before is counted as not on its way.
+            BrokerError: if Redis can't be reached; the jobs that this call has queued then count as not on their way.
         """
         waiting = self._handle.queue.length(self._handle.run)
         jobs = list(itertools.islice(undone - self._on_the_way, max(0, self._window - waiting)))
@@ -102,14 +117,14 @@ class Feeder:
         return count
 
     def left_out(self, undone: JobSet) -> int:
-        """How many of some undone jobs are not on their way."""
+        """Count the jobs among `undone` that are not on their way."""
         return len(undone - self._on_the_way)
 
     def mend(self, undone: JobSet) -> None:
-        """Look for jobs that were queued and are nowhere now; the next feed queues those that stay lost.
+        """Look for jobs that were queued and are lost now; the next feed queues those that stay lost.
 
         Args:
-            undone: neither done nor given up.
+            undone: jobs that are neither done nor given up.
 
         Raises:
             BrokerError: if Redis can't be read.
@@ -122,8 +137,8 @@ class Feeder:
 
     def _lost(self, undone: JobSet) -> JobSet:
         outstanding = undone & self._on_the_way
-        # A queue at least as long as what is expected in it is not searched: duplicates hide a loss only until they
-        # are taken. What is claimed is expected elsewhere.
+        # The queue is searched only if it is shorter than it should be: claimed jobs are not in it, and duplicates hide
+        # a loss only until a worker takes them.
         waiting = self._handle.queue.length(self._handle.run)
         if len(outstanding - self._claimed()) <= waiting:
             return self._none()

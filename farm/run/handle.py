@@ -1,4 +1,4 @@
-"""Joins a dataset to its run in Redis: the ledger, the queue and the board, over one client."""
+"""Opens a dataset's run in Redis: its ledger, the queue and the run registry, over one client."""
 
 import redis
 
@@ -12,18 +12,21 @@ from farm.run.registry.redis import RedisRegistry
 
 
 def run_of(dataset: Dataset, priority: Priority = Priority.NORMAL) -> Run:
-    """The notice of a dataset's run, as when it is first submitted."""
+    """Describe a dataset's run as at its first submission: active, with the given priority."""
     return Run(dataset=dataset.name, spec_sha256=dataset.header.spec_sha256, priority=priority)
 
 
 def open_handle(dataset: Dataset, url: str, client: "redis.Redis", priority: Priority | None = None) -> RunHandle:
-    """What Redis tells of a dataset.
+    """Open the run of a dataset.
 
     Args:
         dataset: the dataset.
-        url: the broker's address.
-        client: of the same Redis, from `farm.run.queue.broker.connect`.
-        priority: of the run; None for that of the notice that is up, else normal.
+        url: address of the broker.
+        client: client of the same Redis, from `farm.run.queue.broker.connect`.
+        priority: priority of the run; None keeps that of the registered run, or is normal if there is none.
+
+    Returns:
+        The run with its ledger, queue and registry; nothing is written.
 
     Raises:
         BrokerError: if Redis can't be read.

@@ -1,7 +1,7 @@
-"""The farm's own metrics for Prometheus, read at each scrape: from the board and ledgers in Redis, and the folders.
+"""The farm's metrics for Prometheus, read at each scrape from the registry and ledgers in Redis, and from the folders.
 
-Flower tells of Celery's tasks; these tell of images. Names follow Prometheus' conventions: base units, `_total` for
-what only grows.
+Flower's metrics count Celery's tasks; these count images. Names follow Prometheus' conventions: base units, and
+`_total` for counters.
 """
 
 import time
@@ -24,7 +24,7 @@ from farm.spec.job import Job
 from farm.spec.job_set import JobSet
 
 FOLDER_EVERY_S = 30.0
-"""A folder is listed at most so often, however often somebody scrapes."""
+"""Shortest time between two listings of a folder, in seconds, however often Prometheus scrapes."""
 
 
 @dataclass(slots=True)
@@ -39,12 +39,13 @@ Found = tuple[Dataset, RunHandle]
 
 
 class FarmCollector(Collector):
-    """Collects what there is to know of some datasets and of all workers.
+    """Collects the metrics of some datasets and of all workers.
 
     Args:
-        find: the datasets, each with its run in Redis; asked at each scrape. May raise BrokerError.
-        board: where workers report.
-        clock: counts seconds.
+        find: function that returns the datasets, each with its run in Redis; called at each scrape, and may raise
+            BrokerError.
+        registry: registry in which workers report.
+        clock: function that returns a time in seconds, which never goes back.
     """
 
     def __init__(
@@ -57,7 +58,7 @@ class FarmCollector(Collector):
         self._folders: dict[str, _Folder] = {}
 
     def collect(self) -> Iterator[Metric]:
-        """All families; those that Redis tells are left out while it is away, and `farm_redis_up` is 0."""
+        """Yield all metric families; while Redis is away, those read from it are left out and `farm_redis_up` is 0."""
         up = True
         try:
             self._known = self._find()
@@ -82,7 +83,7 @@ class FarmCollector(Collector):
                     folder.quarantined.add(Job.from_id(job_id))
                 folder.looked_s = self._clock()
             except DestinationError:
-                return  # what is not known is not shown
+                return  # a folder that can't be read has no counts to show
         done, given_up = folder.completion.done.counts(), (folder.quarantined - folder.completion.done).counts()
         for category, quota in dataset.header.spec.quotas.items():
             states = {
@@ -112,7 +113,7 @@ class FarmCollector(Collector):
 
 
 class _Totals:
-    """The ledgers' running totals; they begin anew with an emptied Redis, as counters may."""
+    """Counters of the ledgers' running totals; an emptied Redis starts them from 0, which Prometheus allows."""
 
     _PLAIN: ClassVar = {
         "retries": "Failures that may pass, tried again.",
@@ -132,7 +133,12 @@ class _Totals:
         )
 
     def add(self, dataset: str, totals: Mapping[str, float]) -> None:
-        """Take in one ledger's totals."""
+        """Add the totals of one ledger.
+
+        Args:
+            dataset: name of the dataset.
+            totals: value of each total, by its name in the ledger, such as `retries`, `images:far` or `seconds:render`.
+        """
         for name, family in self._plain.items():
             family.add_metric([dataset], totals.get(name, 0.0))
         for name, value in sorted(totals.items()):
@@ -143,7 +149,7 @@ class _Totals:
                 self._seconds.add_metric([dataset, what], value)
 
     def families(self) -> Iterator[Metric]:
-        """All of them."""
+        """Yield the metric families of all totals."""
         yield from (*self._plain.values(), self._made, self._seconds)
 
 

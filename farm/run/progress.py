@@ -1,4 +1,4 @@
-"""How far a dataset is: what `farm status` shows and `--json` prints."""
+"""The progress of a dataset: what `farm status` shows and `farm status --json` prints."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -15,26 +15,28 @@ from farm.spec.job_set import JobSet
 
 
 class CategoryProgress(Model):
-    """Images of one category, done and asked for."""
+    """Numbers of images of one category: done, and asked for."""
 
     done: int
     quota: int
 
 
 class Progress(Model):
-    """How far a dataset is.
+    """The progress of a dataset. The fields from `state` to `last_picture` are None if Redis was not asked.
 
     Attributes:
-        location: the dataset's folder.
-        quarantined: jobs that are given up, with the reason.
-        state: what a person wants of the run; None without Redis, as the next ones, or where nothing was submitted.
-        waiting: messages in the run's queue.
-        running: jobs that workers hold now.
-        workers: what the farm's workers report, those that work for other runs too.
-        images_per_hour: None while too little is known.
-        seconds_left: at this rate.
-        last_picture: the newest picture's path below the folder.
-        trouble: what keeps the look from being whole, such as a Redis that is away; None if nothing does.
+        location: folder or URL of the dataset.
+        spec_sha256: fingerprint of the dataset's description.
+        categories: images done and asked for, by category.
+        quarantined: reason for each job that is given up, by its id.
+        state: state of the run that a person asked for; None also if nothing was submitted.
+        waiting: number of messages in the run's queue.
+        running: ids of the jobs that workers hold now.
+        workers: reports of all workers of the farm, including those that work for other runs.
+        images_per_hour: images that the farm makes an hour; None also while too few are made to tell.
+        seconds_left: time until all images are done at this rate, in seconds.
+        last_picture: path of the newest picture below the folder.
+        trouble: reason why the look is incomplete, such as a Redis that can't be reached; None if it is complete.
     """
 
     location: str
@@ -52,12 +54,12 @@ class Progress(Model):
 
     @property
     def done(self) -> int:
-        """Images done, of all categories."""
+        """Number of images done in all categories."""
         return sum(category.done for category in self.categories.values())
 
     @property
     def quota(self) -> int:
-        """Images asked for, of all categories."""
+        """Number of images asked for in all categories."""
         return sum(category.quota for category in self.categories.values())
 
     @property
@@ -68,7 +70,14 @@ class Progress(Model):
 
 @dataclass(frozen=True, slots=True)
 class RunHandle:
-    """What Redis tells of a dataset's run."""
+    """Access to a dataset's run in Redis.
+
+    Attributes:
+        run: the run, as it was last seen in the registry or as it would be submitted.
+        ledger: the run's ledger: claims, attempts, counts and timings.
+        queue: the queues of all runs.
+        registry: the farm's runs and workers.
+    """
 
     run: Run
     ledger: Ledger
@@ -77,12 +86,15 @@ class RunHandle:
 
 
 def on_disk(dataset: Dataset, done: JobSet, quarantined: Mapping[str, str]) -> Progress:
-    """What the folder alone tells.
+    """Put together the progress that the folder alone tells.
 
     Args:
         dataset: the dataset.
-        done: its done jobs.
-        quarantined: the jobs that are given up; of those that are done after all nothing is told.
+        done: the jobs that are done.
+        quarantined: reason for each job that is given up, by its id; jobs that are done after all are left out.
+
+    Returns:
+        The progress, without what Redis tells.
     """
     counts = done.counts()
     return Progress(
@@ -97,7 +109,14 @@ def on_disk(dataset: Dataset, done: JobSet, quarantined: Mapping[str, str]) -> P
 
 
 def with_handle(progress: Progress, handle: RunHandle) -> Progress:
-    """The same with what Redis tells.
+    """Add to a dataset's progress what Redis tells.
+
+    Args:
+        progress: progress that the folder tells.
+        handle: ledger, queue and registry of the dataset's run.
+
+    Returns:
+        A copy with the rate, the waiting and running jobs, and the workers.
 
     Raises:
         BrokerError: if Redis can't be read.

@@ -1,1 +1,1 @@
-"""One drawn scene: every random value of a picture, free of Blender."""
+"""The model of a scene: every random value of one picture, in modules by subject. It knows nothing of Blender."""

@@ -1,4 +1,4 @@
-"""What is behind the cables: the HDRI that also lights them, or a photograph."""
+"""What the picture shows behind the cables: the HDRI that also lights them, or a photograph."""
 
 from typing import Annotated
 
@@ -8,15 +8,15 @@ from farm.model import Model
 
 
 class Plate(Model):
-    """A photograph of the user's behind the cables.
+    """A square part of one of the user's photographs, shown behind the cables.
 
     Attributes:
-        name: in the dataset's catalogue.
-        x: where the seen square lies between the left (0) and the right (1).
-        y: likewise, between top and bottom.
-        zoom: edge of the seen square over the photograph's shorter side.
+        name: name of the photograph in the dataset's header.
+        x: position of the square in the photograph, from the left (0) to the right (1).
+        y: position of the square in the photograph, from the top (0) to the bottom (1).
+        zoom: edge of the square, as a share of the photograph's shorter side.
         mirror: whether left and right are swapped.
-        blur_px: radius of the disc by which it is out of focus, in the picture's pixels.
+        blur_px: radius of the blur disc, in pixels of the picture.
     """
 
     name: str
@@ -31,10 +31,11 @@ class HdriWorld(Model):
     """The HDRI that lights the scene.
 
     Attributes:
-        hdri: its name in the dataset's catalogue.
-        rotation_deg: turn about the vertical of the HDRI.
-        tilt_deg: 0: its zenith is above the floor; 90: the camera looks at its horizon, upright.
-        brightness: the second mix factor; 0 leaves the HDRI as it is, 1 doubles it.
+        hdri: name of the HDRI in the dataset's header.
+        rotation_deg: rotation about the HDRI's vertical, in degrees.
+        tilt_deg: tilt of the HDRI, in degrees: at 0 its zenith is above the floor; at 90 the camera looks at its
+            horizon, upright.
+        brightness: light added to the HDRI's own, as a share of it: 0 adds none, 1 doubles it.
     """
 
     hdri: str

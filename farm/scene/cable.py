@@ -1,4 +1,4 @@
-"""A cable before its fall: where it starts, what it is made of, and what it looks like."""
+"""A cable before its fall: its start, its material and its look."""
 
 from enum import StrEnum
 from typing import Annotated, Literal
@@ -9,9 +9,15 @@ from farm.model import Metres, Model, Rgb, Share, Vector3
 
 
 class CableMaterial(Model):
-    """The published surface: colour, the dirt's density and pattern, and the second ramp's position.
+    """The published surface, a shader with a colour, a dirt pattern and a reflection.
 
-    Colours are 8-bit levels of linear light, as the published set-up reads them.
+    Attributes:
+        colour: 8-bit levels of linear light, as the published set-up reads them.
+        dirt_colour: colour of the dirt, 8-bit levels of linear light.
+        dirt_position: position on the colour ramp, 0 to 1, from which the noise shows dirt; higher means less dirt.
+        dirt_mapping: offset of the noise pattern in space, in the units of its texture coordinates.
+        dirt_offset: fourth coordinate of the noise pattern.
+        reflection_position: position of the reflection ramp's second element, 0 to 1.
     """
 
     kind: Literal["procedural"] = "procedural"
@@ -24,7 +30,7 @@ class CableMaterial(Model):
 
 
 class Sheath(StrEnum):
-    """What is around a cable's conductors."""
+    """The kind of sheath around a cable's conductors."""
 
     PLAIN = "plain"
     TRANSLUCENT = "translucent"
@@ -39,13 +45,14 @@ class StripeKind(StrEnum):
 
 
 class Stripe(Model):
-    """A second colour.
+    """Stripes of a second colour along a cable.
 
     Attributes:
+        kind: whether the stripes run straight or wind round.
         colour: sRGB levels.
-        share: of the circumference that it takes, all stripes together.
-        count: of stripes around the cable.
-        pitch_m: length of one turn of a spiral; of a straight one, how slowly the cable's own twist turns it.
+        share: share of the circumference that all stripes together take.
+        count: number of stripes side by side around the cable.
+        pitch_m: length of one turn about the cable, in metres; a straight stripe turns slowly, with the cable's twist.
     """
 
     kind: StripeKind
@@ -56,12 +63,13 @@ class Stripe(Model):
 
 
 class Marking(Model):
-    """Text printed along a cable, again and again.
+    """A text printed again and again along a cable.
 
     Attributes:
+        text: 1 to 60 printable ASCII characters.
         colour: sRGB levels.
-        height_share: height of the letters over the cable's diameter.
-        repeat_m: from one beginning to the next.
+        height_share: height of the letters, as a share of the cable's diameter.
+        repeat_m: distance from the beginning of one text to that of the next, in metres.
     """
 
     text: Annotated[str, Field(min_length=1, max_length=60, pattern=r"^[ -~]+$")]
@@ -71,13 +79,17 @@ class Marking(Model):
 
 
 class Skin(Model):
-    """A sheath that is drawn as an image around and along the cable. Colours are sRGB levels.
+    """A sheath that is painted as an image around and along the cable.
 
     Attributes:
-        roughness: of the surface: 0.15 is glossy, 0.75 matt.
+        sheath: kind of the sheath.
+        colour: main colour, sRGB levels.
+        roughness: roughness of the surface: 0.15 is glossy, 0.75 matt.
+        stripe: stripes of a second colour, if any.
+        marking: printed text, if any.
         dirt: share of the surface that is soiled.
-        wear: share that is rubbed paler.
-        pattern_seed: of everything that is irregular in it.
+        wear: share of the surface that is rubbed paler.
+        pattern_seed: seed of every irregular detail in the image.
     """
 
     kind: Literal["skin"] = "skin"
@@ -95,8 +107,8 @@ class Tie(Model):
     """A cable tie around a bundle.
 
     Attributes:
-        along: where its middle is, as a share of the bundle's length.
-        width_m: along the bundle.
+        along: position of its middle, as a share of the bundle's length.
+        width_m: width of the band along the bundle, in metres.
         colour: sRGB levels.
     """
 
@@ -106,12 +118,14 @@ class Tie(Model):
 
 
 class Bundle(Model):
-    """Strands that lie around each other in the place of one cable, whose diameter is that of a circle around them all.
+    """Strands that wind around each other in the place of one cable, whose diameter is that of the circle around them.
 
     Attributes:
-        strand_diameter_m: of each of them.
-        lay_m: length over which they turn once around each other; negative is left-handed.
-        phase_deg: of that turn at the start.
+        strands: skins of the strands, 2 to 7.
+        strand_diameter_m: diameter of each strand, in metres.
+        lay_m: length over which the strands turn once around each other, in metres; negative is left-handed.
+        phase_deg: angle of that turn at the cable's start, in degrees.
+        ties: cable ties around the strands.
     """
 
     kind: Literal["bundle"] = "bundle"
@@ -123,7 +137,7 @@ class Bundle(Model):
 
 
 def envelope_ratio(strands: int) -> float:
-    """Diameter of the smallest circle around equal circles over theirs, for 2 to 7 of them (Graham 1968)."""
+    """Compute the diameter of the smallest circle around 2 to 7 equal circles, in diameters of one (Graham 1968)."""
     return (2.0, 1.0 + 2.0 / 3.0**0.5, 1.0 + 2.0**0.5, 1.0 + (2.0 + 2.0 / 5.0**0.5) ** 0.5, 3.0, 3.0)[strands - 2]
 
 
@@ -131,7 +145,7 @@ Look = Annotated[CableMaterial | Skin | Bundle, Field(discriminator="kind")]
 
 
 class EndKind(StrEnum):
-    """How a cable ends."""
+    """The kind of a cable's end."""
 
     CUT = "cut"
     STRIPPED = "stripped"
@@ -142,8 +156,9 @@ class CableEnd(Model):
     """One end of a cable.
 
     Attributes:
-        bare_m: length without sheath, a part of the cable's length; 0 for one that is just cut.
-        collar: sRGB levels of a ferrule's plastic collar.
+        kind: kind of the end.
+        bare_m: length without sheath, in metres, which is part of the cable's length; 0 for a cut end.
+        collar: colour of a ferrule's plastic collar, sRGB levels.
     """
 
     kind: EndKind = EndKind.CUT
@@ -152,16 +167,21 @@ class CableEnd(Model):
 
 
 class Cable(Model):
-    """One cable before the fall: a level curve whose middle is at (x, y, start_height_m).
+    """One cable before the fall: a curve that is level, or rises evenly by `rise_m` from end to end.
 
     Attributes:
-        rotation_deg: mean bearing of the cable, counted from the x axis.
-        bends_per_m: its natural curvature in 1/m at equally spaced points from end to end; all 0 is straight.
-        rise_m: how much higher its end starts than its beginning, so that loops and coils lie on themselves.
-        youngs_modulus_pa: bending stiffness over the second moment of area of a full round section.
-        density_kg_m3: mass over volume.
-        material: what is seen of it; a bundle has several strands.
-        ends: where it starts and where it stops.
+        diameter_m: diameter in metres; of a bundle, that of the circle around its strands.
+        length_m: length along the cable, in metres.
+        x_m: x of the cable's middle, in metres.
+        y_m: y of the cable's middle, in metres.
+        start_height_m: height of the underside of the cable's beginning above the floor, in metres.
+        rotation_deg: mean bearing of the cable, in degrees from the x axis.
+        bends_per_m: natural curvature at equally spaced points from end to end, in 1/m; all 0 is straight.
+        rise_m: height of the cable's end above its beginning, in metres, so that loops and coils lie on themselves.
+        youngs_modulus_pa: bending stiffness over the second moment of area of a full round section, in pascals.
+        density_kg_m3: mass over the volume of a full round section, in kg/m3.
+        material: look of the cable; that of a bundle holds its strands.
+        ends: kinds of the cable's beginning and end.
     """
 
     diameter_m: Annotated[float, Field(gt=0)]

@@ -1,4 +1,4 @@
-"""The camera, its lens, and what the sensor and its electronics make of the light."""
+"""The camera and its lens, and the development of the light on its sensor into a picture."""
 
 from typing import Annotated, Final
 
@@ -7,22 +7,23 @@ from pydantic import Field
 from farm.model import Model, Share
 
 FOCAL_LENGTH_MM: Final = 50.0
-
+"""Focal length of the lens in the published style, in millimetres."""
 
 SENSOR_MM: Final = 36.0
-"""Edge of the square sensor."""
+"""Edge of the square sensor, in millimetres: the default width of a Blender sensor."""
 
 
 class Camera(Model):
-    """A camera that looks at the origin. In focus is what is as far along its view, but for `focus_offset_m`.
+    """A camera that looks at the origin, in focus at the origin's distance less `focus_offset_m`.
 
     Attributes:
-        height_m: distance from the point of the floor at which it looks; its height where it is not tilted.
-        focal_length_mm: on a sensor of 36 mm.
-        tilt_deg: between its view and straight down.
-        tilt_bearing_deg: to which side it stands, from the x axis.
-        roll_deg: about its view, counter-clockwise seen from above.
-        focus_offset_m: how much nearer than the origin the focus is.
+        height_m: distance from the origin, in metres; without tilt the height above the floor.
+        f_number: focal length over the diameter of the aperture.
+        focal_length_mm: focal length on a sensor of 36 mm.
+        tilt_deg: angle between the view and straight down, in degrees.
+        tilt_bearing_deg: bearing of the side to which a tilted camera stands, in degrees from the x axis.
+        roll_deg: rotation about the view, in degrees, counter-clockwise seen from above.
+        focus_offset_m: distance by which the focus is nearer than the origin, in metres; negative is farther.
     """
 
     height_m: Annotated[float, Field(gt=0)]
@@ -33,12 +34,12 @@ class Camera(Model):
     roll_deg: float = 0.0
     focus_offset_m: float = 0.0
     distortion: Annotated[float, Field(ge=-0.2, le=0.2)] = 0.0
-    """Radial: how much farther out a corner of the picture is than a lens without any has it, before the picture is
-    scaled to be just filled; negative is a barrel."""
+    """Radial distortion: share by which a corner of the picture lies farther from the middle than without distortion,
+    before the picture is scaled so that it is just filled; a negative value is a barrel."""
 
     @property
     def seen_m(self) -> float:
-        """Width of the floor in the picture, as an untilted lens without distortion sees it."""
+        """Width of the floor in the picture, in metres, for an untilted lens without distortion."""
         return self.height_m * SENSOR_MM / self.focal_length_mm
 
 
@@ -50,21 +51,21 @@ NO_JPEG = 101
 
 
 class Development(Model):
-    """From light on the sensor to 8 bits a channel, as a camera does it.
+    """Settings that turn light on the sensor into 8 bits a channel, in the steps of a camera.
 
     Attributes:
         key: linear level, 0 to 1, to which the exposure brings the picture's mean; see `worker.camera.develop.expose`.
-        exposure_ev: the exposure's error, in stops.
-        contrast: slope of the tone curve at mid-grey over that of the plain sRGB curve.
-        saturation: 1 leaves colours as they are.
-        white_balance: error of the camera's own, as gains of red and blue.
-        vignetting: share of the light that is lost in the corners.
-        chromatic_aberration: how much larger the red picture is than the green, and the blue smaller, as a share.
-        full_well: electrons of a white pixel: fewer make more shot noise; 0 is no noise at all.
-        read_noise: electrons.
-        sharpening: amount of the unsharp mask.
-        jpeg_quality: quality of the JPEG that the picture goes through; none from `UNCOMPRESSED_FROM` on.
-        seed: of the noise.
+        exposure_ev: error of the exposure, in stops; above 0 the picture is brighter.
+        contrast: slope of the tone curve at mid-grey, as a multiple of the sRGB curve's.
+        saturation: factor of the colours' distance from grey; 1 leaves them as they are.
+        white_balance: error of the white balance, as gains of red and blue.
+        vignetting: share of the light that the corners lose.
+        chromatic_aberration: share by which the red picture is larger than the green one, and the blue one smaller.
+        full_well: electrons of a white pixel: fewer mean more shot noise, and 0 means no noise at all.
+        read_noise: standard deviation of the read noise, in electrons.
+        sharpening: strength of the unsharp mask; 0 leaves the picture as it is.
+        jpeg_quality: quality of the JPEG compression; none from `UNCOMPRESSED_FROM` on.
+        seed: seed of the noise.
     """
 
     key: Annotated[float, Field(gt=0, le=1)]

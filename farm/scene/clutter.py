@@ -1,6 +1,7 @@
-"""What lies about that is not cable, but looks like it. All of it is background in every label.
+"""Clutter: objects on the floor that resemble cables. They are background in every label.
 
-Places are metres, x right and y up in the picture; bearings are degrees from the x axis; colours are sRGB levels.
+Positions are in metres, x to the right and y up in the picture; bearings are in degrees from the x axis; colours are
+sRGB levels; a `pattern_seed` is the seed of every irregular detail.
 """
 
 from enum import StrEnum
@@ -14,7 +15,7 @@ Seed = Annotated[int, Field(ge=0, lt=2**63)]
 
 
 class StickKind(StrEnum):
-    """Something long, round and stiff, on which cables come to lie."""
+    """The kind of a long, round, stiff object, on which cables come to lie."""
 
     PEN = "pen"
     PENCIL = "pencil"
@@ -24,7 +25,12 @@ class StickKind(StrEnum):
 
 
 class Stick(Model):
-    """A stick, which falls with the cables as a stiff rod."""
+    """A long, round, stiff object, which falls with the cables as a rod.
+
+    Attributes:
+        start_height_m: height of its underside above the floor before the fall, in metres.
+        rotation_deg: bearing of its axis.
+    """
 
     kind: StickKind
     diameter_m: Metres
@@ -38,7 +44,7 @@ class Stick(Model):
 
 
 class SheetKind(StrEnum):
-    """Something flat on the floor, thinner than can be seen."""
+    """The kind of a flat object on the floor, too thin for its thickness to show."""
 
     TAPE = "tape"
     HAZARD_TAPE = "hazard_tape"
@@ -51,7 +57,7 @@ class SheetKind(StrEnum):
 
 
 class Sheet(Model):
-    """A flat thing: a rectangle about (x, y), its length along its bearing."""
+    """A flat object: a rectangle whose middle is (x, y), its length along its bearing."""
 
     kind: SheetKind
     x_m: float
@@ -64,7 +70,7 @@ class Sheet(Model):
 
 
 class PartKind(StrEnum):
-    """Something small that lies where no cable is."""
+    """The kind of a small object that lies where no cable is."""
 
     WASHER = "washer"
     NUT = "nut"
@@ -74,7 +80,11 @@ class PartKind(StrEnum):
 
 
 class Part(Model):
-    """A small thing about (x, y); it is left out where a cable came to lie."""
+    """A small object whose middle is (x, y); it is left out if a cable comes to lie there.
+
+    Attributes:
+        size_m: wanted length or diameter, in metres; a part of standardized sizes takes the nearest of them.
+    """
 
     kind: PartKind
     x_m: float

@@ -1,4 +1,4 @@
-"""The floor: its texture, how it lies, and its wear."""
+"""The floor: its texture, the texture's position, and its wear."""
 
 from typing import Annotated
 
@@ -11,12 +11,12 @@ FLOOR_REACH_M = 0.6
 
 
 class JointFill(Model):
-    """What fills a floor's joints, or has gathered in them: grout, sand, dirt, sealant.
+    """The filling of a floor's joints, or what has gathered in them: grout, sand, dirt, sealant.
 
     Attributes:
-        albedo: of red, green and blue light.
-        cover: share that it hides of what the texture shows there.
-        spread_m: how far it reaches onto the edges of the pieces.
+        albedo: albedo in red, green and blue light, 0 to 1.
+        cover: share of the texture's own colour that the filling hides.
+        spread_m: distance by which the filling reaches onto the pieces beside the joint, in metres.
     """
 
     albedo: tuple[
@@ -27,19 +27,19 @@ class JointFill(Model):
 
 
 class Wear(Model):
-    """What a floor has been through, beyond what its texture shows.
+    """The wear of a floor, which changes what its texture shows.
 
     Attributes:
-        brightness: its colour's factor, in linear light.
-        tint: factors of red, green and blue beside that.
-        saturation: 1 leaves colours as they are.
-        contrast: of the texture about its mean; 1 leaves it as it is.
+        brightness: factor of the texture's linear light.
+        tint: further factors of red, green and blue.
+        saturation: factor of the colours' distance from grey; 1 leaves them as they are.
+        contrast: factor of the texture's distance from its mean; 1 leaves it as it is.
         stains: share of the floor under dried puddles.
-        scratches: of them, a square decimetre.
+        scratches: number of scratches in a square decimetre.
         dust: share of the floor under a film of dust.
-        mirrored: whether the texture is turned over.
-        pattern_seed: of stains, scratches, dust and joints.
-        joints: what fills its joints; None leaves them as the texture shows them.
+        mirrored: whether the texture's left and right are swapped.
+        pattern_seed: seed of the stains, scratches, dust and joints.
+        joints: filling of the floor's joints; None leaves them as the texture shows them.
     """
 
     brightness: Annotated[float, Field(gt=0)]
@@ -55,7 +55,16 @@ class Wear(Model):
 
 
 class Floor(Model):
-    """The floor's texture and how it lies; offsets in tiles."""
+    """The floor's texture and its position.
+
+    Attributes:
+        texture: name of the surface in the dataset's header.
+        offset_x: offset of the texture along its own x axis, in tiles.
+        offset_y: offset of the texture along its own y axis, in tiles.
+        rotation_deg: rotation of the texture about the origin, in degrees.
+        scale: factor of the texture's size on the floor.
+        wear: wear of the floor; None leaves the texture as it is.
+    """
 
     texture: str
     offset_x: float

@@ -1,4 +1,4 @@
-"""Lamps that light a scene, and the grey world about them."""
+"""The lamps that light a scene, and the grey world around them."""
 
 from typing import Annotated, Literal
 
@@ -8,7 +8,15 @@ from farm.model import Model
 
 
 class PointLamp(Model):
-    """A point light: a sphere of radius `size_m`."""
+    """A lamp that shines to all sides, a sphere of radius `size_m`.
+
+    Attributes:
+        bearing_deg: bearing of the lamp from the origin, in degrees from the x axis.
+        radius_m: horizontal distance from the origin, in metres.
+        height_m: height above the floor, in metres.
+        power_w: radiant power as Blender counts it, in watts.
+        size_m: radius of the sphere, in metres: a larger one throws softer shadows.
+    """
 
     kind: Literal["point"] = "point"
     bearing_deg: float
@@ -19,7 +27,12 @@ class PointLamp(Model):
 
 
 class AreaLamp(Model):
-    """An area light to the left (x < 0) or right of the cables; its height and size are the template's."""
+    """An area light beside the cables, whose height and size are the template's.
+
+    Attributes:
+        x_m: position to the left (below 0) or right of the cables, in metres.
+        power_w: radiant power as Blender counts it, in watts.
+    """
 
     kind: Literal["area"] = "area"
     x_m: float
@@ -30,10 +43,13 @@ class StudioLamp(Model):
     """A round lamp that faces the cables.
 
     Attributes:
-        elevation_deg: above the floor, seen from the cables.
-        irradiance_w_m2: at the cables, on a surface that faces it; 1 there is about as bright as a grey world of 0.3.
-        size_m: its diameter; how soft shadows are goes by its share of the distance.
-        temperature_k: of a black body of its colour.
+        bearing_deg: bearing of the lamp from the cables, in degrees from the x axis.
+        elevation_deg: angle of the lamp above the floor, seen from the cables, in degrees.
+        distance_m: distance from the cables, in metres.
+        irradiance_w_m2: irradiance at the cables, on a surface that faces the lamp, in W/m2; 1 is about as bright as a
+            grey world of radiance 0.3.
+        size_m: diameter in metres; its ratio to the distance decides how soft shadows are.
+        temperature_k: temperature of a black body of the lamp's colour, in kelvins.
     """
 
     kind: Literal["studio"] = "studio"
@@ -49,11 +65,11 @@ Lamp = Annotated[PointLamp | AreaLamp | StudioLamp, Field(discriminator="kind")]
 
 
 class GreyWorld(Model):
-    """Light from all sides beside a lamp's.
+    """Even light from all sides, beside that of the lamps.
 
     Attributes:
-        radiance: of it, scene-linear.
-        temperature_k: of its colour.
+        radiance: radiance in scene-linear units.
+        temperature_k: temperature of a black body of the light's colour, in kelvins.
     """
 
     radiance: Annotated[float, Field(ge=0)]

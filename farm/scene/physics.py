@@ -1,4 +1,4 @@
-"""What acts on cables while they fall: friction and wind."""
+"""The friction and the wind that act on cables while they fall."""
 
 from typing import Annotated
 
@@ -11,7 +11,13 @@ GRAVITY_M_S2 = 9.81
 
 
 class Gust(Model):
-    """One swing of the wind's speed: `share` of the mean, as a sine of the given period and phase."""
+    """One oscillation of the wind's speed, a sine.
+
+    Attributes:
+        share: amplitude, as a share of the wind's mean speed.
+        period_s: period in seconds.
+        phase_deg: phase at the start of the fall, in degrees.
+    """
 
     share: Annotated[float, Field(ge=0, le=1)]
     period_s: Annotated[float, Field(gt=0)]
@@ -19,7 +25,12 @@ class Gust(Model):
 
 
 class Friction(Model):
-    """Coulomb's coefficients, for a cable on the floor and on another cable."""
+    """Coulomb's coefficients of friction.
+
+    Attributes:
+        floor: coefficient between a cable and the floor.
+        cable: coefficient between two cables.
+    """
 
     floor: Annotated[float, Field(ge=0)]
     cable: Annotated[float, Field(ge=0)]
@@ -28,9 +39,18 @@ class Friction(Model):
 class Wind(Model):
     """The wind that pushes the cables while they fall.
 
-    The bearing is where it comes from, as seen from the cables; a tilt of 90 degrees blows level, less blows up.
-    Distance, height, strength and flow are those of a wind field in the cloth's own units; `speed_m_s` and `gusts`
-    are what the rod solver takes.
+    The cloth takes distance, height, strength and flow, those of a Blender wind field in the fall's own units; the rod
+    solver takes `speed_m_s` and `gusts`.
+
+    Attributes:
+        bearing_deg: bearing of the wind's source from the cables, in degrees from the x axis.
+        distance: horizontal distance of the wind field.
+        height: height of the wind field.
+        tilt_deg: angle between the wind's direction and straight up, in degrees: 90 blows level, less blows upwards.
+        strength: strength of the wind field.
+        flow: Blender's setting that turns the field's force into a speed of the air.
+        speed_m_s: mean speed of the air, in m/s.
+        gusts: oscillations of the speed, which add up.
     """
 
     bearing_deg: float

@@ -1,7 +1,7 @@
-"""One scene, drawn and not yet fallen: every random value of a picture, free of Blender.
+"""One scene before its fall: every random value of a picture.
 
-Lengths are metres, angles degrees, powers watts, colours 8-bit levels of linear light, unless a field says
-otherwise. World axes: x right and y up in the picture, z towards the camera, the floor's surface at z = 0.
+Lengths are in metres, angles in degrees, powers in watts; each colour says whether its levels are sRGB or linear. World
+axes: x to the right and y up in the picture, z towards the camera; the floor's surface is at z = 0.
 """
 
 from typing import Annotated
@@ -19,10 +19,25 @@ from farm.scene.physics import Friction, Wind
 
 
 class Scene(Model):
-    """Everything drawn for one attempt at one job.
+    """Every random value of one attempt at one job. A scene has either lamps or an `hdri_world`.
 
-    `floor` is None where the floor is hidden from the camera. There are lamps or an `hdri_world`; `grey_world` is None
-    for the template's own, and so is `development` for its view transform.
+    Attributes:
+        attempt: number of the attempt, from 0; each samples another scene.
+        cables: the cables, the lowest start first.
+        vertex_mass: mass of each vertex of the cloth, in Blender's units; the rod solver does not take it.
+        friction: coefficients of friction.
+        wind: wind while the cables fall.
+        floor: floor that the picture shows; None if it is hidden and the HDRI or a photograph is behind the cables.
+        lamps: lamps; none if an HDRI lights the scene.
+        grey_world: light around the lamps; None for the template's own.
+        hdri_world: HDRI that lights the scene, if there are no lamps.
+        plate: photograph behind the cables; None shows the floor or the HDRI.
+        sticks: long objects, which start below the cables and fall with them.
+        sheets: flat objects on the floor, the lowest first.
+        parts: small objects on the floor.
+        camera: camera and lens.
+        development: settings of the sensor and its electronics; None for Blender's view transform.
+        render_seed: seed of the renderer's noise.
     """
 
     attempt: Annotated[int, Field(ge=0)]

@@ -1,4 +1,4 @@
-"""The description of a dataset: what a user writes in TOML or as flags, fully resolved."""
+"""The description of a dataset, complete: a user's TOML file and flags with every default filled in."""
 
 from collections.abc import Iterator, Mapping
 from enum import StrEnum
@@ -28,9 +28,21 @@ class Engine(StrEnum):
 
 
 class DatasetSpec(Model):
-    """A dataset: how many images of which category, from which seed, made how.
+    """The description of a dataset.
 
-    `parse_spec` fills in `quotas`, with every category, from a total, and `ranges` from the style.
+    Attributes:
+        version: version of this format.
+        seed: seed of every random value in the dataset.
+        quotas: number of images of each of the six categories; `parse_spec` fills it in from a total.
+        resolution: edge of the square pictures, in pixels.
+        engine: Blender's render engine.
+        quality: preset, or mean FLIP that the pictures keep to.
+        close_distributed_hdri: name of the HDRI that lights all pictures over a floor without a lamp, if
+            `ranges.world.one_over_floors`; None for the default one.
+        style: named set of ranges that `ranges` starts from.
+        simulator: simulator of the cables' fall.
+        fall: settings of the fall.
+        ranges: range of every random value; `parse_spec` fills it in from the style.
     """
 
     version: Literal[1] = 1
@@ -57,18 +69,18 @@ class DatasetSpec(Model):
             raise ValueError("quality as a number is measured for engine 'cycles' alone; name a preset")
         if self.engine is Engine.CYCLES:
             for category in (category for category, quota in self.quotas.items() if quota):
-                settings_for(self.quality, category)  # raises if there are none
+                settings_for(self.quality, category)  # raises ValueError if the calibration has none
         return self
 
     @property
     def total(self) -> int:
-        """Images in all."""
+        """Number of images of all categories."""
         return sum(self.quotas.values())
 
     def jobs(self) -> Iterator[Job]:
-        """Every job of the dataset, lazily, the categories in proportion.
+        """Yield every job of the dataset, by index, and for each index by category.
 
-        Jobs of all categories are interleaved so that a dataset stopped half way has all of them.
+        A dataset that is stopped early then has images of all categories.
         """
         for numerator in range(max(self.quotas.values())):
             for category, quota in self.quotas.items():

@@ -1,4 +1,4 @@
-"""The header of a dataset, `dataset.json`: written first, it fixes all that decides the pictures."""
+"""The header of a dataset, `dataset.json`. It is written first, and holds everything that decides the pictures."""
 
 import functools
 import hashlib
@@ -15,27 +15,39 @@ from farm.spec.quality import ChosenSettings
 
 
 class FileRef(Model):
-    """A file outside the dataset that the workers need, by absolute path and content."""
+    """A file outside the dataset that the workers need.
+
+    Attributes:
+        path: absolute path.
+        sha256: checksum of the content.
+    """
 
     path: str
     sha256: Sha256
 
 
 class TemplateRef(Model):
-    """The template; `path` is None for the one that comes with the farm."""
+    """The template.
+
+    Attributes:
+        path: absolute path; None for the template that comes with the farm.
+        sha256: checksum of the file.
+    """
 
     path: str | None
     sha256: Sha256
 
 
 class HdriRef(Model):
-    """An HDRI; `path` is None for one from Blender's own files, and for an environment of our own.
+    """An HDRI: a file, or an environment that each machine renders by a recipe.
 
     Attributes:
-        sha256: of the file; None for an environment, of which each machine renders its own bytes.
-        dark: its brightness is drawn.
-        backdrop: it can be seen behind cables; others only light them.
-        recipe_version: of an environment; None for files.
+        name: unique name in the dataset.
+        path: absolute path; None for a file that comes with Blender, and for an environment.
+        sha256: checksum of the file; None for an environment, whose bytes differ from machine to machine.
+        dark: whether scenes brighten it by a random share.
+        backdrop: whether it may be seen behind cables; others only light them.
+        recipe_version: version of an environment's recipe; None for a file.
     """
 
     name: str
@@ -55,7 +67,13 @@ class HdriRef(Model):
 
 
 class PlateRef(Model):
-    """A photograph of the user's own that may stand behind far cables."""
+    """A photograph of the user's that may be shown behind far cables.
+
+    Attributes:
+        name: unique name in the dataset.
+        path: absolute path.
+        sha256: checksum of the file.
+    """
 
     name: str
     path: str
@@ -63,10 +81,12 @@ class PlateRef(Model):
 
 
 class BuiltinSurfaceRef(Model):
-    """A floor surface of our own recipes, baked on each machine from a fixed seed.
+    """A built-in floor surface, which each machine bakes by a recipe from a fixed seed.
 
     Attributes:
-        light: it is as bright as a table or a bench; a style may draw more of these.
+        name: unique name in the dataset, and name of the recipe.
+        recipe_version: version of the recipe.
+        light: whether it is as bright as a table or a bench; a style may choose such surfaces more often.
     """
 
     kind: Literal["builtin"] = "builtin"
@@ -76,12 +96,15 @@ class BuiltinSurfaceRef(Model):
 
 
 class FolderSurfaceRef(Model):
-    """A floor surface from the user's own PBR textures, by role (colour, normal, roughness, ...).
+    """A floor surface made of the user's PBR textures.
 
     Attributes:
+        name: unique name in the dataset.
+        files: texture maps by role, such as colour, normal and roughness.
         size_m: edge of the square that the texture covers, in metres.
-        flip_green: the normal map is in DirectX convention.
-        gloss: the roughness map holds glossiness.
+        flip_green: whether the normal map follows DirectX's convention, whose green points down.
+        gloss: whether the roughness map holds glossiness, which is 1 less the roughness.
+        light: whether it is as bright as a table or a bench.
     """
 
     kind: Literal["folder"] = "folder"
@@ -97,11 +120,18 @@ SurfaceRef = Annotated[BuiltinSurfaceRef | FolderSurfaceRef, Field(discriminator
 
 
 class DatasetHeader(Model):
-    """What `dataset.json` holds.
+    """The content of `dataset.json`.
 
     Attributes:
-        rendering: what the spec's quality means for each category, so that a farm with another calibration does not mix
-            pictures of two kinds; empty for other engines than Cycles.
+        format: version of this format.
+        farm_version: version of the farm that wrote the header; it is no part of the fingerprint.
+        spec: description of the dataset.
+        template: template of the pictures.
+        surfaces: floor surfaces that scenes choose from.
+        hdris: HDRIs that scenes choose from.
+        plates: photographs that far scenes choose from.
+        rendering: render settings that the spec's quality means for each category, so that a farm with another
+            calibration makes the same kind of pictures; empty for engines other than Cycles.
     """
 
     format: Literal[1] = 1
@@ -113,8 +143,8 @@ class DatasetHeader(Model):
     plates: tuple[PlateRef, ...] = ()
     rendering: Mapping[Category, ChosenSettings] = {}
 
-    @functools.cached_property  # it takes part in every message
+    @functools.cached_property  # every message holds it
     def spec_sha256(self) -> str:
-        """Fingerprint of all that decides the pictures: everything but the farm's version."""
+        """Fingerprint of everything that decides the pictures: SHA-256 of the header without the farm's version."""
         content = self.model_dump(mode="json", exclude={"farm_version"})
         return hashlib.sha256(pydantic_core.to_json(content)).hexdigest()

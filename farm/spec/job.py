@@ -11,25 +11,31 @@ from farm.model import Model, Sha256
 from farm.spec.category import Category
 
 MAX_INDEX = 10**9 - 1
+"""Largest index of a job in its category: an id has at most nine digits."""
 
 DatasetName = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]{0,99}$")]
-"""One folder name, which can neither climb out of the store nor hide in it."""
+"""The name of a dataset: one folder name, which neither leaves the store nor is hidden in it."""
 
 _MOST_KEYS = 32
-"""Above this an object is not looked at key by key: each unknown one would cost an error."""
+"""Number of keys above which a message is refused at once, as each unknown key would cost a validation error."""
 
 _JOB_ID = re.compile(r"(?P<category>[a-z_]+)-(?P<index>\d{6,9})", re.ASCII)
 
 
 class Job(Model):
-    """One image to make. Category and index, with the dataset's seed, decide everything in it."""
+    """One image to make. Its category, its index and the dataset's seed decide everything in it.
+
+    Attributes:
+        category: category of the image.
+        index: number of the image in its category, from 0.
+    """
 
     category: Category
     index: Annotated[int, Field(ge=0, le=MAX_INDEX)]
 
     @property
     def id(self) -> str:
-        """For example `far-000042`; also the stem of the files."""
+        """The id, such as `far-000042`, from which the names of the image's files are made."""
         return f"{self.category}-{self.index:06d}"
 
     @classmethod
@@ -41,7 +47,7 @@ class Job(Model):
         """
         match = _JOB_ID.fullmatch(job_id)
         if match is None or match["category"] not in set(Category):
-            # As it may come from anybody: quoted, so that it stays one line.
+            # The id may come from anybody: ascii() quotes it, so that the message stays one line.
             raise MessageError(f"{job_id[:80]!a} is no job id: expected <category>-<six digits>, as in far-000042")
         job = cls(category=Category(match["category"]), index=int(match["index"]))
         if job.id != job_id:
@@ -50,9 +56,15 @@ class Job(Model):
 
 
 class JobMessage(Model):
-    """What goes on the wire: names only, no path and no pixels.
+    """The message that asks a worker for one image. It holds names only, no path and no pixels.
 
-    The worker looks `dataset` up in its own store and checks that the spec it finds there has `spec_sha256`.
+    The worker looks up `dataset` in its own store, and checks that the header there has the fingerprint `spec_sha256`.
+
+    Attributes:
+        version: version of this format.
+        dataset: name of the dataset.
+        spec_sha256: fingerprint of the dataset's header.
+        job_id: id of the job.
     """
 
     version: Annotated[int, Field(ge=1, le=1)] = 1  # not Literal[1], which takes true for 1
@@ -62,24 +74,27 @@ class JobMessage(Model):
 
     @property
     def job(self) -> Job:
-        """The job that is asked for."""
+        """The job that the message asks for."""
         return Job.from_id(self.job_id)
 
     @property
     def task_id(self) -> str:
-        """The Celery task's id, readable in Flower. The fingerprint keeps datasets of one name apart."""
+        """Id of the Celery task, readable in Flower. The fingerprint tells datasets of the same name apart."""
         return f"{queue_key(self.dataset, self.spec_sha256)}:{self.job_id}"
 
     def encode(self) -> dict[str, object]:
-        """As JSON-ready values."""
+        """Turn the message into values that JSON can hold."""
         return self.model_dump(mode="json")
 
     @classmethod
     def decode(cls, payload: object) -> Self:
-        """Validate what came off the wire.
+        """Validate a message from the wire.
+
+        Args:
+            payload: decoded JSON.
 
         Raises:
-            MessageError: on a wrong type, an unknown key or version, or an id that is none.
+            MessageError: if a value has the wrong type, a key or the version is unknown, or the id is not one of a job.
         """
         if isinstance(payload, Mapping) and len(payload) > _MOST_KEYS:
             raise MessageError(f"job message refused: {len(payload)} keys; there are {len(cls.model_fields)}")
@@ -87,7 +102,7 @@ class JobMessage(Model):
             message = cls.model_validate(payload)
         except ValidationError as error:
             first = error.errors(include_url=False, include_context=False, include_input=False)[0]
-            # An unknown key is told as it came, so it may hold a line break.
+            # The error repeats an unknown key as it came, so ascii() keeps a line break in it out of the message.
             where = ascii(".".join(str(part) for part in first["loc"]))[1:80].rstrip("'") or "message"
             raise MessageError(f"job message refused: {where}: {first['msg']}") from error
         Job.from_id(message.job_id)
@@ -95,5 +110,5 @@ class JobMessage(Model):
 
 
 def queue_key(dataset: str, spec_sha256: str) -> str:
-    """What task ids and ledger keys of one dataset begin with: its name and its description's fingerprint, short."""
+    """Build the prefix of a dataset's task ids and ledger keys: its name and 12 digits of its fingerprint."""
     return f"{dataset}:{spec_sha256[:12]}"

@@ -1,4 +1,4 @@
-"""A set of a dataset's jobs in a byte a job, so that a million of them take a megabyte."""
+"""A set of a dataset's jobs that takes one byte for each job, so that a million jobs take a megabyte."""
 
 from collections.abc import Iterator, Mapping
 from typing import Self
@@ -14,7 +14,7 @@ class JobSet:
     """Some of the jobs that quotas ask for.
 
     Args:
-        quotas: images asked for, by category; the set starts empty.
+        quotas: number of images asked for, by category; the set starts empty.
     """
 
     def __init__(self, quotas: Mapping[Category, int]) -> None:
@@ -22,13 +22,17 @@ class JobSet:
 
     @classmethod
     def of(cls, members: Mapping[Category, NDArray[np.bool_]]) -> Self:
-        """The set with these members: for each category an array that is true at the indices of its jobs."""
+        """Make a set from its members.
+
+        Args:
+            members: for each category, (quota,) bool, true at the indices of the set's jobs; the arrays are copied.
+        """
         found = cls({})
         found._members = {category: array.copy() for category, array in members.items()}
         return found
 
     def add(self, job: Job) -> bool:
-        """Add a job; False if the quotas do not ask for it."""
+        """Add a job; return False if the quotas do not ask for it."""
         members = self._members.get(job.category)
         if members is None or job.index >= len(members):
             return False
@@ -36,7 +40,7 @@ class JobSet:
         return True
 
     def discard(self, job: Job) -> None:
-        """Remove a job, if it is in."""
+        """Remove a job if the set has it."""
         if job in self:
             self._members[job.category][job.index] = False
 
@@ -52,10 +56,10 @@ class JobSet:
             np.array_equal(mine, other._members[category]) for category, mine in self._members.items()
         )
 
-    __hash__ = None  # type: ignore[assignment]  # it can change
+    __hash__ = None  # type: ignore[assignment]  # a set can change
 
     def counts(self) -> dict[Category, int]:
-        """Members of each category."""
+        """Count the members of each category."""
         return {category: int(np.count_nonzero(members)) for category, members in self._members.items()}
 
     def __or__(self, other: Self) -> Self:
@@ -68,11 +72,11 @@ class JobSet:
         return self.of({category: mine & ~other._members[category] for category, mine in self._members.items()})
 
     def others(self) -> Self:
-        """The jobs that are asked for and not in this set."""
+        """Return the jobs that the quotas ask for and that this set does not have."""
         return self.of({category: ~mine for category, mine in self._members.items()})
 
     def __iter__(self) -> Iterator[Job]:
-        """In the order of the plan, the categories in turn, as in `DatasetSpec.jobs`."""
+        """Yield the jobs in the order of `DatasetSpec.jobs`: by index, and for each index by category."""
         categories = list(self._members)
         indices = [np.flatnonzero(self._members[category]) for category in categories]
         number = np.repeat(np.arange(len(categories)), [len(found) for found in indices])

@@ -1,4 +1,4 @@
-"""From what a user names (a template, folders of textures and HDRIs) to the dataset's header, by content."""
+"""Makes a dataset's header: finds the files that the user names, and records each by its content."""
 
 import hashlib
 import importlib.util
@@ -16,22 +16,22 @@ from farm.spec.header import DatasetHeader, HdriRef, PlateRef, SurfaceRef, Templ
 from farm.spec.quality import ChosenSettings, settings_for
 from farm.spec.styles import Style
 
-# A .blend file is plain, or compressed by Zstandard or (older ones) gzip.
+# First bytes of a .blend file, which is plain, or compressed by Zstandard or, in older versions, by gzip.
 _BLEND_STARTS = (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b")
 
 
 @dataclass(frozen=True, slots=True)
 class Inputs:
-    """What a dataset takes from outside, as named by the user.
+    """The files that a dataset uses, as the user names them.
 
     Attributes:
-        template: the template's file; None for the one that comes with the farm.
+        template: path of the template; None for the one that comes with the farm.
         textures: folders of PBR textures.
         hdris: folders of .hdr and .exr files.
+        builtin_textures: whether the built-in surfaces are used.
+        builtin_hdris: whether the HDRIs that come with Blender are used.
         backgrounds: folders of photographs.
-        builtin_textures: whether our own surfaces take part.
-        builtin_hdris: whether Blender's own HDRIs take part.
-        environments: whether our own environments take part.
+        environments: whether the built-in environments are used.
     """
 
     template: Path | None = None
@@ -44,40 +44,46 @@ class Inputs:
 
 
 class AssetSource(Protocol):
-    """Where surfaces and HDRIs come from. Each method may raise AssetError, naming the file."""
+    """The source of surfaces, HDRIs and photographs. Each method may raise AssetError, which names the file."""
 
     def builtin_surfaces(self, style: Style) -> Sequence[SurfaceRef]:
-        """Our own surfaces that a style shows."""
+        """List the built-in surfaces that a style shows."""
         ...
 
     def surfaces_in(self, folder: Path) -> Sequence[SurfaceRef]:
-        """The PBR textures of a folder."""
+        """List the surfaces that a folder of PBR textures holds."""
         ...
 
     def builtin_hdris(self) -> Sequence[HdriRef]:
-        """Blender's own HDRIs."""
+        """List the HDRIs that come with Blender."""
         ...
 
     def environments(self) -> Sequence[HdriRef]:
-        """Our own environments."""
+        """List the built-in environments."""
         ...
 
     def hdris_in(self, folder: Path) -> Sequence[HdriRef]:
-        """The HDRIs of a folder."""
+        """List the HDRIs of a folder."""
         ...
 
     def plates_in(self, folder: Path) -> Sequence[PlateRef]:
-        """The photographs of a folder."""
+        """List the photographs of a folder."""
         ...
 
 
 def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> DatasetHeader:
-    """Resolve the inputs; nothing is written.
+    """Make the header of a dataset; nothing is written.
+
+    Args:
+        spec: description of the dataset.
+        inputs: files that the dataset uses.
+        assets: source of surfaces, HDRIs and photographs.
 
     Raises:
-        AssetError: if a texture, HDRI or photograph is unreadable, two have one name, or no surface or HDRI is left.
-        TemplateError: if the template is not readable or no .blend file.
-        SpecError: if the description names an HDRI that is not there, or a category can't be rendered so well.
+        AssetError: if a texture, HDRI or photograph can't be read, two have the same name, or no surface or HDRI is
+            left.
+        TemplateError: if the template can't be read or is not a .blend file.
+        SpecError: if the description names an HDRI that does not exist.
     """
     surfaces = list(assets.builtin_surfaces(spec.style)) if inputs.builtin_textures else []
     for folder in inputs.textures:
@@ -131,16 +137,19 @@ def _check_unique(kind: str, names: list[str], advice: str) -> None:
 
 
 def template_ref(template: Path | None) -> TemplateRef:
-    """Name a template by its content; None is the one that comes with the farm.
+    """Record a template by its content.
+
+    Args:
+        template: path of the template; None for the one that comes with the farm.
 
     Raises:
-        TemplateError: if it can't be read or is no .blend file.
+        TemplateError: if it can't be read or is not a .blend file.
     """
     path = template or _builtin_template()
     try:
         content = path.read_bytes()
     except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)  # a NUL byte is no OSError
+        reason = error.strerror if isinstance(error, OSError) else str(error)  # a NUL byte gives a ValueError
         raise TemplateError(f"{path}: can't read the template: {reason}; check --template") from error
     if not content.startswith(_BLEND_STARTS):
         raise TemplateError(f"{path}: not a .blend file; save the template in Blender and name that file")
@@ -149,10 +158,10 @@ def template_ref(template: Path | None) -> TemplateRef:
 
 
 def _builtin_template() -> Path:
-    # Found without importing the package, which may need Blender.
+    # The package is found without being imported, which would need Blender.
     found = importlib.util.find_spec("blend")
     for folder in (found and found.submodule_search_locations) or ():
         path = Path(folder) / "template.blend"
         if path.is_file():
             return path
-    raise TemplateError("the template that comes with the farm is not there; build it: python -m blend.build")
+    raise TemplateError("the template that comes with the farm is missing; build it: python -m blend.build")

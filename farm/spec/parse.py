@@ -1,4 +1,4 @@
-"""From a TOML file and flags to a dataset's description and inputs. A flag overrides the file's key."""
+"""Reads a dataset's description and inputs from a TOML file and flags. A flag overrides the file's key."""
 
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -17,25 +17,36 @@ from farm.spec.quotas import split_total
 from farm.spec.styles import Style, merge_ranges
 
 _MOST_DIGITS = 12
-"""More than any quota has; Python refuses to read thousands."""
+"""Digits that a quota may have: more than any quota needs, and few enough for Python, which refuses thousands."""
 
 _FOLDERS = ("textures", "hdris", "backgrounds")
-"""Keys that list folders."""
+"""Keys of `Inputs` that hold a list of folders."""
 
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """What to make, and of what."""
+    """What a user asks for.
+
+    Attributes:
+        spec: description of the dataset.
+        inputs: files that the dataset uses.
+    """
 
     spec: DatasetSpec
     inputs: Inputs
 
 
 def parse_quotas(pairs: Sequence[str]) -> dict[str, int]:
-    """Read `category=number` pairs.
+    """Read pairs such as `far=100`.
+
+    Args:
+        pairs: pairs of a category and a number, joined by `=`.
+
+    Returns:
+        The number for each category that is named.
 
     Raises:
-        SpecError: if one is malformed, names no category, or a category twice.
+        SpecError: if a pair is malformed, or names an unknown category or one that another pair names.
     """
     quotas: dict[str, int] = {}
     for pair in pairs:
@@ -54,12 +65,12 @@ def describe(file: Path | None, flags: Mapping[str, object], inputs: Mapping[str
     """Merge a TOML file with flags.
 
     Args:
-        file: keys of `DatasetSpec`, `images`, and those of `Inputs`; its paths are relative to its own folder.
-        flags: keys of `DatasetSpec` and `images` that were given, overriding the file's.
-        inputs: keys of `Inputs` that were given, overriding the file's.
+        file: TOML file with keys of `DatasetSpec` and `Inputs`, and `images`; its paths are relative to its folder.
+        flags: given keys of `DatasetSpec`, and `images`, which override the file's.
+        inputs: given keys of `Inputs`, which override the file's.
 
     Raises:
-        SpecError: with the key, what was wrong with it, and where.
+        SpecError: if a key or value is wrong; the text names the key, the fault and the source.
     """
     data: dict[str, Any] = {} if file is None else read_toml(file)
     folder = Path() if file is None else file.parent
@@ -122,11 +133,11 @@ def parse_spec(data: Mapping[str, object], *, source: str) -> DatasetSpec:
     """Validate a description; a total `images` is split over the categories as published, 2:2:1:1:2:2.
 
     Args:
-        data: JSON-like values, with either `images` or `quotas`.
-        source: where they come from, named in the error.
+        data: values as in JSON, with either `images` or `quotas`.
+        source: name of the source, such as a file, for the error's text.
 
     Raises:
-        SpecError: with the key, what was wrong with it, and where.
+        SpecError: if a key or value is wrong; the text names the key, the fault and the source.
     """
     try:
         return DatasetSpec.model_validate_json(pydantic_core.to_json(_resolve_ranges(_resolve_quotas(data))))
@@ -140,7 +151,7 @@ def read_toml(path: Path) -> dict[str, Any]:
     """Read a TOML file.
 
     Raises:
-        SpecError: if it can't be read or is no TOML.
+        SpecError: if it can't be read or is not valid TOML.
     """
     try:
         with path.open("rb") as file:
@@ -148,7 +159,7 @@ def read_toml(path: Path) -> dict[str, Any]:
     except OSError as error:
         raise SpecError(f"{path}: can't read the dataset's description: {error.strerror}") from error
     except (ValueError, RecursionError) as error:
-        # Besides those of its own, tomllib raises what Python does over numbers of thousands of digits and deep tables.
+        # Beside its own errors, tomllib raises Python's for numbers of thousands of digits and for deep tables.
         raise SpecError(f"{path}: not valid TOML: {error}") from error
 
 

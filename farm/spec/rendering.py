@@ -1,4 +1,4 @@
-"""How a picture is rendered: the settings that decide its noise and its cost."""
+"""The render settings of a picture, which decide its noise and its cost."""
 
 from enum import StrEnum
 from typing import Annotated
@@ -20,7 +20,7 @@ class Denoiser(StrEnum):
 
 
 class Guides(StrEnum):
-    """What the denoiser sees beside the noisy picture."""
+    """Further images that the denoiser gets beside the noisy picture."""
 
     NONE = "none"
     ALBEDO = "albedo"
@@ -28,7 +28,7 @@ class Guides(StrEnum):
 
 
 class Prefilter(StrEnum):
-    """How the denoiser's guides are denoised themselves."""
+    """How the denoiser denoises its guides first."""
 
     NONE = "none"
     FAST = "fast"
@@ -36,30 +36,30 @@ class Prefilter(StrEnum):
 
 
 class Pattern(StrEnum):
-    """Where in a pixel, and where on lights, Cycles takes its samples."""
+    """Cycles' sampling pattern: where in a pixel, and where on lights, it takes its samples."""
 
     SOBOL = "tabulated_sobol"
     BLUE_NOISE = "blue_noise"
 
 
 class CyclesSettings(Model):
-    """What Cycles does; see https://docs.blender.org/manual/en/4.5/render/cycles/ for more of each.
+    """Settings of Cycles; https://docs.blender.org/manual/en/4.5/render/cycles/ explains each.
 
     Attributes:
-        samples: paths a pixel (spp).
-        adaptive_threshold: noise at which a pixel takes no more samples; 0 lets all take them.
-        bounces: of a path, of any kind.
-        diffuse_bounces: of them.
-        glossy_bounces: of them.
+        samples: maximum number of samples per pixel.
+        adaptive_threshold: noise level at which a pixel stops taking samples; 0 switches adaptive sampling off.
+        bounces: maximum number of bounces of a light path.
+        diffuse_bounces: maximum number of diffuse bounces among them.
+        glossy_bounces: maximum number of glossy bounces among them.
         caustics: whether light may reach a rough surface by way of a glossy one.
-        clamp_indirect: brightest sample that a bounced path may bring; 0 is no limit.
-        denoiser: Open Image Denoise, after the last sample.
-        guides: its inputs.
-        prefilter: of them.
-        light_tree: lights are sampled by their share at each place, at some cost; of use where there are many.
-        pattern: of the samples.
-        world_map_px: width of the map by which the world's bright parts are found; 0 leaves it to Cycles, which takes
-            0.7 s for a fine one.
+        clamp_indirect: brightest value that a sample of indirect light may have; 0 sets no limit.
+        denoiser: quality of Open Image Denoise after the last sample.
+        guides: further images that the denoiser gets.
+        prefilter: denoising of those images.
+        light_tree: whether lights are sampled by their contribution at each place, which pays off with many lights.
+        pattern: pattern of the samples.
+        world_map_px: width, in pixels, of the map by which Cycles samples the world's bright parts; 0 lets Cycles
+            choose, which takes 0.7 s for a fine map.
     """
 
     samples: Annotated[int, Field(ge=1, le=2**20)]
@@ -78,11 +78,11 @@ class CyclesSettings(Model):
 
 
 class CableDetail(Model):
-    """How finely a cable is modelled; its mask is that of the very same tube.
+    """How finely the tube of a cable is modelled; the mask is that of the same tube.
 
     Attributes:
-        sides: corners of a tube's cross-section.
-        points_per_segment: rings of a tube for each segment of the fall.
+        sides: number of corners of the tube's cross-section.
+        points_per_segment: number of rings of the tube for each segment of the fall's rod.
     """
 
     sides: Annotated[int, Field(ge=4, le=128, multiple_of=2)] = 20
@@ -90,15 +90,16 @@ class CableDetail(Model):
 
 
 class Economy(Model):
-    """What is left out because the picture does not show it. All on, but to measure what each saves.
+    """Savings that no picture shows. Benchmarks switch them off one by one to measure what each saves.
 
     Attributes:
-        cables_in_view: cables end a little outside the view.
-        texture_window: of a floor's texture only what the camera sees is loaded, no finer than it sees it.
-        upper_world: an HDRI lights at low resolution, and is black where the floor hides it.
-        backdrop: what is seen of an HDRI is looked up in it, not sampled by paths.
-        keep_loaded: decoded textures stay in memory from picture to picture.
-        persistent_data: Cycles keeps what has not changed from picture to picture.
+        cables_in_view: whether cables end a little outside the view.
+        texture_window: whether only the part of the floor's texture that the camera sees is loaded, no finer than it
+            sees it.
+        upper_world: whether an HDRI over a floor lights at low resolution, and is black where the floor hides it.
+        backdrop: whether the visible part of an HDRI is looked up in its image, in place of being path-traced.
+        keep_loaded: whether decoded textures stay in memory from picture to picture.
+        persistent_data: whether Cycles keeps its data from picture to picture where nothing has changed.
     """
 
     cables_in_view: bool = True
@@ -110,7 +111,13 @@ class Economy(Model):
 
 
 class PictureSettings(Model):
-    """Everything that decides a Cycles picture's noise and cost."""
+    """All settings that decide the noise and cost of a picture by Cycles.
+
+    Attributes:
+        cycles: settings of Cycles.
+        detail: detail of the cables' tubes.
+        economy: savings that no picture shows.
+    """
 
     cycles: CyclesSettings
     detail: CableDetail = CableDetail()

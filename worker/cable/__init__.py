@@ -1,1 +1,1 @@
-"""What is seen of a cable: pieces of geometry, and the images that lie on them."""
+"""The look of a cable: its pieces of geometry, and the images on their surfaces."""

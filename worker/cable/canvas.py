@@ -1,4 +1,4 @@
-"""The surface of a cable, unrolled, while it is drawn."""
+"""The canvas on which the surface of a cable is painted: the surface, unrolled."""
 
 from dataclasses import dataclass
 
@@ -9,21 +9,21 @@ from farm.model import Rgb
 from worker.noise import Field
 
 _DARKEST, _LIGHTEST = 0.09, 0.91
-"""sRGB, of black and white plastics: they throw back about 1 % and 80 % of the light."""
+"""sRGB values, 0 to 1, of black and white plastics, which reflect about 1 % and 80 % of the light."""
 
 
 @dataclass(slots=True)
 class Canvas:
-    """A cable's surface: rows around it, from the top of the image down, columns along it.
+    """A cable's surface: rows around it, from the top of the image down, and columns along it.
 
     Attributes:
-        length_m: of the cable.
-        around_m: its circumference.
-        colour: (3, rows, columns) sRGB, 0 to 1: planes, which numpy works through faster than triples.
-        roughness: (rows, columns) 0 to 1.
-        height_m: (rows, columns) of its relief, or None if it is smooth.
-        metallic: of it all.
-        coat: weight of a clear layer over it.
+        length_m: length of the cable, in metres.
+        around_m: circumference of the cable, in metres.
+        colour: (3, rows, columns) sRGB, 0 to 1, in planes, which numpy works through faster than triples.
+        roughness: (rows, columns), 0 to 1.
+        height_m: (rows, columns), height of the relief, in metres; None if the surface is smooth.
+        metallic: metalness of the whole surface, 0 to 1.
+        coat: weight of a clear layer over the whole surface, 0 to 1.
     """
 
     length_m: float
@@ -36,46 +36,46 @@ class Canvas:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Rows and columns."""
+        """Number of rows and of columns."""
         return self.roughness.shape[0], self.roughness.shape[1]
 
     @property
     def texel_m(self) -> tuple[float, float]:
-        """Around and along."""
+        """Size of a texel around the cable and along it, in metres."""
         return self.around_m / self.shape[0], self.length_m / self.shape[1]
 
     @property
     def around(self) -> Field:
-        """(rows, 1): where each row is around the cable, 0 to 1, as the texture coordinate counts."""
+        """Texture coordinate around the cable of each row, (rows, 1), 0 to 1."""
         rows = self.shape[0]
         return (1.0 - (np.arange(rows, dtype=np.float32)[:, None] + 0.5) / rows).astype(np.float32)
 
     @property
     def along_m(self) -> Field:
-        """(1, columns): where each column is along the cable."""
+        """Place along the cable of each column, (1, columns), in metres."""
         return ((np.arange(self.shape[1], dtype=np.float32)[None] + 0.5) * self.texel_m[1]).astype(np.float32)
 
     def cells(self, around_m: float, along_m: float) -> tuple[float, float]:
-        """A size on the cable in rows and columns."""
+        """Convert a size on the cable, in metres, to rows and columns."""
         return around_m / self.texel_m[0], along_m / self.texel_m[1]
 
     def blend(self, alpha: Field, colour: NDArray[np.float32]) -> None:
-        """Lay a colour (3, 1, 1) or (3, rows, columns) over the canvas where `alpha` (rows, columns) is above 0."""
+        """Blend a colour (3, 1, 1) or (3, rows, columns), sRGB, with the canvas by `alpha` (rows, columns), 0 to 1."""
         change = colour - self.colour
         change *= alpha
         self.colour += change
 
     def blend_roughness(self, alpha: Field, roughness: float) -> None:
-        """Lay a roughness over the canvas likewise."""
+        """Blend a roughness, 0 to 1, with the canvas by `alpha` (rows, columns), 0 to 1."""
         self.roughness += alpha * (np.float32(roughness) - self.roughness)
 
 
 def pigment(colour: Rgb) -> NDArray[np.float32]:
-    """Levels of sRGB as shares of it, (3, 1, 1), no darker and no lighter than plastics and textiles are."""
+    """Convert sRGB levels to (3, 1, 1), 0 to 1, no darker and no lighter than plastics and textiles are."""
     shares = np.array(colour, np.float32).reshape(3, 1, 1) / np.float32(255)
     return (_DARKEST + (_LIGHTEST - _DARKEST) * shares).astype(np.float32)
 
 
 def tone(red: float, green: float, blue: float) -> NDArray[np.float32]:
-    """SRGB from 0 to 1 as (3, 1, 1)."""
+    """Make a colour (3, 1, 1) from three sRGB values, 0 to 1."""
     return np.array([red, green, blue], np.float32).reshape(3, 1, 1)

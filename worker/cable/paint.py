@@ -1,4 +1,4 @@
-"""A second colour along a cable, and text that is printed on it. Numpy, OpenCV and Pillow."""
+"""Paints stripes of a second colour along a cable, and text on it. Numpy, OpenCV and Pillow."""
 
 from functools import lru_cache
 
@@ -12,16 +12,23 @@ from worker.cable.canvas import Canvas, pigment
 from worker.noise import Field, highest_share, wrapped_noise
 
 _OVERSAMPLED = 4
+"""Pixels along an edge, for each texel, at which text is drawn before it is averaged."""
 
 _TOP = 0.25
-"""Where, as the texture coordinate around a cable counts, it faces up; see `worker.cable.tube.sweep`."""
+"""Texture coordinate around a cable, 0 to 1, of its upper side; see `worker.cable.tube.sweep`."""
 
 _TRACKING = 0.06
-"""Extra room between letters, in their height: ink-jet printing is spaced wide."""
+"""Extra space between two letters, as a share of their height: ink-jet printing is spaced wide."""
 
 
 def paint_stripe(canvas: Canvas, stripe: Stripe, rng: np.random.Generator) -> None:
-    """Draw stripes side by side around the cable, all turning alike; their edges are a little uneven."""
+    """Paint stripes side by side around the cable, which all turn in step; their edges are a little uneven.
+
+    Args:
+        canvas: canvas of the cable, changed in place.
+        stripe: colour and course of the stripes.
+        rng: random generator of the skin.
+    """
     rows_m, columns_m = canvas.texel_m
     turned = rng.choice([-1.0, 1.0]) * canvas.along_m / stripe.pitch_m
     if stripe.kind is StripeKind.STRAIGHT:
@@ -41,7 +48,13 @@ def paint_stripe(canvas: Canvas, stripe: Stripe, rng: np.random.Generator) -> No
 
 
 def print_marking(canvas: Canvas, marking: Marking, rng: np.random.Generator) -> None:
-    """Print text along the cable, again and again, each time a little aside; slightly worn."""
+    """Print a text along the cable again and again, each time a little to one side, and slightly worn.
+
+    Args:
+        canvas: canvas of the cable, changed in place.
+        marking: text, its colour and its size.
+        rng: random generator of the skin.
+    """
     rows, columns = canvas.shape
     rows_m, columns_m = canvas.texel_m
     letters_m = marking.height_share * canvas.around_m / np.pi
@@ -51,7 +64,7 @@ def print_marking(canvas: Canvas, marking: Marking, rng: np.random.Generator) ->
         text = text[::-1, ::-1]
     step = max(marking.repeat_m / columns_m, 1.15 * text.shape[1])
     ink = np.zeros((3 * rows, columns), np.float32)
-    # The cable's own twist turns the line of text slowly around it. It starts near the top, else few would be seen.
+    # The cable's own twist turns the line of text slowly around it. Texts start near the top, where most are seen.
     around, twist = rng.normal(_TOP, 0.1), rng.normal(0.0, 0.6) * columns_m
     start = -rng.random() * step
     while start < columns:
@@ -67,14 +80,14 @@ def print_marking(canvas: Canvas, marking: Marking, rng: np.random.Generator) ->
 
 
 def _stamp(ink: Field, text: Field, top: int, left: int) -> None:
-    """Put text where it fits within the ink's columns."""
+    """Put the part of a text that lies within the ink's columns into the ink, in place."""
     begin, end = max(0, left), min(ink.shape[1], left + text.shape[1])
     if begin < end:
         ink[top : top + text.shape[0], begin:end] = text[:, begin - left : end - left]
 
 
 def _fitted(text: str, high: float, wide: float) -> Field:
-    """Text whose capitals are `high` rows high, in letters `wide` columns wide for each such height; 0 to 1."""
+    """Draw a text, 0 to 1, whose capitals are `high` rows high; the same length along the cable is `wide` columns."""
     drawn = _drawn(text, max(8, round(_OVERSAMPLED * high)))
     capitals = max(8, round(_OVERSAMPLED * high))
     size = max(1, round(drawn.shape[1] * wide / capitals)), max(1, round(drawn.shape[0] * high / capitals))
@@ -83,7 +96,7 @@ def _fitted(text: str, high: float, wide: float) -> Field:
 
 @lru_cache(maxsize=64)
 def _drawn(text: str, capitals_px: int) -> NDArray[np.uint8]:
-    """Text in Pillow's own font, whose capitals are so high, without any margin above or below what has ink."""
+    """Draw a text in Pillow's own font, with capitals of the given height, without margins above and below the ink."""
     font = ImageFont.load_default(size=capitals_px / 0.71)
     spread = _TRACKING * capitals_px
     lefts = np.cumsum([0.0, *(font.getlength(letter) + spread for letter in text)])
@@ -94,5 +107,5 @@ def _drawn(text: str, capitals_px: int) -> NDArray[np.uint8]:
     pixels = np.array(image, np.uint8)
     inked = np.flatnonzero(pixels.any(axis=1))
     cut = pixels[inked[0] : inked[-1] + 1] if len(inked) else pixels[:1]
-    cut.setflags(write=False)  # it is shared
+    cut.setflags(write=False)  # calls share it
     return cut

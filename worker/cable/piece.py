@@ -1,4 +1,4 @@
-"""What a picture's cables are put together from: round tubes and small convex solids. Pure numpy."""
+"""The pieces of which a picture's cables consist: round tubes and small convex solids. Pure numpy."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -12,11 +12,11 @@ from farm.scene.cable import CableMaterial, Skin
 from worker.curves import Points
 
 OCCLUDER: Final = 0
-"""The instance of what hides cables and is none itself: background in every label."""
+"""Instance number of pieces that hide cables and belong to none, which are background in every label."""
 
 
 class Substance(StrEnum):
-    """What is of one colour throughout."""
+    """The material of a piece that has one colour throughout."""
 
     COPPER = "copper"
     TIN = "tin"
@@ -25,7 +25,12 @@ class Substance(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Plain:
-    """A surface of one colour, in sRGB levels; metals have that of their substance."""
+    """A surface of one colour.
+
+    Attributes:
+        substance: material, which decides the gloss.
+        colour: sRGB levels.
+    """
 
     substance: Substance
     colour: Rgb
@@ -39,13 +44,13 @@ class Tubular:
     """A round tube along a curve.
 
     Attributes:
-        instance: 1 + the number of the cable or strand that it is a part of, or `OCCLUDER`.
-        curve: (N, 3) metres, finely sampled, nowhere vertical.
-        radius_m: of the tube, or (N,) at each point.
-        start_m: how far along its cable the curve starts.
-        end_m: and ends.
-        whole_m: length of the cable.
-        surface: what is seen of it.
+        instance: instance number of the cable or strand to which it belongs, from 1, or `OCCLUDER`.
+        curve: (N, 3) metres, centreline of the tube, finely sampled and nowhere vertical.
+        radius_m: radius of the tube, or (N,), radius at each point, in metres.
+        start_m: place along the cable at which the curve starts, in metres.
+        end_m: place along the cable at which the curve ends, in metres.
+        whole_m: length of the cable, in metres.
+        surface: surface of the tube.
     """
 
     instance: int
@@ -58,20 +63,21 @@ class Tubular:
 
     @property
     def top_m(self) -> float:
-        """Height that nothing of it is above."""
+        """Height of its highest point, in metres."""
         return float((self.curve[:, 2] + self.radius_m).max())
 
 
 @dataclass(frozen=True, slots=True)
 class Convex:
-    """A small solid between rings of points, convex but for what does not show.
+    """A small solid between rings of points, convex but for details that do not show.
 
     Attributes:
-        instance: as of a tube.
-        rings: (rings, points of each, 3) metres, clockwise as seen by who looks back from the last to the first.
-        place_m: (3,) by whose distance it lies before or behind what it meets; of one around cables its corners tell.
-        surface: what is seen of it.
-        around: whether it goes around cables, which come out of its ends and hide those.
+        instance: instance number of the cable or strand to which it belongs, from 1, or `OCCLUDER`.
+        rings: (rings, points of a ring, 3) metres; seen from the last ring towards the first, points run clockwise.
+        place_m: (3,) metres, point whose distance from the camera decides what it hides; one with `around` uses its
+            corners.
+        surface: surface of the solid.
+        around: whether it goes around cables, which come out of its ends and hide them.
     """
 
     instance: int
@@ -82,7 +88,7 @@ class Convex:
 
     @property
     def top_m(self) -> float:
-        """Height that nothing of it is above."""
+        """Height of its highest point, in metres."""
         return float(self.rings[:, :, 2].max())
 
 

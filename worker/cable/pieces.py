@@ -1,7 +1,7 @@
-"""A settled scene's cables in pieces: what is rendered, labelled and counted as covering. Pure numpy.
+"""Takes a settled scene's cables to pieces, which are rendered, labelled and measured for coverage. Pure numpy.
 
-A cable is a sheath and what comes out of it at its ends; a bundle is its strands, each as a cable, and the ties around
-them. The same pieces make the picture and its masks.
+A cable consists of its sheath and of what comes out of the sheath at its ends; a bundle consists of its strands, each
+like a cable, and of the ties around them. The picture and its masks are made from the same pieces.
 """
 
 from collections.abc import Sequence
@@ -18,35 +18,44 @@ from worker.cable.tie import GOLDEN, is_clear, solids_of
 from worker.curves import Points
 
 _CONDUCTOR = 0.55
-"""Radius of a conductor over that of its sheath: 1.0 of 1.8 mm, say."""
+"""Radius of a conductor over that of its sheath, for example 1.0 mm in 1.8 mm."""
 
 _COLLAR_M = 0.006
+"""Longest collar of a ferrule, in metres."""
+
 _COLLAR_SHARE = 0.6
-"""A ferrule's collar is as long as this, or as this share of the whole ferrule."""
+"""Longest collar of a ferrule, as a share of the whole ferrule."""
 
 _TUBE = 0.6
 """Radius of a ferrule's metal tube over that of the sheath."""
 
 _MOST_BARE = 0.4
-"""Share of a cable's length that an end may bare."""
+"""Largest bare part of one end, as a share of the cable's length."""
 
 _FINE_LAY = 14.0
-"""Length of a turn of a conductor's fine strands over its diameter: 10 to 16 in flexible wires."""
+"""Length over which a conductor's fine strands turn once, in its diameters: flexible wires have 10 to 16."""
 
 _SHIFTS_M = tuple(sign * step / 1000 for step in range(0, 61, 4) for sign in (1, -1))
-"""By which a tie is moved along its bundle, tried one after the other, to keep clear of other cables and of sticks."""
+"""Distances by which a tie may be moved along its bundle, in metres, tried in this order, to keep clear of other cables
+and of sticks."""
 
 _COPPER = (184, 115, 81)
+"""Colour of copper, sRGB levels."""
+
 _TIN = (190, 190, 186)
+"""Colour of tin, sRGB levels."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Strand:
-    """A cable, or one of a bundle's.
+    """A cable, or a strand of a bundle.
 
     Attributes:
-        curve: (N, 3) all along the cable.
-        cut_m: by how much it is shorter than the cable at either end.
+        instance: instance number, from 1.
+        curve: (N, 3) metres, centreline along the whole cable.
+        radius_m: radius in metres.
+        surface: surface of the sheath.
+        cut_m: lengths by which it is shorter than the cable at the beginning and at the end, in metres.
     """
 
     instance: int
@@ -57,7 +66,7 @@ class _Strand:
 
 
 def instance_count(scene: Scene) -> int:
-    """How many instances a scene has: its cables, and of bundles every strand."""
+    """Count a scene's instances: each single cable, and each strand of a bundle."""
     return sum(len(cable.material.strands) if isinstance(cable.material, Bundle) else 1 for cable in scene.cables)
 
 
@@ -65,14 +74,14 @@ def pieces_of(scene: Scene, curves: Sequence[Points], sticks_m: Sequence[Points]
     """Take a settled scene's cables to pieces.
 
     Args:
-        scene: what was drawn.
-        curves: the settled centrelines, finely sampled (N, 3), metres, one for each cable.
-        sticks_m: nodes (N, 3) of the settled sticks' axes; none where the simulator has none.
+        scene: sampled scene.
+        curves: centreline of each settled cable, (N, 3) metres, finely sampled.
+        sticks_m: nodes of each settled stick's axis, (N, 3) metres; none if the simulator has no sticks.
 
     Returns:
-        The pieces. Instances count from 1, cable by cable and strand by strand; ties are occluders. The fall knows
-        nothing of ties: one that would cut another cable or a stick is moved along its bundle, or left out if there
-        is no room.
+        The pieces. Instances count from 1, cable by cable and strand by strand; ties are occluders. The fall does not
+        know of ties: a tie that would cut another cable or a stick is moved along its bundle, or left out if there is
+        no room.
     """
     sticks = [
         (_dense(axis), stick.diameter_m / 2)
@@ -93,7 +102,7 @@ def pieces_of(scene: Scene, curves: Sequence[Points], sticks_m: Sequence[Points]
 
 
 def _dense(axis: Points) -> Points:
-    """A stick's axis (N, 3) at a millimetre's spacing or less."""
+    """Interpolate a stick's axis (N, 3) to points at most a millimetre apart."""
     points = round(float(np.linalg.norm(axis[-1] - axis[0])) / 0.001) + 2
     share: NDArray[np.float64] = np.linspace(0.0, 1.0, points)[:, None]
     dense: Points = axis[0] + share * (axis[-1] - axis[0])
@@ -128,7 +137,7 @@ def _bundle(
 
 
 def _uneven(skin: Skin, number: int, end: int) -> float:
-    """A share from 0 to 1 that differs from strand to strand."""
+    """Compute a share from 0 to 1 that differs from strand to strand, and from end to end."""
     return (GOLDEN * (skin.pattern_seed % 9973 + 3 * number + 11 * end)) % 1.0
 
 
@@ -148,20 +157,20 @@ def _with_ends(strand: _Strand, cable: Cable) -> list[Piece]:
 
 
 def _stretch(strand: _Strand, length_m: float, start_m: float, end_m: float) -> Tubular:
-    """The sheath between two places along the cable."""
+    """Make the sheath between two places along the cable."""
     whole = start_m == 0.0 and end_m == length_m
     curve = strand.curve if whole else _between(strand.curve, length_m, start_m, end_m)
     return Tubular(strand.instance, curve, strand.radius_m, start_m, end_m, length_m, strand.surface)
 
 
 def _end(strand: _Strand, length_m: float, end: CableEnd, from_m: float, to_m: float) -> list[Piece]:
-    """What comes out of the sheath at `from_m` and ends at `to_m`."""
+    """Make the pieces that come out of the sheath at `from_m` and end at `to_m`, places along the cable in metres."""
     if end.kind is EndKind.FERRULE:
         return _ferrule(strand, length_m, end, from_m, to_m)
     curve = _between(strand.curve, length_m, from_m, to_m)
     fine_m = _CONDUCTOR * strand.radius_m / 3
     reach = np.linspace(0.0, 1.0, len(curve))
-    # Cut strands spring apart, more towards the tip and each by its own, within the sheath's width.
+    # Cut strands spring apart within the sheath's width, more towards the tip, and each by another amount.
     spread = np.array([0.75 * ((GOLDEN * (strand.instance + 3 * k)) % 1.0) for k in range(7)])
     widths = 1.0 + spread[:, None] * reach**1.5
     offsets_m = fine_m * places(7)[:, None] * widths[..., None]
@@ -172,7 +181,7 @@ def _end(strand: _Strand, length_m: float, end: CableEnd, from_m: float, to_m: f
 
 
 def _ferrule(strand: _Strand, length_m: float, end: CableEnd, from_m: float, to_m: float) -> list[Piece]:
-    """A collar that narrows towards the metal tube."""
+    """Make a ferrule: a collar that narrows towards the metal tube, and the tube."""
     bare_m = abs(to_m - from_m)
     waist_m = from_m + min(_COLLAR_M, _COLLAR_SHARE * bare_m) * np.sign(to_m - from_m)
     collar = _between(strand.curve, length_m, from_m, waist_m)
@@ -186,7 +195,7 @@ def _ferrule(strand: _Strand, length_m: float, end: CableEnd, from_m: float, to_
 
 
 def _between(curve: Points, length_m: float, start_m: float, end_m: float) -> Points:
-    """The curve between two places along it, in that order, at about its own spacing but at no fewer than 9 points."""
+    """Cut a curve between two places along it, in that order, at about its own spacing and at 9 points or more."""
     points = max(9, round(abs(end_m - start_m) / length_m * (len(curve) - 1)) + 1)
     knots = np.linspace(0.0, length_m, len(curve))
     wanted: NDArray[np.float64] = np.linspace(start_m, end_m, points)

@@ -1,4 +1,4 @@
-"""What is of one colour throughout, drawn as skins are: copper, tin, and the plastic of ties and collars."""
+"""Paints surfaces of one colour in the same way as skins: copper, tin, and the plastic of ties and collars."""
 
 import numpy as np
 
@@ -8,10 +8,11 @@ from worker.cable.skin import SkinImages
 from worker.noise import rough_wrapped_noise, wrapped_noise
 
 _SHAPE = (32, 256)
+"""Rows and columns of the images."""
 
 
 def draw_plain(surface: Plain) -> SkinImages:
-    """Draw a substance: the same images for the same colour."""
+    """Paint a surface; the same substance and colour give the same images."""
     rng = np.random.default_rng(sum(level << 8 * place for place, level in enumerate(surface.colour)))
     mottle = rough_wrapped_noise(rng, _SHAPE, (8, 8), 3)
     if surface.substance is Substance.PLASTIC:

@@ -1,4 +1,4 @@
-"""What is around a cable's conductors, drawn on its canvas: plain plastic, clear plastic over copper, a braid."""
+"""Paints a cable's sheath on its canvas: plain plastic, clear plastic over copper, or a braid."""
 
 import numpy as np
 
@@ -7,26 +7,32 @@ from worker.cable.canvas import Canvas, pigment, tone
 from worker.noise import Field, rough_wrapped_noise, wrapped_noise
 
 _STRAND_M = 0.00035
-"""Of a conductor's fine strands, as wide as the clear plastic makes them look."""
+"""Apparent width of a conductor's fine strands, in metres; clear plastic magnifies them."""
 
 _COPPER = tone(0.96, 0.68, 0.53)
+"""Colour of copper under clear plastic, sRGB."""
+
 _TINNED = tone(0.84, 0.83, 0.80)
+"""Colour of tinned copper under clear plastic, sRGB."""
 
 _TINNED_SHARE = 0.25
-"""Of clear cables: of the two strands of a speaker's cable one is often tinned."""
+"""Share of clear cables with tinned copper: often one of the two conductors of a loudspeaker cable is tinned."""
 
 _CARRIER_M = 0.0008
-"""Width of a braid's carriers: the flat strands that cross."""
+"""Width of a braid's carriers, the flat strands that cross, in metres."""
 
 _BRAID_TANGENT = 0.84
-"""Of the angle, 40 degrees, at which carriers wind around the axis."""
+"""Tangent of the angle between a braid's carriers and the cable's axis, 40 degrees."""
 
 _METAL_ROUGHNESS = 0.3
+"""Roughness below which a grey braid is metal."""
+
 _METAL_TINT = 40
+"""Difference between a colour's largest and smallest sRGB level, below which a braid counts as grey."""
 
 
 def draw_plain(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:
-    """Extruded plastic: faintly mottled, with streaks along it; a gloss that is not quite even."""
+    """Paint extruded plastic on a canvas, in place: faintly mottled, streaked along, with a slightly uneven gloss."""
     shape = canvas.shape
     mottle = rough_wrapped_noise(rng, shape, canvas.cells(0.004, 0.007), 2)
     streaks = wrapped_noise(rng, shape, canvas.cells(0.0006, 0.05))
@@ -36,7 +42,7 @@ def draw_plain(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:
 
 
 def draw_translucent(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:
-    """Bright copper strands that wind around, under clear, slightly milky plastic."""
+    """Paint bright copper strands under clear, slightly milky plastic on a canvas, in place; the strands wind round."""
     wide_m = max(_STRAND_M, 3.0 * canvas.texel_m[0])
     count = int(np.clip(round(canvas.around_m / wide_m), 5, 48))
     pitch_m = rng.uniform(3.2, 4.6) * canvas.around_m * rng.choice([-1.0, 1.0])
@@ -57,9 +63,10 @@ def draw_translucent(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> No
 
 
 def draw_braid(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:
-    """Carriers that wind both ways, over and under each other: textile, or metal if it is grey and shines.
+    """Paint a braid on a canvas, in place: carriers wind both ways, over and under each other.
 
-    A stripe's colour is that of its share of the carriers, as tracers are woven in.
+    A grey, glossy braid is metal, any other textile. A share of the carriers has the stripe's colour, like the tracers
+    that are woven into braids.
     """
     rows_m = canvas.texel_m[0]
     count = 2 * int(np.clip(round(canvas.around_m / max(_CARRIER_M, 4.5 * rows_m) / 2), 2, 14))
@@ -69,7 +76,7 @@ def draw_braid(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:
     left = count * (canvas.around - turns) - wander
     right_id, left_id = np.floor(right).astype(np.int32), np.floor(left).astype(np.int32)
     right_across, left_across = right - right_id - 0.5, left - left_id - 0.5
-    # Each goes over two and under two: a twill, which closes around since the carriers are even in number.
+    # Each carrier goes over two and under two, a twill; their number is even, so the pattern closes around the cable.
     right_above = (right_id - left_id) % 4 < 2 if count % 4 == 0 else (right_id - left_id) % 2 == 0
     across = np.where(right_above, right_across, left_across)
     lengthwise = np.where(right_above, left_across, right_across)
@@ -90,12 +97,12 @@ def draw_braid(canvas: Canvas, skin: Skin, rng: np.random.Generator) -> None:
 
 
 def _carrier_tones(skin: Skin, count: int, rng: np.random.Generator) -> Field:
-    """(2 * count, 3): the colours of the carriers that wind right, then left."""
+    """Sample the carriers' colours, (2 * count, 3) sRGB: first those that wind right, then those that wind left."""
     base = pigment(skin.colour).reshape(1, 3)
     tones = base * (1.0 + 0.07 * rng.standard_normal((2 * count, 1))).astype(np.float32)
     second = rng.random() < 0.5
     if skin.stripe is None and second:
-        # A melange: some carriers are of a lighter yarn.
+        # In a melange some carriers have a lighter yarn.
         lighter = rng.random(2 * count) < 0.3
         tones[lighter] = 0.62 * tones[lighter] + 0.38 * np.float32(0.75)
     if skin.stripe is not None:
@@ -107,7 +114,7 @@ def _carrier_tones(skin: Skin, count: int, rng: np.random.Generator) -> Field:
 
 
 def _unevenness(canvas: Canvas, rng: np.random.Generator) -> Field:
-    """What keeps the light on a smooth sheath from being one straight line: waves, and the plastic's grain."""
+    """Sample a relief, in metres, of waves and the plastic's grain: without it, a highlight is one straight line."""
     waves = wrapped_noise(rng, canvas.shape, canvas.cells(canvas.around_m / 4, 0.009))
     grain = wrapped_noise(rng, canvas.shape, canvas.cells(0.0007, 0.0012))
     return (22e-6 * waves + 2.5e-6 * grain).astype(np.float32)

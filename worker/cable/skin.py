@@ -1,4 +1,4 @@
-"""Sheaths drawn as images around and along a cable. Numpy, OpenCV and Pillow."""
+"""Paints sheaths as images around and along a cable. Numpy, OpenCV and Pillow."""
 
 from dataclasses import dataclass
 
@@ -14,32 +14,37 @@ from worker.cable.soiling import soil, wear_down
 from worker.noise import Field
 
 _TEXELS_A_PIXEL = 1.2
-"""Around a cable's middle, where it faces the camera."""
+"""Texels for each pixel of the picture along an edge, where the cable faces the camera."""
 
 _FINEST_M = 0.00005
+"""Smallest edge of a texel, in metres."""
+
 _FEWEST_ROWS, _MOST_ROWS = 16, 256
+"""Smallest and largest number of an image's rows."""
+
 _MOST_COLUMNS = 4096
+"""Largest number of an image's columns."""
 
 _HAZE = 0.45
-"""Of clear plastic: one looks through more of it towards the sides."""
+"""Haze of clear plastic, 0 to 1: a line of sight crosses more plastic towards the cable's sides."""
 
 _UNEVEN_SHOWS = 0.5
-"""Roughness below which the relief of a plain sheath is seen."""
+"""Roughness above which a plain sheath has no relief, as it would not show."""
 
 
 @dataclass(frozen=True, slots=True)
 class SkinImages:
-    """A sheath's images: rows around the cable, which they close, columns from its start to its end.
+    """The images of a sheath: rows around the cable, the last of which meets the first, and columns along it.
 
     Attributes:
         colour: (H, W, 3) uint8 sRGB.
-        roughness: (H, W) uint8, 255 for 1.
-        normal: (H, W, 3) uint8, tangent space in OpenGL's convention: red along the cable, green around it as texture
-            coordinates count, which is up in the image; None if it is smooth.
-        metallic: 0 to 1.
-        coat: weight of a clear glossy layer over it, 0 to 1.
-        coat_roughness: of that layer.
-        haze: weight of a milky film that shows where one looks along the surface, 0 to 1.
+        roughness: (H, W) uint8, 255 for a roughness of 1.
+        normal: (H, W, 3) uint8, tangent space in OpenGL's convention: red along the cable, green around it in the
+            direction of the texture coordinate, which is up in the image; None if the sheath is smooth.
+        metallic: metalness, 0 to 1.
+        coat: weight of a clear glossy layer over the sheath, 0 to 1.
+        coat_roughness: roughness of that layer, 0 to 1.
+        haze: weight of a milky film that shows where the line of sight grazes the surface, 0 to 1.
     """
 
     colour: NDArray[np.uint8]
@@ -52,15 +57,15 @@ class SkinImages:
 
 
 def draw_skin(skin: Skin, length_m: float, diameter_m: float, pixel_m: float) -> SkinImages:
-    """Draw a sheath.
+    """Paint a sheath.
 
-    The same skin, size and pixel give the same images.
+    The same skin and sizes give the same images.
 
     Args:
-        skin: what it looks like.
-        length_m: of the cable.
-        diameter_m: of it.
-        pixel_m: edge of a picture's pixel on the floor, which decides how fine the images are.
+        skin: look of the sheath.
+        length_m: length of the cable, in metres.
+        diameter_m: diameter of the cable, in metres.
+        pixel_m: edge of a picture's pixel on the floor, in metres, which decides how fine the images are.
     """
     rng = np.random.default_rng(skin.pattern_seed)
     canvas = _blank(length_m, np.pi * diameter_m, max(pixel_m / _TEXELS_A_PIXEL, _FINEST_M))
@@ -91,7 +96,7 @@ def draw_skin(skin: Skin, length_m: float, diameter_m: float, pixel_m: float) ->
 
 
 def _blank(length_m: float, around_m: float, texel_m: float) -> Canvas:
-    """A canvas whose rows are a multiple of 8, so that fields of many sizes close around it."""
+    """Make a canvas whose number of rows is a multiple of 8, so that fields of many sizes close around it."""
     rows = int(np.clip(8 * np.ceil(around_m / texel_m / 8), _FEWEST_ROWS, _MOST_ROWS))
     columns = int(np.clip(np.ceil(length_m / texel_m), 64, _MOST_COLUMNS))
     return Canvas(
@@ -103,12 +108,12 @@ def _blank(length_m: float, around_m: float, texel_m: float) -> Canvas:
 
 
 def _bytes(values: Field) -> NDArray[np.uint8]:
-    # It rounds, and stops at 255.
+    # OpenCV rounds, and clips at 255.
     return np.asarray(cv2.convertScaleAbs(np.maximum(values, 0.0), alpha=255.0), np.uint8)
 
 
 def _normals(height_m: Field, texel_m: tuple[float, float]) -> NDArray[np.uint8]:
-    """Of a relief that closes around its rows, which run from the top of the image down."""
+    """Make the normal map of a relief (rows, columns) in metres, whose last row meets the first."""
     along = np.gradient(height_m, axis=1) / np.float32(texel_m[1])
     around = (np.roll(height_m, 1, axis=0) - np.roll(height_m, -1, axis=0)) / np.float32(2 * texel_m[0])
     up = np.float32(0.5) / np.sqrt(1.0 + along * along + around * around)

@@ -1,4 +1,4 @@
-"""What cables have been through: stripes' paint apart, everything that is laid over a sheath. Numpy and OpenCV."""
+"""Paints the dirt and wear of cables over their sheaths. Numpy and OpenCV."""
 
 import cv2
 import numpy as np
@@ -7,20 +7,23 @@ from worker.cable.canvas import Canvas, tone
 from worker.noise import Field, highest_share, rough_wrapped_noise, wrapped_noise
 
 _GRIME = tone(0.15, 0.125, 0.10)
+"""Colour of grime, sRGB."""
+
 _DUST = tone(0.60, 0.56, 0.50)
+"""Colour of dust, sRGB."""
 
 _SCUFFS_PER_M = 700.0
-"""Of a cable that is rubbed all over, times the square root of the share that is rubbed."""
+"""Scuffs on a metre of cable, before `_scuffs` reduces them by the cable's girth and its rubbed share."""
 
 
 def soil(canvas: Canvas, share: float, rng: np.random.Generator) -> None:
-    """Dirty a share of the surface: spots and smears of some millimetres, between them a film of dust."""
+    """Soil a share of a canvas, 0 to 1, in place: spots and smears of some millimetres, and a film of dust between."""
     if share <= 0.0:
         return
     shape = canvas.shape
     spots = rough_wrapped_noise(rng, shape, canvas.cells(0.0025, 0.0045), 4)
     smears = rough_wrapped_noise(rng, shape, canvas.cells(0.0015, 0.014), 3)
-    # Dirt gathers: some stretches have much of it, others hardly any.
+    # Dirt gathers: some parts of a cable have much of it, others hardly any.
     crowd = wrapped_noise(rng, shape, canvas.cells(canvas.around_m, 0.035))
     where = np.maximum(spots, smears) + 0.6 * crowd
     grime = highest_share(where, share, rng.uniform(0.4, 1.2))
@@ -35,7 +38,7 @@ def soil(canvas: Canvas, share: float, rng: np.random.Generator) -> None:
 
 
 def wear_down(canvas: Canvas, share: float, rng: np.random.Generator) -> None:
-    """Rub a share of the surface paler and duller, and scuff it."""
+    """Rub a share of a canvas, 0 to 1, paler and duller, and scuff it, in place."""
     if share <= 0.0:
         return
     shape = canvas.shape
@@ -53,7 +56,7 @@ def wear_down(canvas: Canvas, share: float, rng: np.random.Generator) -> None:
 
 
 def _scuffs(canvas: Canvas, share: float, rng: np.random.Generator) -> Field:
-    """Short thin scratches, mostly along the cable; they go on around it."""
+    """Draw short, thin scratches, mostly along the cable: (rows, columns), 0 to 1; they continue around the cable."""
     rows, columns = canvas.shape
     count = rng.poisson(_SCUFFS_PER_M * canvas.length_m * np.sqrt(share) * min(1.0, canvas.around_m / 0.006) * 0.3)
     drawn = np.zeros((3 * rows, columns), np.uint8)

@@ -1,4 +1,4 @@
-"""Strands that lie around each other within a circle. Pure numpy."""
+"""The courses of strands that wind around each other within a circle. Pure numpy."""
 
 import math
 from collections.abc import Sequence
@@ -18,12 +18,13 @@ _RING: dict[int, tuple[int, float]] = {
     6: (6, 2.0),
     7: (6, 2.0),
 }
-"""Of the tightest packing of so many equal circles in one: how many are in the ring around the middle, and where their
-middles are, in radii of a strand. The seventh is in the middle. (Kravitz, Mathematics Magazine 40, 1967, p. 65.)"""
+"""The tightest packing of equal circles in a circle, by their number: the number of circles in the ring around the
+middle, and the distance of their middles from it, in radii of a circle. A seventh lies in the middle. (Kravitz,
+Mathematics Magazine 40, 1967, p. 65.)"""
 
 
 def places(strands: int) -> NDArray[np.float64]:
-    """Middles (strands, 2) of 2 to 7 strands in the tightest packing, in radii of one; the packing is about (0, 0)."""
+    """Compute the middles (strands, 2) of 2 to 7 strands in the tightest packing about (0, 0), in radii of a strand."""
     ring, distance = _RING[strands]
     angle = 2 * np.pi * np.arange(ring) / ring
     around = distance * np.stack([np.cos(angle), np.sin(angle)], axis=1)
@@ -31,20 +32,24 @@ def places(strands: int) -> NDArray[np.float64]:
 
 
 def strand_radius(strands: int, wanted_m: float, envelope_m: float, lay_m: float) -> float:
-    """The radius of strands that lie within an envelope and do not cut each other.
+    """Compute the radius of strands that lie within an envelope and do not cut each other.
+
+    Turning strands come nearer to their neighbours than a cut across the bundle shows.
 
     Args:
-        strands: 2 to 7.
-        wanted_m: their radius, if there is room for it.
-        envelope_m: radius of the circle around them all.
-        lay_m: length of one turn; 0 for strands that do not turn. Turning strands come nearer to their neighbours than
-            a cut across the bundle shows.
+        strands: number of strands, 2 to 7.
+        wanted_m: largest radius of a strand, in metres.
+        envelope_m: radius of the circle around all strands, in metres.
+        lay_m: length of one turn, in metres; 0 for strands that do not turn.
+
+    Returns:
+        The radius in metres.
     """
     packed_m = min(wanted_m, envelope_m / envelope_ratio(strands))
     ring, distance = _RING[strands]
     if not lay_m:
         return packed_m
-    # From a point of one helix to its neighbour: least over how far along the neighbour one looks.
+    # The distance from a point of one helix to its neighbour is the least over all points of the neighbour.
     turn, step = np.zeros(1), np.pi
     squares = np.zeros(1)
     for _ in range(4):
@@ -58,17 +63,17 @@ def strand_radius(strands: int, wanted_m: float, envelope_m: float, lay_m: float
 def turning(
     curve: Points, offsets_m: NDArray[np.float64], arc_m: NDArray[np.float64], lay_m: float, phase_deg: float
 ) -> Sequence[Points]:
-    """Curves that keep their offsets from a centreline while turning about it.
+    """Compute curves that turn about a centreline and keep their distance from it.
 
     Args:
-        curve: (N, 3) metres, nowhere vertical.
-        offsets_m: (strands, 2) sideways and up, where the turn is 0; or (strands, N, 2).
-        arc_m: (N,) how far along each point is.
-        lay_m: length of one turn, negative if left-handed; 0 for none.
-        phase_deg: of the turn where `arc_m` is 0.
+        curve: (N, 3) metres, centreline, nowhere vertical.
+        offsets_m: (strands, 2) or (strands, N, 2) metres, offset of each strand sideways and up where the turn is 0.
+        arc_m: (N,) metres, place of each point along the centreline.
+        lay_m: length of one turn, in metres, negative if left-handed; 0 for no turn.
+        phase_deg: angle of the turn where `arc_m` is 0, in degrees.
 
     Returns:
-        (N, 3) for each strand.
+        (N, 3) metres for each strand.
     """
     across, up = frames(curve)
     angle = turn_at(arc_m, lay_m, phase_deg)
@@ -80,7 +85,16 @@ def turning(
 
 
 def turn_at(arc_m: NDArray[np.float64], lay_m: float, phase_deg: float) -> NDArray[np.float64]:
-    """Angle in radians by which strands have turned at each place (N,) along them."""
+    """Compute the angle, in radians, by which strands have turned at each place.
+
+    Args:
+        arc_m: (N,) metres, places along the strands.
+        lay_m: length of one turn, in metres, negative if left-handed; 0 for no turn.
+        phase_deg: angle where `arc_m` is 0, in degrees.
+
+    Returns:
+        (N,) radians.
+    """
     turned = 2 * np.pi * arc_m / lay_m if lay_m else np.zeros_like(arc_m)
     angle: NDArray[np.float64] = turned + np.radians(phase_deg)
     return angle

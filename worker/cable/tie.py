@@ -1,4 +1,4 @@
-"""Cable ties: a band around strands, the head that locks it, and the stub of its tail. Pure numpy."""
+"""The solids of cable ties: a band around strands, the head that locks it, and the stub of its tail. Pure numpy."""
 
 from collections.abc import Sequence
 
@@ -12,16 +12,16 @@ from worker.cable.tube import frames
 from worker.curves import Points
 
 _THICKNESS_M = 0.0009
-"""Of the band of a nylon tie 2.5 to 5 mm wide: makers' tables give 0.9 to 1.3 mm."""
+"""Thickness of a band, in metres: makers' tables give 0.9 to 1.3 mm for nylon ties 2.5 to 5 mm wide."""
 
 _CORNERS = 40
-"""Of a band's outline."""
+"""Number of corners of a band's outline."""
 
 _BEVEL = 0.12
-"""Share of the width over which a band rises to its thickness, on either side."""
+"""Part of the band on either side over which it rises to its thickness, as a share of its width."""
 
 GOLDEN = 0.618034
-"""Golden ratio: the fractions of its multiples spread evenly, which varies pieces by their number without a draw."""
+"""Golden ratio less 1, whose multiples modulo 1 spread evenly without a pattern."""
 
 
 def solids_of(
@@ -34,23 +34,26 @@ def solids_of(
     lay_m: float,
     phase_deg: float,
 ) -> list[Convex]:
-    """The solids of a tie around a bundle.
+    """Build the solids of a tie around a bundle.
 
     Args:
-        tie: where it is.
-        curve: centreline of the bundle (N, 3), metres.
-        length_m: of the bundle.
-        offsets_m: (strands, 2) of the strands' middles, as `worker.cable.strands.turning` takes them.
-        strand_m: radius of a strand.
-        lay_m: of the strands.
-        phase_deg: of their turn.
+        tie: position, width and colour of the tie.
+        curve: (N, 3) metres, centreline of the bundle.
+        length_m: length of the bundle, in metres.
+        offsets_m: (strands, 2) metres, offsets of the strands' middles; see `worker.cable.strands.turning`.
+        strand_m: radius of a strand, in metres.
+        lay_m: length over which the strands turn once, in metres, negative if left-handed; 0 for no turn.
+        phase_deg: angle of that turn at the bundle's start, in degrees.
+
+    Returns:
+        The band, the head and the stub of the tail.
     """
     middle_m = float(np.clip(tie.along * length_m, 0.5 * tie.width_m, length_m - 0.5 * tie.width_m))
     steps = np.array([-0.5, _BEVEL - 0.5, 0.5 - _BEVEL, 0.5])
     arc = middle_m + tie.width_m * steps
     centre, across, up = _frames_at(curve, length_m, arc)
     turns = turn_at(arc, lay_m, phase_deg)
-    # The band is straight, so it goes around where the strands are anywhere under it.
+    # The band is straight, so it goes around every position that a strand has under it.
     under = np.concatenate([_turned(offsets_m, turn) for turn in turns])
     angle = 2 * np.pi * np.arange(_CORNERS) / _CORNERS
     outward = np.stack([np.cos(angle), np.sin(angle)], axis=1)
@@ -61,7 +64,7 @@ def solids_of(
     surface = Plain(Substance.PLASTIC, tie.colour)
     highest = float(under[:, 1].max())
     band = Convex(OCCLUDER, rings, centre[1] + (highest + 1e-5) * up[1], surface, around=True)
-    # Ties are pulled tight from above, so heads are on the upper side, each elsewhere.
+    # Ties are pulled tight from above, so heads are on the upper side, each at another angle.
     lean = np.pi / 2 + 1.1 * np.sin(2 * np.pi * (GOLDEN * (7 * tie.along + phase_deg / 360)))
     direction = np.array([np.cos(lean), np.sin(lean)])
     foot = under[np.argmax(under @ direction)] + (strand_m + 0.6 * _THICKNESS_M) * direction
@@ -70,7 +73,13 @@ def solids_of(
 
 
 def is_clear(solids: Sequence[Convex], curve: Points, radius_m: float) -> bool:
-    """Whether solids keep clear of a round cable, each taken as the ball around it."""
+    """Whether solids keep clear of a round cable; the ball around each solid stands for it.
+
+    Args:
+        solids: solids of a tie.
+        curve: (N, 3) metres, centreline of the cable, finely sampled.
+        radius_m: radius of the cable, in metres.
+    """
     for solid in solids:
         corners = solid.rings.reshape(-1, 3)
         middle = corners.mean(axis=0)
@@ -83,7 +92,7 @@ def is_clear(solids: Sequence[Convex], curve: Points, radius_m: float) -> bool:
 def _head(
     width_m: float, foot: NDArray[np.float64], direction: NDArray[np.float64], frame: tuple[Points, ...], surface: Plain
 ) -> list[Convex]:
-    """A block with rounded edges, and what is left of the tail that came through it."""
+    """Build a block with rounded edges, and the stub of the tail that comes through it."""
     centre, across, up = frame
     sideways = np.array([-direction[1], direction[0]])
     along = np.cross(up, across)
@@ -121,7 +130,7 @@ def _turned(offsets_m: NDArray[np.float64], angle: float) -> NDArray[np.float64]
 
 
 def _frames_at(curve: Points, length_m: float, arc_m: NDArray[np.float64]) -> tuple[Points, Points, Points]:
-    """Centreline, sideways and up direction at places along a curve."""
+    """Interpolate the centreline and the sideways and up directions, (M, 3) each, at places (M,) along a curve."""
     knots = np.linspace(0.0, length_m, len(curve))
     across, up = frames(curve)
     centre, across, up = (

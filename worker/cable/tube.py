@@ -1,6 +1,7 @@
-"""A cable's render geometry: a round tube swept along its smooth centreline, cut flat at the ends. Pure numpy.
+"""Meshes of cables and of their ties. Pure numpy.
 
-And that of small solids between rings of points, as of cable ties.
+A cable is a round tube that is swept along its smooth centreline and cut flat at the ends; a solid of a tie lies
+between rings of points.
 """
 
 from dataclasses import dataclass
@@ -16,13 +17,13 @@ from worker.curves import Points, tangents
 class Tube:
     """A mesh of quads, with one polygon at either end.
 
-    The ends have vertices of their own, so that a mesh shaded smooth is round along the side and flat at the ends.
+    The ends have their own vertices, so that a mesh with smooth shading is round along the side and flat at the ends.
 
     Attributes:
-        vertices_m: ((rings + 2) * sides, 3) float32; the last two rings are those of the ends.
-        corners: (loops,) int32, vertex of each face corner, faces one after the other.
-        face_starts: (faces,) int32, the first corner of each face; 4 corners each, and `sides` for the two ends.
-        uvs: (loops, 2) float32: metres along the cable and around it.
+        vertices_m: ((rings + 2) * sides, 3) float32, metres; the last two rings are those of the ends.
+        corners: (loops,) int32, number of the vertex at each corner, face after face.
+        face_starts: (faces,) int32, number of each face's first corner; a face has 4 corners, each end `sides`.
+        uvs: (loops, 2) float32, texture coordinates at each corner; see `sweep` and `loft`.
     """
 
     vertices_m: NDArray[np.float32]
@@ -35,14 +36,15 @@ def sweep(curve: Points, radius_m: float | NDArray[np.float64], sides: int, *, s
     """Sweep a circle along a finely sampled curve.
 
     Args:
-        curve: (N, 3) metres; nowhere vertical.
-        radius_m: of the cable, or (N,) at each point; the texture then has the mean circumference.
-        sides: of the polygon that stands for the circle. Its corners lie outside the circle by as much as the
-            middles of its sides lie inside, so that the silhouette is right on average.
-        start_m: how far along the cable the curve starts.
+        curve: (N, 3) metres, nowhere vertical.
+        radius_m: radius of the cable, or (N,), radius at each point, in metres.
+        sides: number of sides of the polygon that stands for the circle. Its corners lie as far outside the circle as
+            the middles of its sides lie inside, so that the silhouette is right on average.
+        start_m: place along the cable at which the curve starts, in metres.
 
     Returns:
-        The tube's mesh.
+        The tube's mesh. Its texture coordinates are metres along the cable and metres around it, in the circumference
+        of the mean radius.
     """
     across, up = frames(curve)
     angle = 2 * np.pi * np.arange(sides) / sides
@@ -63,10 +65,13 @@ def sweep(curve: Points, radius_m: float | NDArray[np.float64], sides: int, *, s
 
 
 def loft(rings: NDArray[np.float64]) -> Tube:
-    """The skin between rings of points, and a flat end at the first and the last.
+    """Join rings of points by a skin, with a flat end at the first and the last ring.
 
     Args:
-        rings: (rings, points of each, 3) metres.
+        rings: (rings, points of a ring, 3) metres.
+
+    Returns:
+        The mesh. Its texture coordinates are the number of the ring, and the share of the way around it.
     """
     sides = rings.shape[1]
     corners, face_starts, steps, turns = _topology(len(rings), sides)
@@ -80,7 +85,7 @@ def loft(rings: NDArray[np.float64]) -> Tube:
 def _topology(
     rings: int, sides: int
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
-    """What does not depend on the curve: `corners`, `face_starts`, and ring and side of each quad's corner."""
+    """Compute what the curve does not change: `corners`, `face_starts`, and the ring and side of each quad corner."""
     ring, side = np.meshgrid(np.arange(rings - 1), np.arange(sides), indexing="ij")
     ring, side = ring[..., None] + np.array([0, 1, 1, 0]), side[..., None] + np.array([0, 0, 1, 1])
     quads = (ring * sides + side % sides).reshape(-1)
@@ -94,12 +99,19 @@ def _topology(
         side.reshape(-1).astype(np.int32),
     )
     for array in arrays:
-        array.setflags(write=False)  # they are shared
+        array.setflags(write=False)  # calls share them
     return arrays
 
 
 def frames(curve: Points) -> tuple[Points, Points]:
-    """Level sideways direction and the one across it and the tangent, at each point; right-handed, without twist."""
+    """Compute the cross-section's axes at each point of a curve.
+
+    Args:
+        curve: (N, 3) metres, finely sampled, nowhere vertical.
+
+    Returns:
+        (N, 3), unit vectors sideways, which are level, and (N, 3), unit vectors up, across those and the tangent.
+    """
     along = tangents(curve)
     across = np.cross(along, [0.0, 0.0, 1.0])
     across /= np.linalg.norm(across, axis=1, keepdims=True)

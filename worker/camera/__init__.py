@@ -1,1 +1,1 @@
-"""The camera: its view, its distortion, and the development from linear light to levels."""
+"""The camera: its view, its lens's distortion, and the development of linear light to 8-bit levels."""

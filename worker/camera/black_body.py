@@ -1,4 +1,4 @@
-"""The colour of light by its temperature. Pure numpy."""
+"""The colour of light of a given temperature. Pure numpy."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,24 +6,28 @@ from numpy.typing import NDArray
 from assets.colour import REC709_LUMINANCE
 
 _WAVELENGTHS_NM = np.arange(360.0, 831.0, 5.0)
+"""Wavelengths of visible light, in nanometres, over which spectra are summed."""
 
 _SECOND_RADIATION_NM_K = 1.438776877e7
-"""h c / k, CODATA 2018."""
+"""Second radiation constant h c / k, in nanometre kelvins (CODATA 2018)."""
 
 _REC709_OF_XYZ = np.array(
     [[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560], [0.0556434, -0.2040259, 1.0572252]]
 )
-"""IEC 61966-2-1."""
+"""Matrix from CIE XYZ to linear Rec. 709 (IEC 61966-2-1)."""
 
 
 def black_body(temperature_k: float) -> NDArray[np.float64]:
-    """The colour of a black body (3,) in linear Rec. 709, of luminance 1; below 1,900 K it is redder than that holds.
+    """Compute the colour of a black body. Below 1,900 K it is redder than Rec. 709 can show, and is clipped.
 
     Args:
-        temperature_k: 1,000 to 20,000.
+        temperature_k: temperature in kelvins, 1,000 to 20,000.
+
+    Returns:
+        (3,) linear Rec. 709, with a luminance of 1.
     """
     wavelength = _WAVELENGTHS_NM
-    # Planck's law; a factor is of no matter.
+    # Planck's law but for a factor, which the division by the luminance removes.
     spectrum = wavelength**-5.0 / np.expm1(_SECOND_RADIATION_NM_K / (wavelength * temperature_k))
     colour = np.maximum(_REC709_OF_XYZ @ (_colour_matching(wavelength) @ spectrum), 0.0)
     bright: NDArray[np.float64] = colour / (REC709_LUMINANCE @ colour)
@@ -31,7 +35,10 @@ def black_body(temperature_k: float) -> NDArray[np.float64]:
 
 
 def _colour_matching(wavelength_nm: NDArray[np.float64]) -> NDArray[np.float64]:
-    """CIE 1931 colour matching functions (3, N), as fitted by Wyman, Sloan and Shirley, JCGT 2 (2), 2013, eq. 4."""
+    """Compute the CIE 1931 colour matching functions (3, N) at wavelengths (N,) in nanometres.
+
+    Source: the fit of Wyman, Sloan and Shirley, JCGT 2 (2), 2013, eq. 4.
+    """
 
     def lobe(height: float, middle: float, below: float, above: float) -> NDArray[np.float64]:
         width = np.where(wavelength_nm < middle, below, above)

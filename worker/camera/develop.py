@@ -1,7 +1,7 @@
-"""From light to the picture that a camera saves, step by step as a camera does it. Pure numpy and OpenCV.
+"""Develops light to the picture that a camera saves, in the steps of a camera. Pure numpy and OpenCV.
 
-Light is (H, H, 3), linear Rec. 709 in float32; 1 is what fills the sensor's wells. After the tone curve come levels,
-which are sRGB between 0 and 1.
+Light is (H, H, 3) float32, linear Rec. 709; 1 fills the sensor's wells. The tone curve turns it into levels, which are
+(H, H, 3) float32, sRGB between 0 and 1.
 """
 
 import math
@@ -18,38 +18,44 @@ from worker.camera.illuminant import NEUTRAL
 from worker.colour import luminance
 
 MID_GREY = 0.18
-"""Light of the grey that a photographer meters."""
+"""Light of mid-grey, the grey card that a photographer meters."""
 
 ADAPTED = 0.75
-"""How much of the light's colour a camera takes off, as an exponent; what is left tells a warm lamp from daylight."""
+"""Exponent by which the white balance removes the light's colour: 0 removes nothing, 1 everything. The rest lets a
+picture tell a warm lamp from daylight."""
 
 SHOULDER = 0.6
-"""Light up to which the curve is sRGB's own; above, it bends and reaches white only at several times 1."""
+"""Light up to which the tone curve is that of sRGB; above it, the curve bends and reaches white only at several times
+1."""
 
 MOST_LIGHT = 4.0
-"""Beyond it all is white anyway; a firefly, or a lamp's reflection, brings no more than this to pixels near it."""
+"""Largest light: the tone curve makes it white, and more would only spread from a firefly or a lamp's reflection to the
+pixels near it."""
 
 OVERLAP = 0.1
-"""Share of what is beyond white in one channel that the others get."""
+"""Share of the brightest channel's light above 1 that is added to every channel."""
 
 CORRELATION = 0.3
-"""Weight of a pixel's neighbours in noise, as interpolating a Bayer mosaic leaves it."""
+"""Weight of a pixel's neighbours in its noise, which the interpolation of a Bayer mosaic causes."""
 
 SHARPENED_PX = 1.0
-"""Standard deviation of the Gaussian that the unsharp mask takes off."""
+"""Standard deviation of the unsharp mask's Gaussian, in pixels."""
 
 _FINITE = 1e30
+"""Light that stands for infinity: float32 holds it, with room for sums."""
 
 _METERED_STEP = 4
-"""Of so many pixels along a row and a column, one is metered."""
+"""Distance between metered pixels along rows and columns, in pixels: one in 16 is enough for a mean."""
 
 _METERED_PART = (2.0, 98.0)
-"""Percentiles between which luminances count as they are; what is beyond counts as these."""
+"""Percentiles to which luminances are clipped for the exposure, so that a few extreme pixels do not sway it."""
 
 _METERED_STOPS = 8.0
-"""Darker than the brightest that counts by more than this is black, and counts as if it were not."""
+"""Range below the upper percentile to which luminances are clipped, in stops, so that black pixels do not sway the
+exposure."""
 
 _TABLE_STEPS = 2**15
+"""Number of steps of the tone curve's table, far more than the 256 levels of a picture."""
 
 Light = NDArray[np.float32]
 Levels = NDArray[np.float32]
@@ -61,10 +67,10 @@ def develop(
     """Develop a picture.
 
     Args:
-        light: as rendered through a lens without distortion; not finite or negative is black.
-        development: what the camera does with it.
-        distortion: of its lens, see `farm.scene.camera.Camera`.
-        lit_by: colour of the scene's light (3,), which its white balance is after.
+        light: (H, H, 3) linear Rec. 709, rendered through a lens without distortion; NaN and negative values are black.
+        development: settings of the camera.
+        distortion: radial distortion of the camera's lens; see `farm.scene.camera.Camera`.
+        lit_by: (3,) linear Rec. 709, colour of the scene's light, which the white balance mostly removes.
 
     Returns:
         (H, H, 3) uint8 sRGB.
@@ -84,16 +90,24 @@ def develop(
 
 
 def clean(light: Light) -> Light:
-    """Light without negative numbers, infinity or NaN."""
-    positive = np.fmax(light, 0.0)  # takes NaN for missing
+    """Remove negative values, infinity and NaN from light (..., 3): they become 0, `_FINITE` and 0."""
+    positive = np.fmax(light, 0.0)  # fmax ignores NaN
     return np.minimum(positive, np.float32(_FINITE), out=positive)
 
 
 def expose(light: Light, key: float, exposure_ev: float) -> Light:
-    """Bring the mean of the luminance to `key`, but for an error in stops.
+    """Expose light so that its mean luminance is `key`, but for an error.
 
-    The mean is half-way, in stops, between the geometric one, which what is bright hardly sways, and the arithmetic
-    one, which holes and shadows hardly do. What is all black stays so.
+    The mean lies half-way, in stops, between the geometric mean, which bright parts hardly sway, and the arithmetic
+    mean, which holes and shadows hardly sway. A black picture stays black.
+
+    Args:
+        light: (H, H, 3) linear Rec. 709.
+        key: wanted mean, 0 to 1.
+        exposure_ev: error of the exposure, in stops.
+
+    Returns:
+        (H, H, 3) exposed light.
     """
     metered = slice(_METERED_STEP // 2, None, _METERED_STEP)
     seen = luminance(np.ascontiguousarray(light[metered, metered]))
@@ -106,13 +120,20 @@ def expose(light: Light, key: float, exposure_ev: float) -> Light:
 
 
 _LEAST_LIT = 0.05
-"""Of the strongest channel: a candle has hardly any blue, and a gain of tens would be noise alone."""
+"""Least light of a channel for the white balance, as a share of the strongest channel's: a candle has hardly any blue,
+and a gain of ten or more would amplify noise alone."""
 
 
 def balance(light: Light, error: tuple[float, float], lit_by: NDArray[np.float64] = NEUTRAL) -> Light:
-    """Take off most of the colour of the scene's light, and multiply red and blue by the error's gains.
+    """Remove most of the colour of the scene's light, with an error. A grey object keeps its luminance.
 
-    What is as grey as white paper in that light keeps its luminance.
+    Args:
+        light: (H, H, 3) linear Rec. 709.
+        error: gains of red and blue.
+        lit_by: (3,) linear Rec. 709, colour of the scene's light.
+
+    Returns:
+        (H, H, 3) balanced light.
     """
     lit_by = np.maximum(lit_by, _LEAST_LIT * lit_by.max())
     left = lit_by ** (1.0 - ADAPTED) * [error[0], 1.0, error[1]]
@@ -122,15 +143,18 @@ def balance(light: Light, error: tuple[float, float], lit_by: NDArray[np.float64
 
 
 def vignette(light: Light, lost: float) -> Light:
-    """Darken towards the corners by cos^4 of the angle at which light falls on the sensor, as in any simple lens.
+    """Darken a picture towards its corners by cos^4 of the angle at which light meets the sensor, like a simple lens.
 
     Args:
-        light: of the picture.
-        lost: share of it that the corners lose; it sets the angle.
+        light: (H, H, 3) linear Rec. 709.
+        lost: share of the light that the corners lose, 0 to 1, which sets the angle there.
+
+    Returns:
+        (H, H, 3) light.
     """
     if lost == 0.0:
         return light
-    corner = 1.0 / math.sqrt(max(1.0 - lost, 1e-4)) - 1.0  # tan^2 of the angle there
+    corner = 1.0 / math.sqrt(max(1.0 - lost, 1e-4)) - 1.0  # tan^2 of the angle at the corners
     place = (2 * np.arange(len(light), dtype=np.float32) + 1) / len(light) - 1
     squared = np.float32(corner / 2) * place**2
     left = 1.0 / (1.0 + squared[:, None] + squared[None, :]) ** 2
@@ -138,22 +162,25 @@ def vignette(light: Light, lost: float) -> Light:
 
 
 def bleed(light: Light) -> Light:
-    """Let the colours of what is brighter than white run into each other, as dyes of a sensor's filters overlap.
+    """Add a share of the brightest channel's light above 1 to all channels of (H, H, 3): a sensor's filters overlap.
 
-    A strongly coloured light then comes out paler the brighter it is, and white at last.
+    A strongly coloured light becomes paler the brighter it is, and finally white.
     """
     over = np.maximum(cv2.max(cv2.max(light[..., 0], light[..., 1]), light[..., 2]) - 1.0, 0.0)
     return light + np.float32(OVERLAP) * over[:, :, None]
 
 
 def add_noise(light: Light, full_well: float, read_noise: float, rng: np.random.Generator) -> Light:
-    """Add shot and read noise: of light x the variance is x / full_well + (read_noise / full_well)^2.
+    """Add shot noise and read noise, whose variance at light x is x / full_well + (read_noise / full_well)^2.
 
     Args:
-        light: 1 fills the wells; negative comes out as none.
-        full_well: electrons of light 1; 0 is no noise.
-        read_noise: electrons.
-        rng: draws it.
+        light: (H, H, 3) linear Rec. 709, 0 or more; 1 fills the wells.
+        full_well: electrons of a full well; 0 adds no noise.
+        read_noise: standard deviation of the read noise, in electrons.
+        rng: random generator of the noise.
+
+    Returns:
+        (H, H, 3) light, 0 or more; without noise it is the light itself.
     """
     if full_well == 0.0:
         return light
@@ -171,8 +198,8 @@ def add_noise(light: Light, full_well: float, read_noise: float, rng: np.random.
 
 
 def tone(light: Light, contrast: float) -> Levels:
-    """Levels of light: sRGB's curve with a soft shoulder, and an S of slope `contrast` about mid-grey over it."""
-    # Steps of the root: as fine in the dark as eyes are.
+    """Turn light (..., 3) into levels by the tone curve, from a table; see `curve`."""
+    # The table's steps are even in the square root of light, so they are fine in the dark, as eyes are.
     table = curve(MOST_LIGHT * np.linspace(0.0, 1.0, _TABLE_STEPS + 1) ** 2, contrast).astype(np.float32)
     step = np.sqrt(np.clip(light, 0.0, MOST_LIGHT) * np.float32(1 / MOST_LIGHT)) * np.float32(_TABLE_STEPS)
     levels: Levels = table[np.rint(step, out=step).astype(np.int32)]
@@ -180,7 +207,15 @@ def tone(light: Light, contrast: float) -> Levels:
 
 
 def curve(light: NDArray[np.float64], contrast: float) -> NDArray[np.float64]:
-    """The tone curve itself, of light of any shape."""
+    """Compute the tone curve: that of sRGB with a soft shoulder, and over it an S about mid-grey.
+
+    Args:
+        light: linear light of any shape, 0 or more.
+        contrast: slope of the S at mid-grey; 1 leaves the levels as they are.
+
+    Returns:
+        sRGB levels, 0 to 1, in the shape of the light.
+    """
     above = np.maximum(light - SHOULDER, 0.0) / (1.0 - SHOULDER)
     rolled = np.minimum(light, SHOULDER) + (1.0 - SHOULDER) * (1.0 - np.exp(-above))
     level, middle = srgb_of_light(rolled), float(srgb_of_light(np.array(MID_GREY)))
@@ -192,7 +227,7 @@ def curve(light: NDArray[np.float64], contrast: float) -> NDArray[np.float64]:
 
 
 def saturate(levels: Levels, saturation: float) -> Levels:
-    """Bring colours nearer to or farther from the grey that is as bright."""
+    """Multiply the distance of levels (H, H, 3) from the grey of the same luminance by `saturation`."""
     if saturation == 1.0:
         return levels
     grey = luminance(levels)[:, :, None]
@@ -200,7 +235,7 @@ def saturate(levels: Levels, saturation: float) -> Levels:
 
 
 def sharpen(levels: Levels, amount: float) -> Levels:
-    """Add `amount` of what a blur takes off the brightness."""
+    """Sharpen levels (H, H, 3) by an unsharp mask on their luminance, with the strength `amount`; 0 changes nothing."""
     if amount == 0.0:
         return levels
     grey = luminance(levels)
@@ -209,7 +244,7 @@ def sharpen(levels: Levels, amount: float) -> Levels:
 
 
 def quantize(levels: Levels) -> NDArray[np.uint8]:
-    """Levels of 0 to 1 in 8 bits, clipped."""
+    """Round levels from 0 to 1, of any shape, to 8 bits, clipped."""
     scaled = np.clip(levels, 0.0, 1.0)
     scaled *= np.float32(255.0)
     eight: NDArray[np.uint8] = np.rint(scaled, out=scaled).astype(np.uint8)
@@ -217,10 +252,17 @@ def quantize(levels: Levels) -> NDArray[np.uint8]:
 
 
 def compress(picture: NDArray[np.uint8], quality: int) -> NDArray[np.uint8]:
-    """The picture (H, W, 3) after JPEG with colours at half the resolution; as it is from `UNCOMPRESSED_FROM` on.
+    """Compress a picture by JPEG, with colours at half the resolution, and decode it.
+
+    Args:
+        picture: (H, W, 3) uint8 sRGB.
+        quality: JPEG quality, 1 to 100; from `UNCOMPRESSED_FROM` on the picture stays as it is.
+
+    Returns:
+        (H, W, 3) uint8 sRGB.
 
     Raises:
-        RenderError: if OpenCV can't compress it.
+        RenderError: if OpenCV can't compress the picture.
     """
     if quality >= UNCOMPRESSED_FROM:
         return picture

@@ -1,6 +1,6 @@
-"""Radial distortion of a lens, as a map of the picture's plane onto itself and back. Pure numpy and OpenCV.
+"""The radial distortion of a lens, a map of the picture's plane onto itself, and its inverse. Pure numpy and OpenCV.
 
-Places are counted from the picture's middle; the corners of the square picture are at radius 1.
+Places are relative to the picture's middle, in units in which the corners of the square picture have radius 1.
 """
 
 import math
@@ -11,26 +11,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 _EDGE = math.sqrt(0.5)
-"""Radius of the middle of an edge."""
+"""Radius of the middle of a picture's edge, where the corners have radius 1."""
 
 _STEPS = 8
-"""Of Newton's method: from 20 % off to the last bit."""
+"""Number of steps of Newton's method: enough to go from an error of 20 % to the last bit."""
 
 Light = NDArray[np.float32]
 
 
 @dataclass(frozen=True, slots=True)
 class Distortion:
-    """How a lens moves places radially: by r_u = r_d (1 + c r_d^2), and a scale that fills the picture.
+    """The radial distortion of a lens: r_u = r_d (1 + c r_d^2), and a scale that fills the picture.
 
-    r_u is the radius without distortion, r_d with it. The polynomial goes from the distorted to the undistorted
-    radius, which is the way that a picture is looked up; places are moved by its inverse. Beyond the corners it goes on
-    straight, so that it rises everywhere and nothing from outside is folded into the picture. The scale is the least by
-    which an undistorted square fills a square: a barrel's corners stay where they are, and of a pincushion the middles
-    of the edges.
+    r_u is the radius without distortion, r_d the radius with it. The polynomial goes from the distorted to the
+    undistorted radius, the direction in which a picture is looked up; places are moved by its inverse. Beyond the
+    corners a straight line continues it, so that it rises everywhere and nothing from outside is folded into the
+    picture. The scale is the smallest with which an undistorted square fills the picture: a barrel keeps the corners in
+    their place, a pincushion the middles of the edges.
 
     Attributes:
-        at_corner: how much farther out a corner is before the scale; negative is a barrel.
+        at_corner: share by which a corner lies farther from the middle, before the scale; negative is a barrel.
     """
 
     at_corner: float
@@ -46,7 +46,7 @@ class Distortion:
         return max(1.0 / (1.0 + self.at_corner), _EDGE / edge)
 
     def move(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Where a lens with distortion has what one without has at `places` (N, 2)."""
+        """Move places (N, 2) in a picture without distortion to where the lens shows them."""
         if self.at_corner == 0.0:
             return places
         radius = np.hypot(places[:, 0], places[:, 1])
@@ -54,7 +54,7 @@ class Distortion:
         return self._scale * farther[:, None] * places
 
     def _outwards(self, undistorted: NDArray[np.float64]) -> NDArray[np.float64]:
-        """r_d of r_u, to the last bits."""
+        """Compute r_d of r_u (N,), before the scale, to the last bits."""
         corner, cubic = 1.0 + self.at_corner, self._cubic
         inside = np.minimum(undistorted, 1.0)
         radius = inside.copy()
@@ -64,11 +64,14 @@ class Distortion:
         return beyond
 
     def distort(self, light: Light, enlarged: tuple[float, float, float] = (1.0, 1.0, 1.0)) -> Light:
-        """The picture as a lens with distortion makes it, looked up between pixels by cubics.
+        """Distort a picture, with cubic interpolation between pixels.
 
         Args:
-            light: (H, H, 3), linear, as a lens without distortion makes it.
-            enlarged: beside that, how much larger each channel is: lateral chromatic aberration.
+            light: (H, H, 3) linear, from a lens without distortion.
+            enlarged: further scale of each channel, for lateral chromatic aberration.
+
+        Returns:
+            (H, H, 3) linear, 0 or more, as the lens shows it.
         """
         if self.at_corner == 0.0 and enlarged == (1.0, 1.0, 1.0):
             return light
@@ -86,7 +89,7 @@ class Distortion:
         half = len(light) / 2
         scale = 1.0 / (self._scale * enlarged)
         offset = ((np.arange(len(light)) + 0.5 - half) * scale).astype(np.float32)
-        # In pixels the corner is at half a diagonal, the root of twice the square of half an edge.
+        # In pixels the corner's radius is half a diagonal, the square root of twice the square of half an edge.
         squared = offset**2 * np.float32(self._cubic / (2 * half**2))
         farther = 1 + squared[:, None] + squared[None, :]
         middle = np.float32(half - 0.5)

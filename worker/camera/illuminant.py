@@ -1,4 +1,4 @@
-"""The colour of the light that a scene is lit by, as a camera's white balance finds it. Pure numpy."""
+"""The colour of a scene's light, which a camera's white balance removes. Pure numpy."""
 
 import math
 
@@ -9,14 +9,18 @@ from farm.scene.light import GreyWorld, Lamp, StudioLamp
 from worker.camera.black_body import black_body
 
 NEUTRAL = np.ones(3)
+"""Colour of neutral light, (3,) linear Rec. 709."""
 
 
 def illuminant(lamps: tuple[Lamp, ...], grey: GreyWorld | None) -> NDArray[np.float64]:
-    """The colour of the light on the floor, (3,) linear Rec. 709; of lamps and worlds that have no colour, neutral.
+    """Compute the colour of the light on the floor.
 
     Args:
-        lamps: of the scene.
-        grey: what is around them.
+        lamps: lamps of the scene; only studio lamps have a colour.
+        grey: light around the lamps, if it has a colour.
+
+    Returns:
+        (3,) linear Rec. 709; neutral if neither the lamps nor the light around them have a colour.
     """
     light = np.zeros(3)
     for lamp in lamps:

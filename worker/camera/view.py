@@ -1,4 +1,4 @@
-"""The camera's geometry: where a point of the scene is in the picture, and what of the floor is seen. Pure numpy."""
+"""The camera's geometry: the place of a scene's point in the picture, and the visible part of the floor. Pure numpy."""
 
 import math
 from dataclasses import dataclass, replace
@@ -12,26 +12,26 @@ from worker.camera.distortion import Distortion
 from worker.curves import Points
 
 _LEVEL = 0.05
-"""Sine of the least angle with the floor at which it is looked for: rays to the horizon and above end nowhere."""
+"""Sine of the smallest angle between a line of sight and the floor; flatter lines, which may miss it, get this one."""
 
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """What a camera that looks at the origin sees through one point of its thin lens.
+    """The view of a camera that looks at the origin, through one point of its thin lens.
 
-    All points of the lens see what is in focus at the same place of the picture. Without more than a height it looks
-    straight down through the published lens, in focus on the floor.
+    All points of the lens see an object in focus at the same place of the picture. With a height and a resolution
+    alone, the camera looks straight down through a lens of `FOCAL_LENGTH_MM`, in focus on the floor.
 
     Attributes:
-        height_m: distance from the origin along the view; the height above the floor where it is not tilted.
-        resolution: pixels on each edge of the square picture.
-        pinhole_m: the point of the lens, right and up from its middle.
-        focal_length_mm: of the lens.
-        tilt_deg: between its view and straight down.
-        tilt_bearing_deg: to which side it stands, from the x axis.
-        roll_deg: how far the camera is turned about its view, counter-clockwise seen from above.
-        focus_offset_m: how much nearer than the origin the focus is.
-        distortion: radial, at the corner; see `worker.camera.distortion`.
+        height_m: distance from the origin along the view, in metres; without tilt the height above the floor.
+        resolution: edge of the square picture, in pixels.
+        pinhole_m: point of the lens, to the right and up from its middle, in metres.
+        focal_length_mm: focal length on a sensor of 36 mm.
+        tilt_deg: angle between the view and straight down, in degrees.
+        tilt_bearing_deg: bearing of the side to which a tilted camera stands, in degrees from the x axis.
+        roll_deg: rotation about the view, in degrees, counter-clockwise seen from above.
+        focus_offset_m: distance by which the focus is nearer than the origin, in metres.
+        distortion: radial distortion at the corner; see `worker.camera.distortion`.
     """
 
     height_m: float
@@ -46,7 +46,12 @@ class View:
 
     @classmethod
     def of(cls, camera: Camera, resolution: int) -> Self:
-        """Through the middle of a camera's lens."""
+        """Make the view through the middle of a camera's lens.
+
+        Args:
+            camera: camera of a scene.
+            resolution: edge of the square picture, in pixels.
+        """
         return cls(
             height_m=camera.height_m,
             resolution=resolution,
@@ -59,12 +64,12 @@ class View:
         )
 
     def undistorted(self) -> Self:
-        """Through a lens without distortion, which is what Blender renders."""
+        """Make the same view through a lens without distortion, which is what Blender renders."""
         return replace(self, distortion=0.0)
 
     @property
     def rotation(self) -> NDArray[np.float64]:
-        """(3, 3): its columns are the world's directions to the right, up, and backwards from what is seen."""
+        """Orientation of the camera, (3, 3): its columns are the directions right, up and backwards in the world."""
         tilt, bearing, roll = np.radians([self.tilt_deg, self.tilt_bearing_deg, self.roll_deg])
         x, y = -math.sin(bearing), math.cos(bearing)
         # Rodrigues' formula about a level axis (x, y, 0).
@@ -82,41 +87,47 @@ class View:
 
     @property
     def position_m(self) -> NDArray[np.float64]:
-        """Of the lens's middle in the world, (3,)."""
+        """Position of the lens's middle in the world, (3,) metres."""
         behind: NDArray[np.float64] = self.height_m * self.rotation[:, 2]
         return behind
 
     @property
     def eye_m(self) -> NDArray[np.float64]:
-        """Of the point of the lens that is looked through, in the world, (3,)."""
+        """Position of the lens's point in the world, (3,) metres."""
         eye: NDArray[np.float64] = self.position_m + self.rotation[:, :2] @ self.pinhole_m
         return eye
 
     @property
     def focus_m(self) -> float:
-        """Distance in focus, along the view."""
+        """Distance of the focus along the view, in metres."""
         return self.height_m - self.focus_offset_m
 
     @property
     def focal_length_px(self) -> float:
-        """Pixels for a slope of 1 across the view."""
+        """Focal length in pixels."""
         return self.resolution * self.focal_length_mm / SENSOR_MM
 
     @property
     def pixels_per_m(self) -> float:
-        """Where it looks at the floor, across the view."""
+        """Number of pixels in a metre across the view, at the origin."""
         return self.focal_length_px / self.height_m
 
     def depths_m(self, points: Points) -> NDArray[np.float64]:
-        """Distances along the view (N,) of points (N, 3); what is behind the camera has none above 0."""
+        """Compute the distances (N,) of points (N, 3) along the view, all in metres; below 0 is behind the camera."""
         depths: NDArray[np.float64] = -((points - self.position_m) @ self.rotation[:, 2])
         return depths
 
     def project(self, points: Points) -> NDArray[np.float64]:
-        """Pixel coordinates (N, 2) of points (N, 3); the top left corner of the picture is (0, 0).
+        """Project points into the picture.
 
-        At depth z a ray through the lens at l meets the plane in focus, at distance D, at l (1 - D / z) + p D / z, with
-        l and p counted from the axis of view.
+        A ray from a point p at depth z through the lens at l meets the plane in focus, at distance D, at
+        l (1 - D / z) + p D / z, with l and p measured from the axis of view.
+
+        Args:
+            points: (N, 3) metres, before the camera.
+
+        Returns:
+            (N, 2) pixels, to the right and down from the picture's top left corner.
         """
         seen = (points - self.position_m) @ self.rotation
         nearer = self.focus_m / -seen[:, 2:]
@@ -129,12 +140,15 @@ class View:
         return placed
 
     def floor_corners_m(self, margin: float = 0.0) -> Points:
-        """Where the lines of sight of the picture's corners meet the floor, (4, 3).
+        """Compute where the lines of sight of the picture's corners meet the floor.
 
-        A distorted picture shows no more than this, see `worker.camera.distortion`.
+        A distorted picture shows no more than this; see `worker.camera.distortion`.
 
         Args:
-            margin: of the picture's width, by which it is taken larger on each side.
+            margin: margin on each side, as a share of the picture's width.
+
+        Returns:
+            (4, 3) metres.
         """
         reach = (0.5 + margin) * SENSOR_MM / self.focal_length_mm
         rays = np.array([[x, y, -1.0] for x, y in ((-reach, -reach), (reach, -reach), (reach, reach), (-reach, reach))])
@@ -145,9 +159,9 @@ class View:
 
     @property
     def steepest_slope(self) -> float:
-        """Greatest sideways reach of the picture's lines of sight on their way to the floor, over the camera's height.
+        """Largest horizontal length of the lines of sight to the floor, over the camera's height above it.
 
-        By so much of its height what stands on the floor hides, at most, what lies behind it.
+        An object on the floor hides what lies behind it over at most this multiple of the object's height.
         """
         aside = self.floor_corners_m()[:, :2] - self.position_m[:2]
         return float(np.linalg.norm(aside, axis=1).max() / self.position_m[2])

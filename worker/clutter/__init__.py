@@ -1,1 +1,1 @@
-"""What lies about and is not cable: sheets, sticks and small parts, and how they are rendered."""
+"""Clutter, the objects on the floor that are not cables: images of sheets, meshes of sticks and small parts."""

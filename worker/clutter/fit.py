@@ -1,4 +1,4 @@
-"""Which small parts have room between what came to lie on the floor. Pure numpy."""
+"""Chooses the small parts that have room between the settled cables and sticks. Pure numpy."""
 
 from collections.abc import Sequence
 
@@ -13,13 +13,17 @@ from worker.curves import Points
 def parts_that_fit(
     parts: Sequence[Part], curves: Sequence[Points], radii_m: NDArray[np.float64], slope: float
 ) -> tuple[Part, ...]:
-    """The parts that neither touch a cable, a stick or a part before them, nor overlap one as the camera sees it.
+    """Choose the parts that neither touch a cable, a stick or an earlier part, nor hide one from the camera.
 
     Args:
-        parts: as drawn.
-        curves: settled centrelines (N, 3) of cables and sticks, metres, finely sampled or nodes.
-        radii_m: (curves,), radius of each.
-        slope: how far sideways a thing hides another, in its height; see `worker.camera.view.View.steepest_slope`.
+        parts: sampled parts, in their order.
+        curves: centrelines of the settled cables and sticks, (N, 3) each, in metres, finely sampled or nodes.
+        radii_m: (curves,), radius of each cable and stick, in metres.
+        slope: sideways distance at which an object hides another, over its height; see
+            `worker.camera.view.View.steepest_slope`.
+
+    Returns:
+        The parts that have room, in their order.
     """
     kept: list[tuple[Part, float]] = []
     for part in parts:
@@ -36,7 +40,7 @@ def parts_that_fit(
 
 
 def _is_clear(curve: Points, radius_m: float, place: NDArray[np.float64], reach_m: float, slope: float) -> bool:
-    """Whether a polyline's segments stay away from a place; what is high up is seen farther out."""
+    """Whether a rod's polyline (N, 3) stays clear of a place (2,); a higher rod appears farther from the middle."""
     start, edge = curve[:-1, :2], np.diff(curve[:, :2], axis=0)
     share = np.einsum("ij,ij->i", place - start, edge) / np.maximum(np.einsum("ij,ij->i", edge, edge), 1e-18)
     nearest = start + np.clip(share, 0.0, 1.0)[:, None] * edge

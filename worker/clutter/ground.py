@@ -1,4 +1,4 @@
-"""Lines that belong to the floor: painted ones, slots and seams. Numpy."""
+"""Draws lines that belong to the floor: painted lines, slots and seams. Numpy."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from worker.noise import Field, rough_noise, smooth_noise, smooth_step
 
 
 def draw_painted_line(sheet: Sheet, rng: np.random.Generator) -> Print:
-    """A line of paint, rubbed away in places down to the floor."""
+    """Draw a line of paint, worn down to the floor in places."""
     rows, columns = pixels_of(sheet.width_m), pixels_of(sheet.length_m)
     canvas = plain(rows, columns, sheet.colour)
     grime = rough_noise(rng, rows, columns, 70.0, 4)
@@ -27,11 +27,11 @@ def draw_painted_line(sheet: Sheet, rng: np.random.Generator) -> Print:
 
 
 def draw_slot(sheet: Sheet, rng: np.random.Generator) -> Print:
-    """A groove, as in an extruded profile or a bench: black inside, one lip in the light and the other in shade."""
+    """Draw a groove, as in an extruded profile or a bench: black inside, one lip bright and the other in shade."""
     rows, columns = pixels_of(sheet.width_m), pixels_of(sheet.length_m)
     across = (np.arange(rows, dtype=np.float32) + 0.5)[:, None] / rows
     canvas = plain(rows, columns, (11, 11, 12))
-    # Light falls a little way down the wall that faces it.
+    # Light reaches a little way down the wall that faces it.
     ink(canvas, np.broadcast_to(0.16 * np.exp(-across / 0.18), (rows, columns)).astype(np.float32), (120, 118, 114))
     lint = smooth_step(rough_noise(rng, rows, columns, 30.0, 5), 1.2, 2.6)
     ink(canvas, 0.22 * lint, (120, 112, 100))
@@ -40,7 +40,7 @@ def draw_slot(sheet: Sheet, rng: np.random.Generator) -> Print:
     chips = np.clip(1 + 0.3 * smooth_noise(rng, 1, columns, (1.0, 14.0)), 0.4, 1.8)
     lit = np.clip(1 - np.abs(rows - place - lip) / (lip * chips), 0, 1)
     dark = np.clip(1 - np.abs(place - lip) / (lip * chips), 0, 1)
-    # Whatever the colour, a lip is bare where it was worn.
+    # A lip is worn bare, so it is paler than the sheet's colour.
     grey = sum(sheet.colour) / 3
     red, green, blue = (min(255, round(0.3 * level + 0.8 * grey) + 25) for level in sheet.colour)
     ink(canvas, 0.8 * np.broadcast_to(lit, (rows, columns)), (red, green, blue))
@@ -55,7 +55,7 @@ def draw_slot(sheet: Sheet, rng: np.random.Generator) -> Print:
 
 
 def draw_seam(sheet: Sheet, rng: np.random.Generator) -> Print:
-    """A joint between two boards: dark, of uneven width, filled with dirt here and there."""
+    """Draw a joint between two boards: dark, of uneven width, filled with dirt in places."""
     rows, columns = pixels_of(sheet.width_m), pixels_of(sheet.length_m)
     half = 0.5 * rows * (0.72 + 0.16 * rough_noise(rng, 1, columns, 60.0, 4))
     middle = rows / 2 + 0.06 * rows * smooth_noise(rng, 1, columns, (1.0, 120.0))
@@ -75,7 +75,7 @@ def draw_seam(sheet: Sheet, rng: np.random.Generator) -> Print:
 
 
 def _from_edge(rows: int, columns: int) -> Field:
-    """How many texels each is away from the nearest edge, (rows, columns)."""
+    """Compute each texel's distance from the nearest edge, (rows, columns), in texels."""
     down, across = (np.minimum(np.arange(size), np.arange(size)[::-1]).astype(np.float32) for size in (rows, columns))
     away: Field = np.minimum(down[:, None], across[None])
     return away

@@ -1,4 +1,4 @@
-"""Paper, blank and written on, and stickers with a barcode. Numpy, OpenCV and Pillow."""
+"""Draws paper, blank or written on, and stickers with a barcode. Numpy, OpenCV and Pillow."""
 
 from collections.abc import Callable
 
@@ -10,7 +10,7 @@ from worker.clutter.print import TEXEL_M, Print, bars, ink, levels, lines, on_fl
 from worker.noise import Field, rough_noise, smooth_noise
 
 MM = 1e-3 / TEXEL_M
-"""Texels a millimetre."""
+"""Number of texels in a millimetre."""
 
 WORDS = (
     *("the", "of", "to", "and", "in", "is", "for", "with", "at", "by", "from", "on", "not", "see", "after", "before"),
@@ -20,10 +20,11 @@ WORDS = (
 )
 
 INKS = ((26, 26, 30), (26, 26, 30), (24, 36, 96), (70, 70, 74))
+"""Colours of ink and pencil, sRGB levels: black twice, as it is the commonest, blue and grey. Print is black."""
 
 
 def draw_paper(sheet: Sheet, rng: np.random.Generator) -> Print:
-    """A piece of paper: blank, ruled, squared, with text or with a drawing; folded once, at times."""
+    """Draw a piece of paper: blank, ruled, squared, or with text, a drawing or a chart; some are folded once."""
     rows, columns = pixels_of(sheet.width_m), pixels_of(sheet.length_m)
     canvas = plain(rows, columns, sheet.colour)
     kind: tuple[Callable[[Field, np.random.Generator], None], ...] = (_ruled, _squared, _text, _drawing, _chart)
@@ -47,7 +48,7 @@ def draw_paper(sheet: Sheet, rng: np.random.Generator) -> Print:
 
 
 def _fold(canvas: Field, height: Field, rng: np.random.Generator) -> None:
-    """A crease across: its two sides lean a little, so one is in shade; in place."""
+    """Add a crease to a colour (H, W, 3) and a height (H, W), in place: its sides lean, so one is in shade."""
     rows, columns = height.shape
     across = rng.random() < 0.7
     size = columns if across else rows
@@ -76,7 +77,7 @@ def _ruled(page: Field, rng: np.random.Generator) -> None:
 
 
 def _handwriting(page: Field, baselines: Field, rng: np.random.Generator) -> None:
-    """Loops along some lines, as of a pen: from the camera's height nobody reads it."""
+    """Draw loops of a pen along some lines, in place; nobody could read handwriting from the camera's height."""
     rows, columns = page.shape[:2]
     cover = np.zeros((rows, columns), np.float32)
     for line in baselines[:: int(rng.integers(1, 3))]:
@@ -107,7 +108,7 @@ def _squared(page: Field, rng: np.random.Generator) -> None:
 
 
 def _sketch(page: Field, rng: np.random.Generator) -> None:
-    """Lines and boxes drawn with a pen."""
+    """Draw lines and boxes with a pen, in place."""
     rows, columns = page.shape[:2]
     cover = np.zeros((rows, columns), np.float32)
     for _ in range(int(rng.integers(3, 9))):
@@ -119,7 +120,7 @@ def _sketch(page: Field, rng: np.random.Generator) -> None:
 
 
 def _text(page: Field, rng: np.random.Generator) -> None:
-    """Printed paragraphs, with a heading."""
+    """Print a heading and paragraphs, in place."""
     rows, columns = page.shape[:2]
     cover = np.zeros((rows, columns), np.float32)
     size = float(rng.uniform(2.6, 4.0)) * MM
@@ -135,7 +136,7 @@ def _text(page: Field, rng: np.random.Generator) -> None:
 
 
 def _drawing(page: Field, rng: np.random.Generator) -> None:
-    """A wiring diagram: boxes with terminals, and lines between them that turn at right angles."""
+    """Draw a wiring diagram, in place: boxes with names, and lines between them that turn at right angles."""
     rows, columns = page.shape[:2]
     cover = np.zeros((rows, columns), np.float32)
     boxes = []
@@ -155,7 +156,7 @@ def _drawing(page: Field, rng: np.random.Generator) -> None:
 
 
 def _chart(page: Field, rng: np.random.Generator) -> None:
-    """Axes, a grid, and a few coloured curves: the nearest that paper comes to cables."""
+    """Draw axes, a grid and a few coloured curves, in place: curves on paper resemble cables most."""
     rows, columns = page.shape[:2]
     low, high = np.array([0.12 * columns, 0.1 * rows]), np.array([0.94 * columns, 0.86 * rows])
     grid, axes = np.zeros((rows, columns), np.float32), np.zeros((rows, columns), np.float32)
@@ -178,7 +179,7 @@ def _chart(page: Field, rng: np.random.Generator) -> None:
 
 
 def draw_label(sheet: Sheet, rng: np.random.Generator) -> Print:
-    """A sticker with rounded corners: a heading, lines of small print, a barcode or a square code."""
+    """Draw a sticker with rounded corners: lines of print, the first the largest, and on most a barcode."""
     rows, columns = pixels_of(sheet.width_m), pixels_of(sheet.length_m)
     canvas = plain(rows, columns, sheet.colour)
     cover = np.zeros((rows, columns), np.float32)
@@ -209,7 +210,7 @@ def draw_label(sheet: Sheet, rng: np.random.Generator) -> Print:
 
 
 def _barcode(cover: Field, low: tuple[float, float], high: tuple[float, float], rng: np.random.Generator) -> None:
-    """Bars and gaps of one to four modules, in place."""
+    """Draw bars and gaps of one to four modules between two corners (column, row), in place."""
     module = max(1.0, 0.33 * MM)
     widths = rng.integers(1, 5, size=max(4, int((high[0] - low[0]) / (2.5 * module)))) * module
     edges = low[0] + np.cumsum(widths)

@@ -1,7 +1,7 @@
-"""Washers, nuts, screws, connectors and cable ties as they are rendered. Pure numpy.
+"""Builds the meshes of washers, nuts, screws, connectors and cable ties. Pure numpy.
 
-A part lies on z = 0 about the origin, its length along x. Its size is its greatest extent; washers, nuts and screws
-take the nearest standard size.
+A part lies on z = 0 about the origin, its length along x. Its size is its greatest extent; washers and nuts take the
+nearest standard size, and screws a standard thread that suits their length.
 """
 
 from collections.abc import Callable, Mapping
@@ -24,10 +24,10 @@ from worker.clutter.solid import (
 )
 
 WASHERS_MM = ((3.2, 7.0, 0.5), (4.3, 9.0, 0.8), (5.3, 10.0, 1.0), (6.4, 12.0, 1.6), (8.4, 16.0, 1.6))
-"""Hole, outside and thickness of M3, M4, M5, M6 and M8 (ISO 7089)."""
+"""Diameters of the hole and the outside, and thickness, of washers M3, M4, M5, M6 and M8, in millimetres (ISO 7089)."""
 
 NUTS_MM = ((3.0, 5.5, 2.4), (4.0, 7.0, 3.2), (5.0, 8.0, 4.7), (6.0, 10.0, 5.2), (8.0, 13.0, 6.8))
-"""Thread, width across flats and height (ISO 4032)."""
+"""Diameter of the thread, width across flats and height of nuts, in millimetres (ISO 4032)."""
 
 SCREWS_MM = (
     (3.0, 5.5, 3.0, 2.5, 0.5),
@@ -35,9 +35,11 @@ SCREWS_MM = (
     (5.0, 8.5, 5.0, 4.0, 0.8),
     (6.0, 10.0, 6.0, 5.0, 1.0),
 )
-"""Thread, head's diameter and height, width across the socket and pitch of socket head screws (ISO 4762)."""
+"""Diameter of the thread, diameter and height of the head, width across the socket's flats, and pitch of socket head
+screws, in millimetres (ISO 4762)."""
 
 CONNECTOR_PITCH_M = 2.54e-3
+"""Distance between two contacts of a connector, in metres: a tenth of an inch, the commonest pitch."""
 
 ZINC = Finish(colour=(196, 198, 202), roughness=0.3, metallic=1.0, mottle=0.2, grain_m=0.0015)
 YELLOW_ZINC = Finish(colour=(202, 180, 120), roughness=0.32, metallic=1.0, mottle=0.35, grain_m=0.002)
@@ -48,12 +50,16 @@ GOLD = Finish(colour=(226, 188, 104), roughness=0.22, metallic=1.0, mottle=0.1)
 
 
 def part_solid(part: Part) -> tuple[Solid, tuple[Finish, ...]]:
-    """A part's mesh about the origin, on the floor, unturned; and the finishes that its faces name."""
+    """Build a part about the origin, on the floor, without its rotation.
+
+    Returns:
+        The mesh, and the finishes that its faces number.
+    """
     return _made(part.kind, part.size_m, part.colour, part.pattern_seed)
 
 
 def part_extent(part: Part) -> tuple[float, float]:
-    """Radius in metres of the circle about its place that a part lies in, and its height."""
+    """Measure the radius of the circle about a part's middle that holds it, and its height, both in metres."""
     vertices = part_solid(part)[0].vertices_m
     return float(np.hypot(vertices[:, 0], vertices[:, 1]).max()), float(vertices[:, 2].max())
 
@@ -70,7 +76,7 @@ def _metal(rng: np.random.Generator) -> Finish:
 
 
 def _upright(solid: Solid) -> Solid:
-    """What was turned about x, stood up along z."""
+    """Stand a solid up: its x axis becomes z."""
     return solid.turned(np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]))
 
 
@@ -91,7 +97,7 @@ def _washer(size_m: float, _: tuple[int, int, int], rng: np.random.Generator) ->
 
 
 def _nut(size_m: float, _: tuple[int, int, int], rng: np.random.Generator) -> tuple[Solid, tuple[Finish, ...]]:
-    """A hexagon, its corners cut by a cone of 30 degrees above and below, with a threaded hole."""
+    """Build a hexagon with a threaded hole, its corners cut by a cone of 30 degrees above and below."""
     wanted = 1e3 * size_m * np.cos(np.pi / 6)
     thread, flats, height = (1e-3 * each for each in min(NUTS_MM, key=lambda row: abs(row[1] - wanted)))
     angle = 2 * np.pi * np.arange(SIDES) / SIDES
@@ -122,7 +128,7 @@ def _nut(size_m: float, _: tuple[int, int, int], rng: np.random.Generator) -> tu
 
 
 def _screw(size_m: float, _: tuple[int, int, int], rng: np.random.Generator) -> tuple[Solid, tuple[Finish, ...]]:
-    """A socket head screw on its side: it rests on the rim of its head and the end of its thread."""
+    """Build a socket head screw on its side: it rests on the rim of its head and the end of its thread."""
     fitting = [row for row in SCREWS_MM if row[2] + 1.5 * row[0] <= 1e3 * size_m] or [SCREWS_MM[0]]
     thread, wide, head, socket, pitch = (1e-3 * each for each in fitting[int(rng.integers(len(fitting)))])
     length = max(size_m, head + 1.5 * thread)
@@ -154,7 +160,7 @@ def _screw(size_m: float, _: tuple[int, int, int], rng: np.random.Generator) -> 
 def _connector(
     size_m: float, colour: tuple[int, int, int], rng: np.random.Generator
 ) -> tuple[Solid, tuple[Finish, ...]]:
-    """A housing of one row or two, with a window over each contact, or a header with its pins bare."""
+    """Build a housing of one or two rows with a window over each contact, or a pin header."""
     rows = int(rng.integers(1, 3))
     pitch = CONNECTOR_PITCH_M
     pins = int(np.clip(round(size_m / pitch), 2, 16))
@@ -169,7 +175,7 @@ def _connector(
     solids = [box((-wide / 2, -deep / 2, 0.0), (wide / 2, deep / 2, tall), 0.25e-3, 0)]
     lip = 0.12e-3
     for x in places:
-        # A window is a dark floor in a frame that stands out a little, with the contact's spring in it.
+        # A window is a dark floor in a frame that stands out a little, with the spring of the contact inside.
         y0, y1 = -0.1 * deep, 0.22 * deep
         solids.append(box((x - 0.62e-3, y0, tall - 0.2e-3), (x + 0.62e-3, y1, tall + 0.02e-3), 0.01e-3, 2))
         solids.append(box((x - 0.3e-3, y0 + 0.3e-3, tall), (x + 0.3e-3, y1 - 0.5e-3, tall + 0.1e-3), 0.04e-3, 1))
@@ -187,7 +193,7 @@ def _connector(
 
 
 def _header(places_m: Array, rows: int, wide_m: float) -> Solid:
-    """A pin header on its side: a bar of plastic, notched between the pins, which stick out of it both ways."""
+    """Build a pin header on its side: a bar of plastic, notched between the pins, which stick out on both sides."""
     pitch, pin = CONNECTOR_PITCH_M, 0.32e-3
     tall = rows * pitch
     solids = []
@@ -204,7 +210,7 @@ def _header(places_m: Array, rows: int, wide_m: float) -> Solid:
 def _cable_tie(
     size_m: float, colour: tuple[int, int, int], rng: np.random.Generator
 ) -> tuple[Solid, tuple[Finish, ...]]:
-    """A tie on edge: closed in a loop and cut off, or open and curved."""
+    """Build a cable tie on edge: closed to a loop and cut off, or open and curved."""
     wide, thick = float(rng.uniform(2.5e-3, 4.5e-3)), 1.1e-3
     plastic = Finish(colour=colour, roughness=0.35, mottle=0.03)
     if rng.random() < 0.5:
@@ -227,7 +233,7 @@ def _cable_tie(
 
 
 def _tie_head(start: Array, along: Array, wide_m: float, thick_m: float, tail_m: float) -> Solid:
-    """The block at a tie's beginning, with the slot for its tail and what was left of that."""
+    """Build the block at a tie's beginning, with the slot for its tail, and the stub of the tail if it was cut off."""
     half = 0.72 * wide_m
     high = wide_m * 1.35
     block = box((-2 * half, -half + 0.3e-3, 0.0), (0.2e-3, half + 0.3e-3, high), 0.35e-3, 0)

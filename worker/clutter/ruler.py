@@ -1,4 +1,4 @@
-"""Rulers of steel or plastic, with true millimetres. Numpy, OpenCV and Pillow."""
+"""Draws rulers of steel or plastic, with true millimetres. Numpy, OpenCV and Pillow."""
 
 import numpy as np
 
@@ -7,18 +7,23 @@ from worker.clutter.print import Print, bars, ink, levels, on_floor, pixels_of, 
 from worker.noise import rough_noise, smooth_noise
 
 TICK_M = 0.16e-3
+"""Width of a mark, in metres."""
+
 ZERO_M = 5e-3
-"""From the ruler's end to its first mark, at most."""
+"""Largest distance from a ruler's end to its first mark, in metres; a short ruler has a twentieth of its length."""
 
 LENGTHS_M = {10: 5.2e-3, 5: 4.0e-3, 1: 2.8e-3}
-"""How far the marks of so many millimetres reach in from the edge."""
+"""Length of the marks, in metres, by their spacing in millimetres."""
 
 STEEL = (186, 187, 188)
+"""Colour of steel, sRGB levels."""
+
 BLACK = (24, 24, 26)
+"""Colour of dark marks, sRGB levels."""
 
 
 def draw_ruler(sheet: Sheet, rng: np.random.Generator) -> Print:
-    """Marks a millimetre along one edge, digits a centimetre; brushed steel, or plastic in the sheet's colour."""
+    """Draw a ruler of brushed steel, or of plastic in the sheet's colour, with a mark a millimetre along one edge."""
     rows, columns = pixels_of(sheet.width_m), pixels_of(sheet.length_m)
     steel = rng.random() < 0.6
     canvas = plain(rows, columns, STEEL if steel else sheet.colour)
@@ -40,7 +45,16 @@ def draw_ruler(sheet: Sheet, rng: np.random.Generator) -> Print:
 
 
 def ruler_marks(length_m: float, rows: int, columns: int) -> np.typing.NDArray[np.float32]:
-    """How much ink is on each texel (rows, columns), 0 to 1, of a ruler of that length: marks and digits."""
+    """Draw a ruler's marks, one a millimetre, and its digits, one number a centimetre.
+
+    Args:
+        length_m: length of the ruler, in metres.
+        rows: number of texels across the ruler.
+        columns: number of texels along it.
+
+    Returns:
+        (rows, columns), share of each texel that ink covers, 0 to 1.
+    """
     per_m = columns / length_m
     zero = min(ZERO_M, 0.05 * length_m)
     count = int((length_m - zero) / 1e-3)

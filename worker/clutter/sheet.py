@@ -1,4 +1,4 @@
-"""Sheets: what each kind is drawn by, and where it lies. Pure numpy."""
+"""Sheets: the function that draws each kind, and a sheet's corners on the floor. Pure numpy."""
 
 from collections.abc import Callable, Mapping
 
@@ -25,16 +25,19 @@ _ARTISTS: Mapping[SheetKind, Callable[[Sheet, np.random.Generator], Print]] = {
 
 
 def print_sheet(sheet: Sheet) -> Print:
-    """The images of a sheet, the same for the same sheet."""
+    """Draw the images of a sheet; the same sheet gives the same images."""
     return _ARTISTS[sheet.kind](sheet, np.random.default_rng(sheet.pattern_seed))
 
 
 def sheet_corners(sheet: Sheet, margin_m: float = 0.0) -> Array:
-    """Corners (4, 2) on the floor, metres, anticlockwise from where its length and its width begin.
+    """Compute the corners of a sheet's image on the floor.
 
     Args:
-        sheet: as drawn.
-        margin_m: by which its image reaches over its edges.
+        sheet: sampled sheet.
+        margin_m: distance by which the image reaches over the sheet's edges, in metres.
+
+    Returns:
+        (4, 2) metres, anticlockwise from the corner where its length and its width begin.
     """
     along, across = sheet.length_m / 2 + margin_m, sheet.width_m / 2 + margin_m
     turn = np.radians(sheet.rotation_deg)

@@ -1,4 +1,4 @@
-"""Meshes of small solid things: turned on a lathe, or cut from boxes and prisms. Pure numpy. Metres."""
+"""Meshes of small solids: turned on a lathe, or put together from boxes and prisms. Pure numpy, in metres."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -14,16 +14,16 @@ SIDES = 48
 
 @dataclass(frozen=True, slots=True)
 class Finish:
-    """What a surface is made of.
+    """The material of a surface.
 
     Attributes:
         colour: sRGB levels.
-        roughness: 0.1 is polished, 0.8 matt.
-        metallic: 1 for bare metal, else 0.
-        coat: weight of a clear lacquer.
-        mottle: how much the colour varies from place to place, as a share.
-        grain_m: over which length it does.
-        streaks: how many times longer the variation is along the thing than around it.
+        roughness: roughness, 0 to 1: 0.1 is polished, 0.8 matt.
+        metallic: metalness, 0 to 1: 1 is bare metal, 0 is no metal.
+        coat: weight of a clear lacquer, 0 to 1.
+        mottle: variation of the colour from place to place, as a share of it.
+        grain_m: length over which the colour varies, in metres.
+        streaks: length of the variation along the object, as a multiple of that around it.
     """
 
     colour: tuple[int, int, int]
@@ -40,11 +40,11 @@ class Solid:
     """A mesh of polygons.
 
     Attributes:
-        vertices_m: (V, 3).
-        corners: (loops,) vertex of each face corner, faces one after the other.
-        sizes: (faces,) how many corners each face has.
-        finishes: (faces,) which of the thing's finishes each face has.
-        smooth: (faces,) whether it is shaded as a part of something round.
+        vertices_m: (V, 3) metres.
+        corners: (loops,) number of the vertex at each corner, face after face.
+        sizes: (faces,) number of corners of each face.
+        finishes: (faces,) number of each face's finish among those of the object.
+        smooth: (faces,) whether a face is shaded as part of something round.
     """
 
     vertices_m: Array
@@ -54,16 +54,16 @@ class Solid:
     smooth: NDArray[np.bool_]
 
     def moved(self, by_m: Sequence[float] | Array) -> "Solid":
-        """The same elsewhere."""
+        """Move the solid by a vector (3,) in metres."""
         return replace(self, vertices_m=self.vertices_m + np.asarray(by_m, dtype=np.float64))
 
     def turned(self, rotation: Array) -> "Solid":
-        """The same, each vertex multiplied by a matrix (3, 3)."""
+        """Multiply each vertex by a matrix (3, 3)."""
         return replace(self, vertices_m=self.vertices_m @ rotation.T)
 
 
 def joined(solids: Sequence[Solid]) -> Solid:
-    """Several as one."""
+    """Join solids to one."""
     offsets = np.cumsum([0, *(len(solid.vertices_m) for solid in solids)])[:-1]
     return Solid(
         vertices_m=np.concatenate([solid.vertices_m for solid in solids]),
@@ -76,14 +76,14 @@ def joined(solids: Sequence[Solid]) -> Solid:
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A stretch of what is turned on a lathe: smooth within, with an edge where the next one begins.
+    """A part of an object that is turned on a lathe: it is smooth, and an edge divides it from the next one.
 
     Attributes:
-        along_m: (N,) or (N, sides) places along the axis.
-        radius_m: (N,) or (N, sides) distance from the axis there.
-        finish: number of its finish.
-        flat: (N,) factors of the height, which make a round thing flat; None: round.
-        rippled: a thread or ribs, too fine for an outline, which is straight there.
+        along_m: (N,) or (N, sides) places along the axis, in metres.
+        radius_m: (N,) or (N, sides) distance from the axis at these places, in metres.
+        finish: number of the finish among those of the object.
+        flat: (N,) factors of the height, which flatten a round object; None leaves it round.
+        rippled: whether it is a thread or has ribs; an outline takes their mean radius.
     """
 
     along_m: Array
@@ -94,7 +94,12 @@ class Section:
 
 
 def section(profile: Sequence[tuple[float, float]], finish: int) -> Section:
-    """A round section through points (along, radius)."""
+    """Make a round section.
+
+    Args:
+        profile: points (place along the axis, radius), in metres.
+        finish: number of the finish.
+    """
     points = np.array(profile, dtype=np.float64)
     return Section(points[:, 0], points[:, 1], finish)
 
@@ -102,8 +107,12 @@ def section(profile: Sequence[tuple[float, float]], finish: int) -> Section:
 def turned_on_lathe(sections: Sequence[Section], sides: int) -> Solid:
     """Turn sections about the x axis.
 
-    Each section has vertices of its own, so that its edges are sharp. Walk with the matter on the right, from the
-    start's middle to the end's, so that faces look outwards.
+    Each section has its own vertices, so that the edges between sections are sharp. The profile runs from the middle of
+    the start to the middle of the end, with the material on its right, so that faces look outwards.
+
+    Args:
+        sections: sections, from the start to the end.
+        sides: number of sides of the polygon that stands for a circle.
     """
     return joined([_turn(each, sides) for each in sections])
 
@@ -127,7 +136,15 @@ def _turn(each: Section, sides: int) -> Solid:
 
 
 def prism(outline_m: Array, bottom_m: float, top_m: float, bevel_m: float, finish: int) -> Solid:
-    """A convex outline (N, 2), anticlockwise, drawn up from `bottom_m` to `top_m`, with bevelled edges."""
+    """Extrude a convex outline, with bevelled edges.
+
+    Args:
+        outline_m: (N, 2) metres, anticlockwise.
+        bottom_m: height of the underside, in metres.
+        top_m: height of the upper side, in metres.
+        bevel_m: width of the bevels, in metres.
+        finish: number of the finish.
+    """
     count = len(outline_m)
     inner = inset(outline_m, bevel_m)
     levels = (
@@ -154,7 +171,14 @@ def prism(outline_m: Array, bottom_m: float, top_m: float, bevel_m: float, finis
 
 
 def box(low_m: Sequence[float], high_m: Sequence[float], bevel_m: float, finish: int) -> Solid:
-    """A box between two corners, with bevelled edges."""
+    """Build a box with bevelled edges.
+
+    Args:
+        low_m: (3,) lowest coordinates, in metres.
+        high_m: (3,) highest coordinates, in metres.
+        bevel_m: width of the bevels, in metres; at most 0.4 of the shortest edge.
+        finish: number of the finish.
+    """
     (x0, y0, z0), (x1, y1, z1) = low_m, high_m
     bevel = min(bevel_m, 0.4 * min(x1 - x0, y1 - y0, z1 - z0))
     outline = np.array(
@@ -173,14 +197,14 @@ def box(low_m: Sequence[float], high_m: Sequence[float], bevel_m: float, finish:
 
 
 def polygon(corners: int, inscribed_radius_m: float) -> Array:
-    """A regular polygon (corners, 2) about the origin, by the radius of the circle in it."""
+    """Make a regular polygon (corners, 2) about the origin, in metres, from the radius of the circle inside it."""
     angle = 2 * np.pi * (np.arange(corners) + 0.5) / corners
     corners_m: Array = inscribed_radius_m / np.cos(np.pi / corners) * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     return corners_m
 
 
 def inset(outline_m: Array, by_m: float) -> Array:
-    """A convex outline (N, 2), anticlockwise, with all its edges moved inwards."""
+    """Move all edges of a convex, anticlockwise outline (N, 2) inwards by `by_m`, both in metres."""
     edge = np.roll(outline_m, -1, axis=0) - outline_m
     edge /= np.linalg.norm(edge, axis=1, keepdims=True)
     before = np.roll(edge, 1, axis=0)
@@ -191,7 +215,14 @@ def inset(outline_m: Array, by_m: float) -> Array:
 
 
 def strap(curve_m: Array, width_m: float, thickness_m: float, finish: int) -> Solid:
-    """A band on edge or flat: a rectangle swept along a level curve (N, 3), `width_m` high and `thickness_m` across."""
+    """Sweep a rectangle with bevelled corners along a level curve.
+
+    Args:
+        curve_m: (N, 3) metres, level.
+        width_m: height of the band, in metres.
+        thickness_m: thickness across the curve, in metres.
+        finish: number of the finish.
+    """
     along = np.gradient(curve_m, axis=0)
     across = np.cross(along, [0.0, 0.0, 1.0])
     across *= thickness_m / 2 / np.linalg.norm(across, axis=1, keepdims=True)

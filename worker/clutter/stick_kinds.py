@@ -1,7 +1,7 @@
-"""What each kind of stick is turned from. Pure numpy.
+"""The profile of each kind of stick, which is turned about its axis. Pure numpy.
 
-A stick is turned about its axis, x from 0 to its length; nothing of it is farther from the axis than the radius with
-which it fell, but for the rounded corners of a pencil.
+The axis is x, from 0 to the stick's length. No part is farther from the axis than the radius of the rod that fell, but
+for the rounded corners of a pencil.
 """
 
 from collections.abc import Callable, Mapping
@@ -13,7 +13,7 @@ from farm.scene.clutter import Stick, StickKind
 from worker.clutter.solid import SIDES, Finish, Section, Solid, box, section
 
 PENCIL_CORNER = 1.09
-"""A pencil's rounded corners are so many times farther from its axis than its flats; 1.155 if they were sharp."""
+"""Distance of a pencil's rounded corners from its axis, over that of its flats; sharp corners would have 1.155."""
 
 STEEL = Finish(colour=(190, 190, 192), roughness=0.28, metallic=1.0, mottle=0.15, grain_m=0.002, streaks=8.0)
 DARK_STEEL = Finish(colour=(92, 92, 96), roughness=0.38, metallic=1.0, mottle=0.25, grain_m=0.002)
@@ -28,10 +28,10 @@ class Turned:
     """A stick before it is turned.
 
     Attributes:
-        sections: from its start to its end.
-        finishes: that the sections name.
-        extras: what is not round; within the outline of the sections.
-        roll_deg: about its axis.
+        sections: sections from its start to its end.
+        finishes: finishes that the sections number.
+        extras: solids that are not round, within the outline of the sections.
+        roll_deg: rotation about its axis, in degrees.
     """
 
     sections: tuple[Section, ...]
@@ -41,7 +41,7 @@ class Turned:
 
 
 def _dome(start_m: float, end_m: float, radius_m: float, inner: float = 0.0) -> list[tuple[float, float]]:
-    """A rounded end: from the axis at `start_m`, or from a share of the radius, to the full radius at `end_m`."""
+    """Make the profile of a rounded end: from a share `inner` of the radius at `start_m` to all of it at `end_m`."""
     angle = np.linspace(0.0, np.pi / 2, 10)
     along = end_m + (start_m - end_m) * np.cos(angle)
     radius = radius_m * (inner + (1 - inner) * np.sin(angle))
@@ -54,7 +54,7 @@ def _darker(colour: tuple[int, int, int], factor: float) -> tuple[int, int, int]
 
 
 def _pen(stick: Stick, rng: np.random.Generator) -> Turned:
-    """A ballpoint with a cap, or one with a button and a grip; the clip looks up, more or less."""
+    """Make a ballpoint pen, with a cap or with a button and a grip; its clip looks roughly up."""
     return (_capped_pen if rng.random() < 0.5 else _button_pen)(stick, rng)
 
 
@@ -114,23 +114,23 @@ def _button_pen(stick: Stick, rng: np.random.Generator) -> Turned:
 
 
 def _clip(start_m: float, end_m: float, inner_m: float, outer_m: float, finish: int) -> Solid:
-    """A clip along the top, from just in the barrel to the radius with which the pen fell."""
+    """Build a clip along the top, from just inside the barrel to the radius of the rod that fell."""
     half, top = 0.22 * outer_m, 0.975 * outer_m  # its corners lie on the radius
     return box((start_m, -half, 0.9 * inner_m), (end_m, half, top), 0.03 * outer_m, finish)
 
 
 def _pencil(stick: Stick, rng: np.random.Generator) -> Turned:
-    """Six rounded sides, lacquered; sharpened at its end, with or without a rubber at its start."""
+    """Make a lacquered pencil with six rounded sides, sharpened at its end, with or without a rubber at its start."""
     length, r = stick.length_m, stick.diameter_m / 2
     angle = 2 * np.pi * np.arange(SIDES) / SIDES
-    # The flats look down and up. A power mean of the six sides' distances rounds the corners.
+    # Two flats look down and up. A power mean of the distances of the six sides rounds the corners.
     sides = np.cos(angle[:, None] - np.pi / 2 - np.pi / 3 * np.arange(6))
     hexagon = r / np.sum(np.maximum(sides, 0.0) ** 24, axis=1) ** (1 / 24)
     hexagon *= r / hexagon.min()
     lead = 0.28 * r
     slope = np.tan(np.radians(float(rng.uniform(10.0, 12.5))))
     lead_start = length - (lead - 0.08 * r) / slope
-    # Where the cone comes out of the sides, lower at the corners: the scallops of a sharpened pencil.
+    # The cone meets the sides farther back at the corners: the scallops of a sharpened pencil.
     edge = lead_start - (hexagon - lead) / slope
     with_rubber = rng.random() < 0.4
     body_start = 4.5 * r if with_rubber else 0.0
@@ -165,7 +165,7 @@ def _pencil(stick: Stick, rng: np.random.Generator) -> Turned:
 
 
 def _pipe(stick: Stick, rng: np.random.Generator) -> Turned:
-    """A tube with open ends, of copper, aluminium, steel or plastic."""
+    """Make a tube with open ends, of copper, aluminium, steel or plastic."""
     length, r = stick.length_m, stick.diameter_m / 2
     inner, depth = float(rng.uniform(0.72, 0.88)) * r, 4.0 * r
     finish = (
@@ -192,12 +192,12 @@ def _pipe(stick: Stick, rng: np.random.Generator) -> Turned:
 
 
 def _rod(stick: Stick, rng: np.random.Generator) -> Turned:
-    """A metal rod, plain or threaded all along."""
+    """Make a metal rod, plain or threaded all along."""
     length, r = stick.length_m, stick.diameter_m / 2
     edge = 0.15 * r
     finish = (STEEL, DARK_STEEL, BRASS)[int(rng.integers(3))]
     if rng.random() < 0.4:
-        # Rings in place of a helix: seen from the side nobody tells them apart.
+        # Rings stand for a helix: from the side they look the same.
         pitch = max(0.0005, 0.3 * r)
         turns = int((length - 2 * edge) / pitch)
         along = edge + (length - 2 * edge) * np.linspace(0, 1, 4 * turns + 1)
@@ -217,7 +217,7 @@ def _rod(stick: Stick, rng: np.random.Generator) -> Turned:
 
 
 def _screwdriver(stick: Stick, rng: np.random.Generator) -> Turned:
-    """A fluted handle of coloured plastic, a collar, and a steel shaft with a flat or a pointed tip."""
+    """Make a screwdriver: a fluted plastic handle, a collar, and a steel shaft with a flat or a pointed tip."""
     length, r = stick.length_m, stick.diameter_m / 2
     angle = 2 * np.pi * np.arange(SIDES) / SIDES
     flutes = 1 - 0.09 * (0.5 - 0.5 * np.cos(int(rng.integers(6, 9)) * angle))

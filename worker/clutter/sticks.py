@@ -1,4 +1,4 @@
-"""Sticks as they are rendered, and their outlines for the labels. Pure numpy."""
+"""Builds the meshes of sticks, and their outlines for the labels. Pure numpy."""
 
 import numpy as np
 
@@ -8,13 +8,18 @@ from worker.clutter.stick_kinds import TURNERS
 from worker.curves import Points
 
 OUTLINE_STEP = 0.02
-"""Of the radius: how finely cones are cut into cylinders."""
+"""Difference of radius between the cylinders that stand for a cone in an outline, as a share of the stick's radius."""
 
 OUTLINE_PLACES = 2000
+"""Number of places along a stick at which its outline's radius is found."""
 
 
 def stick_solid(stick: Stick) -> tuple[Solid, tuple[Finish, ...]]:
-    """A stick along x from 0 to its length, up is z; and the finishes that its faces name."""
+    """Build a stick whose axis is x, from 0 to its length, with z up.
+
+    Returns:
+        The mesh, and the finishes that its faces number.
+    """
     turned = TURNERS[stick.kind](stick, np.random.default_rng(stick.pattern_seed))
     whole = joined([turned_on_lathe(turned.sections, SIDES), *turned.extras])
     roll = np.radians(turned.roll_deg)
@@ -23,13 +28,14 @@ def stick_solid(stick: Stick) -> tuple[Solid, tuple[Finish, ...]]:
 
 
 def placed_on(nodes: Points) -> tuple[Array, Array]:
-    """Where a stick lies.
+    """Find the position of a settled stick.
 
     Args:
-        nodes: (N, 3) of its axis as it settled, straight but for micrometres.
+        nodes: (N, 3) nodes of its settled axis, in metres, straight but for micrometres.
 
     Returns:
-        (3, 3), the world's directions of the stick's x, y and z as columns; and (3,) where its axis starts.
+        (3, 3), whose columns are the directions of the stick's x, y and z in the world; and (3,), the start of its axis
+        in metres.
     """
     along = nodes[-1] - nodes[0]
     along = along / np.linalg.norm(along)
@@ -39,14 +45,15 @@ def placed_on(nodes: Points) -> tuple[Array, Array]:
 
 
 def stick_outline(stick: Stick, nodes: Points) -> list[tuple[Points, float]]:
-    """The silhouette of a rendered stick, for labels: cylinders end to end.
+    """Compute the silhouette of a rendered stick for labels, as cylinders end to end.
 
     Args:
-        stick: as drawn.
-        nodes: (N, 3) of its axis as it settled.
+        stick: sampled stick.
+        nodes: (N, 3) nodes of its settled axis, in metres.
 
     Returns:
-        Curves (M, 3) with a radius each, metres; cones in steps of a fiftieth of the stick's radius.
+        The axis (M, 3) and the radius of each cylinder, in metres; the cylinders of a cone differ by a fiftieth of the
+        stick's radius.
     """
     turned = TURNERS[stick.kind](stick, np.random.default_rng(stick.pattern_seed))
     along = np.linspace(0.0, stick.length_m, OUTLINE_PLACES)
@@ -67,7 +74,7 @@ def stick_outline(stick: Stick, nodes: Points) -> list[tuple[Points, float]]:
 
 
 def _radius_along(each: Section, places: Array) -> Array:
-    """How far a section reaches to either side of the axis at places along it; 0 where it is not."""
+    """Compute a section's radius at places (N,) along the axis, in metres; 0 where the section is not."""
     along = each.along_m if each.along_m.ndim == 1 else each.along_m.mean(axis=1)
     radius = each.radius_m if each.radius_m.ndim == 1 else each.radius_m.max(axis=1)
     if each.rippled:

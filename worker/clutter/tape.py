@@ -1,4 +1,4 @@
-"""Adhesive tape, plain and with a hazard's stripes. Numpy and OpenCV."""
+"""Draws adhesive tape, plain or with hazard stripes. Numpy and OpenCV."""
 
 import cv2
 import numpy as np
@@ -9,11 +9,11 @@ from worker.clutter.print import TEXEL_M, Levels, Print, ink, levels, on_floor, 
 from worker.noise import Field, rough_noise, smooth_noise, smooth_step
 
 HAZARDS = (((236, 186, 24), (24, 24, 26)), ((236, 186, 24), (24, 24, 26)), ((188, 28, 30), (230, 230, 228)))
-"""Yellow and black, as a rule, or red and white."""
+"""Pairs of colours of hazard tape, sRGB levels: yellow and black twice, as it is commoner, and red and white."""
 
 
 def draw_tape(sheet: Sheet, rng: np.random.Generator) -> Print:
-    """Tape of plastic, crêped paper or cloth, in the sheet's colour."""
+    """Draw tape of plastic, crêped paper or cloth, in the sheet's colour."""
     rows, columns = pixels_of(sheet.width_m), pixels_of(sheet.length_m)
     canvas = plain(rows, columns, sheet.colour)
     kind = int(rng.choice(3, p=(0.5, 0.3, 0.2)))
@@ -34,13 +34,13 @@ def draw_tape(sheet: Sheet, rng: np.random.Generator) -> Print:
 
 
 def draw_hazard_tape(sheet: Sheet, rng: np.random.Generator) -> Print:
-    """Diagonal stripes of two colours, scuffed."""
+    """Draw tape with diagonal stripes of two colours, scuffed."""
     rows, columns = pixels_of(sheet.width_m), pixels_of(sheet.length_m)
     bright, dark = HAZARDS[int(rng.integers(len(HAZARDS)))]
     pitch = rows * float(rng.uniform(0.9, 1.5))
     lean = 1.0 if rng.random() < 0.5 else -1.0
     along = np.arange(columns)[None] + lean * np.arange(rows)[:, None] + float(rng.uniform(0, pitch))
-    # In units of a stripe's half period, so that the edge is one texel soft.
+    # The distance from a stripe's middle, in texels, makes its edge one texel soft.
     place = np.abs((along / pitch) % 1.0 - 0.5) * pitch
     stripes = np.clip(place - pitch / 4 + 0.5, 0, 1).astype(np.float32)
     canvas = plain(rows, columns, bright)
@@ -63,7 +63,7 @@ def _stuck(canvas: Field, height: Field, gloss: float, rng: np.random.Generator)
 
 
 def _torn(rng: np.random.Generator, rows: int, columns: int) -> Levels:
-    """What is left between two ends: torn off, cut by the teeth of a dispenser, or with a knife."""
+    """Draw the coverage between two ends, each torn off, cut by the teeth of a dispenser, or cut with a knife."""
     first, last = _end(rng, rows), columns - _end(rng, rows)
     place = np.arange(columns)[None]
     covered = np.clip(place - first[:, None], 0, 1) * np.clip(last[:, None] - place, 0, 1)
@@ -71,7 +71,7 @@ def _torn(rng: np.random.Generator, rows: int, columns: int) -> Levels:
 
 
 def _end(rng: np.random.Generator, rows: int) -> NDArray[np.float64]:
-    """How many texels are missing from each row at an end."""
+    """Sample the number of texels that are missing from each row at an end, (rows,)."""
     kind = int(rng.integers(3))
     slant = float(rng.uniform(-0.15, 0.15)) * np.arange(rows)
     if kind == 0:
@@ -90,7 +90,7 @@ def _end(rng: np.random.Generator, rows: int) -> NDArray[np.float64]:
 
 
 def _wrinkles(rng: np.random.Generator, rows: int, columns: int) -> Field:
-    """Ripples, and a few creases from edge to edge; heights in texels."""
+    """Sample ripples and a few creases from edge to edge: heights (rows, columns) in texels."""
     height = 0.5 * smooth_noise(rng, rows, columns, (rows / 1.5, 60.0))
     creases = np.zeros((rows, columns), np.float32)
     for _ in range(int(rng.poisson(columns * TEXEL_M / 0.06))):

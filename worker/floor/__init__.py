@@ -1,1 +1,1 @@
-"""The floor's texels in view, and the wear that is drawn on them."""
+"""The visible texels of the floor's texture, and the wear that is painted on them."""

@@ -1,7 +1,7 @@
-"""Stains, scratches and dust on a floor, and what fills its joints, in its own metres. Numpy and OpenCV.
+"""Draws stains, scratches and dust on a floor, and the filling of its joints, in metres. Numpy and OpenCV.
 
-They lie about the origin, so they have the same size whatever the texture's texels and scale are, and do not repeat
-with its tiles.
+Marks lie in a square about the origin of the floor. Their size does not depend on the texture's texels and scale, and
+they do not repeat with its tiles.
 """
 
 from collections.abc import Iterator
@@ -16,28 +16,36 @@ from farm.scene.floor import JointFill, Wear
 from worker.noise import Field, rough_noise, smooth_step
 
 EDGE_M = 0.6
-"""Of the square about the origin in which marks are drawn; beyond it they are mirrored."""
+"""Edge of the square about the origin in which marks lie, in metres; beyond it, stains and dust are mirrored."""
 
 CELL_M = 1.25e-3
-"""Of the grid on which stains and dust are drawn. They are smooth there; their edges are found at the texels."""
+"""Edge of a cell of the grid on which stains and dust are drawn, in metres; the texels give them their sharp edges."""
 
 CELLS = round(EDGE_M / CELL_M)
+"""Number of cells along an edge of the square."""
 
 STAIN_RADII_M = (0.003, 0.022)
+"""Range of a puddle's radius, in metres, sampled log-uniformly."""
+
 MOST_STAINS = 1000
+"""Number of puddles after which no more are added, though they cover less than they should."""
+
 SCRATCH_LENGTHS_M = (0.004, 0.07)
+"""Range of a scratch's length, in metres, sampled log-uniformly."""
+
 SCRATCH_WIDTHS_M = (0.1e-3, 0.4e-3)
+"""Range of a scratch's greatest width, in metres; each scratch has 0.4 to 1 of it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Marks:
-    """How far a texel is under each mark, (H, W) each; None: there are none of them.
+    """The strength of each kind of mark at each texel, (H, W); None if the window has no mark of that kind.
 
     Attributes:
-        stain: 0 to 1, how much of its light is missing, in parts of the most that may.
-        scratch: -1 to 1: dark or bright.
-        dust: 0 to 1.
-        joint: 0 to 1, how far what fills a joint hides what was there.
+        stain: 0 to 1, darkening by stains, as a share of the strongest.
+        scratch: -1, dark, to 1, bright.
+        dust: 0 to 1, density of the dust.
+        joint: 0 to 1, share of the texture's colour that a joint's filling hides.
     """
 
     stain: Field | None
@@ -47,21 +55,22 @@ class Marks:
 
     @property
     def any(self) -> bool:
-        """Whether there are any."""
+        """Whether there is a mark of any kind."""
         return not (self.stain is None and self.scratch is None and self.dust is None and self.joint is None)
 
 
 def marks_on(
     wear: Wear, rows: int, columns: int, to_floor: NDArray[np.float64], to_joint_m: Field | None = None
 ) -> Marks:
-    """The marks on a window of a texture.
+    """Draw the marks on a window of a texture.
 
     Args:
-        wear: of the floor.
-        rows: of the window's texels.
-        columns: of them.
-        to_floor: (2, 3), what takes a texel's column and row to metres on the floor.
-        to_joint_m: (rows, columns), how far texels are from the edges of joints, negative inside; None without any.
+        wear: wear of the floor.
+        rows: number of rows of the window's texels.
+        columns: number of columns of the window's texels.
+        to_floor: (2, 3), affine map from a texel's column and row to metres on the floor.
+        to_joint_m: (rows, columns) metres, distance of each texel from the edge of a joint, negative inside; None if
+            the texture has no joints.
     """
     stain, scratch, dust, joint = (np.random.default_rng((wear.pattern_seed, kind)) for kind in range(4))
     window = _Window(rows, columns, to_floor)
@@ -74,7 +83,7 @@ def marks_on(
 
 
 def sized(marks: Marks, rows: int, columns: int) -> Marks:
-    """The same marks on maps of another size."""
+    """Resample marks for maps of another size, `rows` by `columns` texels."""
 
     def fit(field: Field | None) -> Field | None:
         if field is None or field.shape == (rows, columns):
@@ -92,7 +101,7 @@ class _Window:
     to_floor: NDArray[np.float64]
 
     def look_up(self, grid: Field) -> Field:
-        """A grid (CELLS, CELLS) at the texels."""
+        """Interpolate a grid (CELLS, CELLS) at the texels, (rows, columns)."""
         to_grid = self.to_floor / CELL_M
         to_grid[:, 2] += CELLS / 2 - 0.5
         flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
@@ -101,7 +110,7 @@ class _Window:
         return seen.astype(np.float32, copy=False)
 
     def texels_of(self, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Columns and rows (N, 2) of points (N, 2) of the floor."""
+        """Compute the columns and rows (N, 2) of points (N, 2) on the floor, in metres."""
         back = np.linalg.inv(self.to_floor[:, :2])
         texels: NDArray[np.float64] = np.einsum("ij,nj->ni", back, points_m - self.to_floor[:, 2])
         return texels
@@ -112,13 +121,13 @@ class _Window:
 
 
 def _stains(share: float, rng: np.random.Generator, window: _Window) -> Field:
-    """Dried puddles: paler in the middle, where they dried last, than at the rim."""
+    """Draw dried puddles, (rows, columns), which are paler in the middle, where they dried last, than at the rim."""
     depth, strength = stain_grids(share, rng)
     depth_here = window.look_up(depth)
-    # Most of the floor is dry, so the rest is done where it is not.
+    # Most of the floor is dry, so only the wet texels are worked on.
     wet = np.flatnonzero(depth_here > -1e-3)
     grain = _grain(window).ravel()[wet]
-    # Wobbled by half a millimetre, so that the rim is not drawn with a compass.
+    # Noise of about half a millimetre makes the rim uneven.
     deep = depth_here.ravel()[wet] + np.float32(0.25e-3) * grain
     rim = np.exp(-np.square((deep - np.float32(0.7e-3)) * np.float32(1 / 0.8e-3)))
     stain = np.zeros(depth_here.size, np.float32)
@@ -128,14 +137,15 @@ def _stains(share: float, rng: np.random.Generator, window: _Window) -> Field:
 
 
 def stain_grids(share: float, rng: np.random.Generator) -> tuple[Field, Field]:
-    """Puddles until they cover a share of the square: how deep in one each cell is, metres, and how strong it is.
+    """Sample puddles until they cover a share of the square.
 
     Args:
-        share: of the square.
-        rng: draws places, sizes and outlines.
+        share: share of the square that puddles cover, 0 to 1.
+        rng: random generator of the stains.
 
     Returns:
-        (CELLS, CELLS) each; the first is negative outside, -1 far away.
+        Two grids (CELLS, CELLS): the distance of each cell from a puddle's edge, in metres, above 0 inside and -1 far
+        outside; and the strength of the stain, 0 to 1.
     """
     depth = np.full((CELLS, CELLS), -1.0, np.float32)
     strength = np.zeros((CELLS, CELLS), np.float32)
@@ -144,14 +154,14 @@ def stain_grids(share: float, rng: np.random.Generator) -> tuple[Field, Field]:
     for _ in range(MOST_STAINS):
         if wanted <= 0:
             break
-        # The last puddles are small, so that the share is met and not passed.
+        # The last puddles are small, so that the share is reached without being exceeded by much.
         radius = min(float(np.exp(rng.uniform(low, high))), CELL_M * (float(np.sqrt(wanted / np.pi)) + 1))
         wanted -= _spill(depth, strength, radius, rng)
     return depth, cv2.GaussianBlur(strength, (0, 0), 1.5).astype(np.float32, copy=False)
 
 
 def _spill(depth: Field, strength: Field, radius_m: float, rng: np.random.Generator) -> int:
-    """One puddle with an uneven outline, and some drops beside it, in place; returns how many cells got wet."""
+    """Add one puddle with an uneven outline, and some drops beside it, in place; return the number of cells wetted."""
     middle = rng.uniform(0, CELLS, 2)
     weight = float(rng.uniform(0.5, 1.0))
     waves = rng.normal(0, 1, (2, 6)) * (0.16 / np.arange(1, 7))
@@ -169,7 +179,18 @@ def _spill(depth: Field, strength: Field, radius_m: float, rng: np.random.Genera
 def _wet(
     depth: Field, strength: Field, middle: NDArray[np.float64], outline_m: NDArray[np.float64], weight: float
 ) -> int:
-    """Wet the cells within an outline, radii (65,) at bearings from -pi to pi, in place; returns how many were dry."""
+    """Wet the cells within an outline, in place.
+
+    Args:
+        depth: (CELLS, CELLS) metres, distance of each cell from a puddle's edge, above 0 inside.
+        strength: (CELLS, CELLS), strength of the stain.
+        middle: (2,), column and row of the outline's middle.
+        outline_m: (65,) metres, radius of the outline at bearings from -pi to pi.
+        weight: strength of this stain, 0 to 1.
+
+    Returns:
+        The number of cells that were dry before.
+    """
     reach = int(outline_m.max() / CELL_M) + 4
     (top, bottom), (left, right) = ((max(0, int(at) - reach), min(CELLS, int(at) + reach)) for at in middle[::-1])
     if top >= bottom or left >= right:
@@ -186,7 +207,7 @@ def _wet(
 
 
 def _scratches(density: float, rng: np.random.Generator, window: _Window) -> Field:
-    """Fine lines, some of them in sheaves, fading at their ends."""
+    """Draw fine lines, (rows, columns), some of them in sheaves, which fade at their ends."""
     bright, dark = (np.zeros((window.rows, window.columns), np.uint8) for _ in range(2))
     for points_m, width_m, strength in scratch_lines(density, rng):
         points = window.texels_of(points_m)
@@ -208,18 +229,21 @@ def _scratches(density: float, rng: np.random.Generator, window: _Window) -> Fie
 
 
 def scratch_lines(density: float, rng: np.random.Generator) -> Iterator[tuple[NDArray[np.float64], float, float]]:
-    """The scratches of the square: points (13, 2), width, both in metres, and strength, -1 dark to 1 bright.
+    """Sample the scratches of the square.
 
     Args:
-        density: of them, a square decimetre.
-        rng: draws them.
+        density: number of scratches in a square decimetre.
+        rng: random generator of the scratches.
+
+    Yields:
+        For each scratch its points (13, 2) and its width, both in metres, and its strength, from -1, dark, to 1,
+        bright.
     """
     left = round(density * EDGE_M**2 / 1e-2)
     low, high = np.log(SCRATCH_LENGTHS_M)
     t = np.linspace(-0.5, 0.5, 13)
     while left > 0:
         sheaf = min(left, int(rng.geometric(0.6)) if rng.random() < 0.8 else int(rng.integers(3, 9)))
-
         left -= sheaf
         length = float(np.exp(rng.uniform(low, high)))
         bearing, bend = float(rng.uniform(0, np.pi)), float(rng.normal(0, 0.25))
@@ -236,7 +260,7 @@ def scratch_lines(density: float, rng: np.random.Generator) -> Iterator[tuple[ND
 
 
 def _dust(share: float, rng: np.random.Generator, window: _Window) -> Field:
-    """A film with soft edges, thicker in its middle, of visible grains and some fibres."""
+    """Draw a film of dust, (rows, columns), with visible grains and soft edges, thicker in its middle."""
     film = rough_noise(rng, CELLS, CELLS, 60.0, 5)
     start = float(np.quantile(film[::4, ::4], 1 - share))
     here = smooth_step(window.look_up(film), start - 0.35, start + 0.9)
@@ -245,11 +269,11 @@ def _dust(share: float, rng: np.random.Generator, window: _Window) -> Field:
 
 
 def _filled(fill: JointFill, to_joint_m: Field, rng: np.random.Generator, window: _Window) -> Field:
-    """What fills joints: its edge wanders a little, it is grainy, and in places it is thin."""
+    """Draw the filling of joints, (rows, columns), which has an uneven edge and grains, and is thin in places."""
     patches = window.look_up(rough_noise(rng, CELLS, CELLS, 40.0, 4))
     grain = _grain(window)
     edge_m = to_joint_m - np.float32(fill.spread_m) * (1 + 0.4 * np.clip(patches, -2, 2)) - np.float32(0.04e-3) * grain
-    # Soft over a texel at least, or edges of joints show its steps.
+    # The edge is soft over a texel at least, else it would show the texels' steps.
     soft_m = max(0.12e-3, 0.6 / window.texels_per_m)
     filled: Field = np.float32(fill.cover) * smooth_step(-edge_m, -soft_m, soft_m)
     filled *= (0.55 + 0.45 * smooth_step(patches, -1.6, 0.4)) * np.clip(0.84 + 0.16 * grain, 0, 1)
@@ -257,7 +281,7 @@ def _filled(fill: JointFill, to_joint_m: Field, rng: np.random.Generator, window
 
 
 def _grain(window: _Window) -> Field:
-    """Noise of the size of a fifth of a millimetre, but never finer than texels; the same for every floor."""
+    """Make noise (rows, columns), the same for every floor, with grains of 0.2 mm, or of a texel if that is larger."""
     tile = _grain_tile()
     texels = max(1.0, 0.2e-3 * window.texels_per_m)
     edge = round(len(tile) * texels)

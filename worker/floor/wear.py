@@ -1,4 +1,4 @@
-"""What a floor has been through, laid over the texels that the camera sees. Numpy and OpenCV."""
+"""Applies a floor's wear to the texels that the camera sees. Numpy and OpenCV."""
 
 import cv2
 import numpy as np
@@ -9,25 +9,28 @@ from worker.floor.marks import Marks
 from worker.noise import Field
 
 STAIN_LEAVES = (0.58, 0.50, 0.40)
-"""Of red, green and blue light, where a puddle's rim was thickest."""
+"""Share of red, green and blue light that the strongest stain leaves, on the rim of a puddle."""
 
 DUST_COLOUR = (0.44, 0.40, 0.34)
-"""Of house dust, linear."""
+"""Colour of house dust, linear Rec. 709."""
 
 DUST_COVERS = 0.42
+"""Share of the floor's colour that the densest dust hides."""
+
 DUST_ROUGHNESS = 0.85
+"""Roughness of dust, 0 to 1."""
 
 FILL_ROUGHNESS = 0.9
-"""Of grout, sand and dirt."""
+"""Roughness of grout, sand and dirt, 0 to 1."""
 
 
 def worn_colour(texels: Texels, wear: Wear, marks: Marks) -> Texels:
-    """A window's colour after all that.
+    """Apply wear and marks to a window's colour.
 
     Args:
-        texels: (H, W, 3) sRGB levels, or (H, W) where they are grey.
+        texels: (H, W, 3) sRGB levels, or (H, W) if they are grey.
         wear: brightness, tint, saturation, and contrast about the window's mean.
-        marks: on the window.
+        marks: marks on the window, (H, W) each.
 
     Returns:
         (H, W, 3) sRGB levels.
@@ -57,7 +60,15 @@ def worn_colour(texels: Texels, wear: Wear, marks: Marks) -> Texels:
 
 
 def worn_roughness(texels: Texels, marks: Marks) -> Texels:
-    """A window's roughness (H, W): puddles dry smoother at times; scratches, dust and filled joints are rough."""
+    """Apply marks to a window's roughness: stains make it smoother; scratches, dust and filled joints make it rougher.
+
+    Args:
+        texels: (H, W) or (H, W, 3), 255 for a roughness of 1.
+        marks: marks on the window, (H, W) each.
+
+    Returns:
+        (H, W) uint8, 255 for a roughness of 1.
+    """
     rough = (texels if texels.ndim == 2 else texels[:, :, 0]).astype(np.float32)
     if marks.joint is not None:
         rough += marks.joint * (255 * np.float32(FILL_ROUGHNESS) - rough)
@@ -71,7 +82,12 @@ def worn_roughness(texels: Texels, marks: Marks) -> Texels:
 
 
 def turned_over(texels: Texels, *, normal: bool) -> Texels:
-    """A tile's texels with left and right swapped; a normal map's slopes swap theirs too."""
+    """Swap left and right of a tile's texels.
+
+    Args:
+        texels: (H, W) or (H, W, 3).
+        normal: whether they are a normal map, whose slopes change their sign too.
+    """
     turned = texels[:, ::-1]
     if normal and turned.ndim == 3:
         turned = turned.copy()

@@ -1,7 +1,7 @@
 """The part of a floor's texture that the camera sees, no finer than it sees it. Pure numpy and OpenCV.
 
-A map of 2048 texels across 0.4 m is decoded once; Blender then gets the texels under the view alone, at most as many
-as a few for each pixel, in place of four million.
+A map of 2048 texels across 0.4 m is decoded once. In place of its four million texels, Blender then gets only those in
+view, at most a few for each pixel.
 """
 
 import math
@@ -17,25 +17,31 @@ from worker.camera.view import View
 from worker.colour import Texels, levels_of, light_of
 
 MARGIN = 0.06
-"""Of the view's width, on each side: what the pixel filter, blur and a tilt of the floor's normals may reach."""
+"""Margin of a window on each side, as a share of the view's width: the reach of the pixel filter, of blur, and of the
+floor's tilted normals."""
 
 TEXELS_PER_PIXEL = 2
-"""Left along an edge: with one, weave and grain looked blurred (FLIP 0.054 where 0.017 was noise); more only take
-time, as a renderer waits for texels that don't fit its caches."""
+"""Texels for each pixel along an edge. With one, weave and grain look blurred (FLIP 0.054, of which 0.017 is noise);
+more only take time, as a renderer waits for texels that do not fit into its caches."""
 
 WORTH_AVERAGING = 1.25
-"""Texels along an edge that become one, below which they stay as they are."""
+"""Smallest number of texels along an edge that are averaged to one; below it, texels stay as they are."""
 
 FINEST_GRID = 64
-"""Windows begin and end at a grid of at least so many lines a tile; maps of other sizes are taken whole."""
+"""Smallest number of grid lines in a tile. Windows begin and end on lines that all maps of a surface have in common;
+maps with fewer lines in common are taken whole."""
 
 
 @dataclass(frozen=True, slots=True)
 class TextureWindow:
-    """A rectangle of a tile, in tiles, v upwards; it may reach over the tile's edge. All of it is (0, 0, 1, 1).
+    """A rectangle of a tile, in tiles; it may reach over the tile's edge. A whole tile is (0, 0, 1, 1).
 
     Attributes:
-        coarser: how many texels along an edge become one; 1, or `WORTH_AVERAGING` or more.
+        u: left edge.
+        v: lower edge, counted upwards.
+        width: width.
+        height: height.
+        coarser: number of texels along an edge that are averaged to one: 1, or `WORTH_AVERAGING` or more.
     """
 
     u: float
@@ -46,19 +52,22 @@ class TextureWindow:
 
     @classmethod
     def whole(cls) -> Self:
-        """All texels of a tile."""
+        """Make the window of a whole tile, at full resolution."""
         return cls(0.0, 0.0, 1.0, 1.0, 1)
 
     def place(self, uvs: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Coordinates (N, 2) in the window of coordinates in tiles."""
+        """Convert coordinates (N, 2) in tiles to coordinates in the window, where 0 to 1 lies inside."""
         return (uvs - [self.u, self.v]) / [self.width, self.height]
 
     def cut(self, texels: Texels, *, colour: bool) -> Texels:
-        """The window's texels.
+        """Cut the window out of a tile.
 
         Args:
-            texels: (H, W) or (H, W, channels) of the tile, the top row first.
-            colour: sRGB, which is averaged as light.
+            texels: (H, W) or (H, W, channels) uint8, texels of the tile, the top row first.
+            colour: whether they are sRGB, which is averaged as linear light.
+
+        Returns:
+            (rows, columns) or (rows, columns, channels) uint8, the window's texels.
         """
         rows, columns = texels.shape[:2]
         if self == self.whole():
@@ -75,12 +84,15 @@ class TextureWindow:
 
 
 def tile_coordinates(points_m: NDArray[np.float64], floor: Floor, size_m: float) -> NDArray[np.float64]:
-    """Coordinates (N, 2) in tiles of points (N, 2) of the floor, metres.
+    """Compute the texture coordinates of points on the floor.
 
     Args:
-        points_m: of the floor.
-        floor: how its texture lies.
-        size_m: edge of a tile at scale 1.
+        points_m: (N, 2) metres, points on the floor.
+        floor: position, rotation and scale of the texture.
+        size_m: edge of a tile at scale 1, in metres.
+
+    Returns:
+        (N, 2) tiles.
     """
     turn = math.radians(floor.rotation_deg)
     rotation = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
@@ -91,14 +103,17 @@ def tile_coordinates(points_m: NDArray[np.float64], floor: Floor, size_m: float)
 
 
 def texels_to_floor(window: TextureWindow, rows: int, columns: int, floor: Floor, size_m: float) -> NDArray[np.float64]:
-    """What takes the column and row of a window's texel to metres on the floor, (2, 3); see `tile_coordinates`.
+    """Compute the affine map from a texel's column and row to the floor; see `tile_coordinates` for the inverse.
 
     Args:
-        window: of the texture.
-        rows: of the window's texels.
-        columns: of them.
-        floor: how the texture lies.
-        size_m: edge of a tile at scale 1.
+        window: window of the texture.
+        rows: number of rows of the window's texels.
+        columns: number of columns of the window's texels.
+        floor: position, rotation and scale of the texture.
+        size_m: edge of a tile at scale 1, in metres.
+
+    Returns:
+        (2, 3), which takes (column, row, 1) of a texel's middle to metres on the floor.
     """
     turn = math.radians(floor.rotation_deg)
     rotation = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
@@ -112,17 +127,17 @@ def texels_to_floor(window: TextureWindow, rows: int, columns: int, floor: Floor
 def window_on(
     floor: Floor, size_m: float, view: View, sizes: tuple[tuple[int, int], ...], most_tiles: float = 1.0
 ) -> TextureWindow:
-    """The window on a surface's maps through which a view is the same as with all of them.
+    """Choose the window of a surface's maps that makes the same picture as the whole maps.
 
     Args:
-        floor: how the texture lies.
-        size_m: edge of a tile at scale 1.
-        view: what the camera sees.
+        floor: position, rotation and scale of the texture.
+        size_m: edge of a tile at scale 1, in metres.
+        view: view of the camera.
         sizes: (rows, columns) of each map.
-        most_tiles: along an edge. With one, a view of more sees the same texels again; with more it has its own.
+        most_tiles: largest edge of the window, in tiles. A larger view repeats the window; with 1 it repeats the tile.
     """
     grid = math.gcd(*(edge for size in sizes for edge in size))
-    # A pixel is smallest where the floor is nearest.
+    # A pixel covers the smallest part of the floor where the floor is nearest.
     pixel_m = view.depths_m(view.floor_corners_m()).min() / view.focal_length_px
     texel_m = size_m * floor.scale / min(edge for size in sizes for edge in size)
     coarser = float(pixel_m / (TEXELS_PER_PIXEL * texel_m))
@@ -137,7 +152,7 @@ def window_on(
 
 
 def _resampled(texels: Texels, size: tuple[int, int], *, colour: bool) -> Texels:
-    """Average to fewer columns and rows, each with the parts of texels that it covers."""
+    """Average texels to a size (columns, rows); a new texel weighs each old one by the part that it covers."""
     if colour:
         light = cv2.resize(light_of(texels), size, interpolation=cv2.INTER_AREA)
         return levels_of(light.astype(np.float32, copy=False))

@@ -1,4 +1,4 @@
-"""Draws of what is behind the cables: the HDRI and how it is turned, or a photograph."""
+"""Samples what the picture shows behind the cables: an HDRI and its rotation, or a photograph."""
 
 import numpy as np
 
@@ -8,11 +8,20 @@ from farm.spec.header import DatasetHeader, HdriRef
 from worker.sample.values import chance, uniform
 
 OVER_FLOORS = "sunrise"
-"""Of Blender's HDRIs the one under which floors are as bright, and have as much contrast, as in published examples."""
+"""Name of the one of Blender's HDRIs that lights floors as brightly, and with as much contrast, as in published
+examples."""
 
 
 def sample_plate(header: DatasetHeader, rng: np.random.Generator) -> Plate | None:
-    """Draw which of the user's photographs is behind the cables, and what part of it; None where none is."""
+    """Sample which of the user's photographs is behind the cables, and which part of it.
+
+    Args:
+        header: header of the dataset, with its photographs and ranges.
+        rng: random generator of the photograph.
+
+    Returns:
+        The photograph's part; None if the dataset has no photographs, or this picture shows none.
+    """
     ranges = header.spec.ranges.plate
     if not header.plates or not chance(rng, ranges.share):
         return None
@@ -27,14 +36,20 @@ def sample_plate(header: DatasetHeader, rng: np.random.Generator) -> Plate | Non
 
 
 def sample_world(header: DatasetHeader, background: Background, rng: np.random.Generator) -> HdriWorld:
-    """Draw the HDRI, its turn and its brightness."""
+    """Sample the HDRI, its rotation and its brightness.
+
+    Args:
+        header: header of the dataset, with its HDRIs and ranges.
+        background: what the picture shows behind the cables: the HDRI, or a floor that the HDRI lights.
+        rng: random generator of the HDRI.
+    """
     ranges = header.spec.ranges.world
     backdrops = [hdri for hdri in header.hdris if hdri.backdrop] or list(header.hdris)
     drawn = backdrops[int(rng.integers(len(backdrops)))]
     rotation = uniform(rng, ranges.rotation_deg)
     brightness = uniform(rng, ranges.dark_brightness)
     tilt = float(ranges.close_tilts_deg[int(rng.integers(len(ranges.close_tilts_deg)))])
-    # Every value is drawn whatever the category, so that the streams of two categories stay comparable.
+    # Every value is sampled for every category, so that the streams of two categories stay comparable.
     over_floor = background is Background.FLOOR
     hdri = _fixed_hdri(header) if over_floor and ranges.one_over_floors else drawn
     return HdriWorld(
@@ -46,6 +61,6 @@ def sample_world(header: DatasetHeader, background: Background, rng: np.random.G
 
 
 def _fixed_hdri(header: DatasetHeader) -> HdriRef:
-    """The one HDRI that lights all close pictures without a lamp: the named one, else `OVER_FLOORS`, else the first."""
+    """Find the HDRI that lights all close pictures without a lamp: the named one, or `OVER_FLOORS`, or the first."""
     name = header.spec.close_distributed_hdri or OVER_FLOORS
     return next((hdri for hdri in header.hdris if hdri.name == name), header.hdris[0])

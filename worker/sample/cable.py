@@ -1,4 +1,4 @@
-"""Drawing the cables: how many, how thick and stiff, where they start, and what is seen of them."""
+"""Samples the cables: their thickness and stiffness, their start, and their look."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -19,7 +19,12 @@ from worker.sample.values import rgb, uniform
 
 @dataclass(frozen=True, slots=True)
 class Substance:
-    """What one cable is made of, if it were full and round."""
+    """The material of one cable, as if its section were full and round.
+
+    Attributes:
+        youngs_modulus_pa: Young's modulus in pascals.
+        density_kg_m3: density in kg/m3.
+    """
 
     youngs_modulus_pa: float
     density_kg_m3: float
@@ -27,7 +32,7 @@ class Substance:
 
 @dataclass(frozen=True, slots=True)
 class _Placement:
-    """Where one cable starts, in the horizontal plane."""
+    """The start of one cable in the horizontal plane: its middle, mean bearing and natural curvature."""
 
     x_m: float
     y_m: float
@@ -36,7 +41,13 @@ class _Placement:
 
 
 def sample_substances(ranges: CableRanges, count: int, rng: np.random.Generator) -> list[Substance]:
-    """Draw what cables are made of; Young's modulus evenly in its logarithm."""
+    """Sample the materials of cables, Young's modulus log-uniformly.
+
+    Args:
+        ranges: ranges of the style.
+        count: number of cables.
+        rng: random generator of the cables.
+    """
     low, high = ranges.youngs_modulus_pa
     return [
         Substance(
@@ -57,16 +68,19 @@ def sample_cables(
     length_m: tuple[float, float],
     lowest_m: float,
 ) -> tuple[Cable, ...]:
-    """Draw cables that start above each other.
+    """Sample cables that start one above the other.
 
     Args:
-        ranges: of the style.
-        disposition: of the category.
-        substances: of each cable.
-        camera: sets how thick a cable may be.
-        streams: of the job.
-        length_m: range of their lengths.
-        lowest_m: height at which the first starts.
+        ranges: ranges of the style.
+        disposition: whether the cables lie freely or along each other.
+        substances: material of each cable; their number is that of the cables.
+        camera: camera of the picture, whose view limits the cables' thickness.
+        streams: function that makes the random generator of a stage of the job.
+        length_m: range of the cables' lengths, in metres.
+        lowest_m: height of the lowest cable's underside above the floor, in metres.
+
+    Returns:
+        The cables, the lowest first.
     """
     placements = _PLACERS[disposition](ranges.placement, len(substances), streams(Stage.PLACEMENT))
     material_rng, look_rng = streams(Stage.CABLE_MATERIAL), streams(Stage.LOOK)
@@ -122,7 +136,7 @@ def _place_free(ranges: PlacementRanges, count: int, rng: np.random.Generator) -
 
 
 def _place_aligned(ranges: PlacementRanges, count: int, rng: np.random.Generator) -> list[_Placement]:
-    """One bearing and one natural bend for the whole bundle; each cable deviates from both a little."""
+    """Sample one bearing and one natural curvature for all cables; each cable deviates a little from both."""
     bearing = uniform(rng, ranges.aligned_bearing_deg)
     common = np.array(_bends(ranges, rng))
     return [

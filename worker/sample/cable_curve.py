@@ -1,4 +1,4 @@
-"""A cable's natural curve: what bends it along its length, loops and coils."""
+"""Samples the natural curve of a cable: gentle bends, a loop, or a coil."""
 
 from dataclasses import dataclass
 
@@ -8,17 +8,23 @@ from farm.spec.ranges.placement import SPACING_DIAMETERS, PlacementRanges
 from worker.sample.values import chance, log_uniform
 
 FINE_KNOTS = 33
-"""Points along a cable with a loop or a coil, at which its curvature is told."""
+"""Number of equally spaced points that describe the curvature of a cable with a loop or a coil."""
 
 _LOOP_TURNS = (1.02, 1.3)
-"""A loop turns a little farther than round, so that the cable goes on about as it came."""
+"""Range of the turns that a loop makes: a little more than one, so that the cable leaves about as it came."""
 
 _COIL_UNEVENNESS = 0.08
+"""Standard deviation of a coil's curvature between its points, as a share of the mean: no coil is a perfect circle."""
 
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """The natural curvature, at equal distances from end to end, and how much higher the end starts."""
+    """The natural curve of a cable.
+
+    Attributes:
+        bends_per_m: natural curvature at equally spaced points from end to end, in 1/m.
+        rise_m: height of the cable's end above its beginning at the start of the fall, in metres.
+    """
 
     bends_per_m: tuple[float, ...]
     rise_m: float
@@ -31,9 +37,16 @@ def sample_course(
     diameter_m: float,
     rng: np.random.Generator,
 ) -> Course:
-    """Draw whether a cable is coiled or has a loop, on top of its gentle bends.
+    """Sample whether a cable is coiled, has a loop, or keeps its gentle bends.
 
-    Where it meets itself its end starts high enough to lie on what was laid before.
+    The end of a cable that crosses itself starts high enough to lie on the part before.
+
+    Args:
+        ranges: ranges of the style.
+        bends_per_m: gentle bends, a natural curvature at equally spaced points from end to end, in 1/m.
+        length_m: length of the cable, in metres.
+        diameter_m: diameter of the cable, in metres.
+        rng: random generator of the look.
     """
     if chance(rng, ranges.coil_share):
         radius = max(log_uniform(rng, ranges.coil_radius_m), 4 * diameter_m)
@@ -59,9 +72,9 @@ def _loop(
     radius = max(log_uniform(rng, ranges.loop_radius_m), 4 * diameter_m, length_m / 15)
     turn = float(rng.uniform(*_LOOP_TURNS)) * 2 * np.pi * (1.0 if chance(rng, 0.5) else -1.0)
     middle = float(rng.uniform(0.35, 0.65))
-    # A bell whose peak is 1 / radius and whose area is the turn.
+    # The added curvature is a bell whose peak is 1 / radius and whose area is the turn.
     width = abs(turn) * radius / np.sqrt(2 * np.pi) / length_m
     bump = np.sign(turn) / radius * np.exp(-0.5 * np.square((along - middle) / width))
-    # The two passes of the crossing are about one circumference apart.
+    # Along the cable, the two passes of the crossing are about one circumference apart.
     rise = SPACING_DIAMETERS * diameter_m * length_m / (2 * np.pi * radius)
     return Course(tuple((gentle + bump).tolist()), float(rise))

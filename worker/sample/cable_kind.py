@@ -1,4 +1,4 @@
-"""What kind of cable each is: its thickness, sheath and colours, whether it is a bundle, and how it ends."""
+"""Samples the kind of each cable: its thickness, sheath and colours, whether it is a bundle, and its ends."""
 
 from dataclasses import dataclass, replace
 
@@ -25,10 +25,10 @@ from worker.sample.palette import sample_colours
 from worker.sample.values import chance, level, log_uniform, pattern_seed, uniform
 
 TIED = 3.0
-"""How much stiffer than loose ones strands are that ties press together."""
+"""Bending stiffness of strands that ties press together, as a multiple of that of loose strands."""
 
 _STRAIGHT_PITCH_M = (0.15, 1.5)
-"""Length of one turn of a straight stripe: no cable lies without twist."""
+"""Range of the length, in metres, over which a straight stripe turns once: no cable lies without twist."""
 
 _TEXTS = (
     "H07V-K 1.5 mm2 450/750V",
@@ -43,17 +43,21 @@ _TEXTS = (
 )
 
 _FERRULE_COLOURS: tuple[Rgb, ...] = ((232, 230, 222), (132, 134, 136), (188, 30, 34), (26, 26, 28), (28, 76, 164))
-"""White, grey, red, black and blue for 0.5 to 2.5 mm2 (DIN 46228-4)."""
+"""Colours of ferrules' collars, sRGB levels: white, grey, red, black and blue for 0.5 to 2.5 mm2 (DIN 46228-4)."""
 
 _TIE_COLOURS: tuple[Rgb, ...] = ((22, 22, 24), (226, 224, 212), (22, 22, 24), (40, 90, 170), (180, 40, 40))
+"""Colours of cable ties, sRGB levels: black twice, as it is the commonest, natural white, blue and red."""
 
 
 @dataclass(frozen=True, slots=True)
 class CableKind:
-    """A cable's thickness and look, and its stiffness and weight over those of a full round one of that diameter.
+    """The thickness, look, stiffness and weight of a cable.
 
     Attributes:
-        look: None for the published material.
+        diameter_m: diameter in metres; of a bundle, that of the circle around its strands.
+        look: skin or bundle; None for the published material.
+        stiffness_ratio: bending stiffness, as a multiple of that of a full round cable of this diameter.
+        density_ratio: weight, as a multiple of that of a full round cable of this diameter.
     """
 
     diameter_m: float
@@ -64,7 +68,7 @@ class CableKind:
 
 @dataclass(frozen=True, slots=True)
 class _Make:
-    """What cables of one make share: all but their colours."""
+    """Everything that cables of the same make share; only their colours differ."""
 
     diameter_m: float
     sheath: Sheath
@@ -74,7 +78,14 @@ class _Make:
 
 
 def sample_kinds(ranges: CableRanges, count: int, camera: Camera, rng: np.random.Generator) -> list[CableKind]:
-    """Draw the kind of each cable of a picture."""
+    """Sample the kind of each cable of a picture.
+
+    Args:
+        ranges: ranges of the style.
+        count: number of cables.
+        camera: camera of the picture, whose view limits the cables' thickness.
+        rng: random generator of the look.
+    """
     seen_m = camera.seen_m
     skinned = chance(rng, ranges.skin.share)
     alike = chance(rng, ranges.skin.alike_share)
@@ -94,7 +105,14 @@ def sample_kinds(ranges: CableRanges, count: int, camera: Camera, rng: np.random
 def sample_ends(
     ranges: EndRanges, look: Look, diameter_m: float, rng: np.random.Generator
 ) -> tuple[CableEnd, CableEnd]:
-    """Draw how a cable ends; a bundle and a cable of the published surface are just cut."""
+    """Sample the two ends of a cable; those of a bundle and of a cable with the published surface are cut.
+
+    Args:
+        ranges: ranges of the style.
+        look: look of the cable.
+        diameter_m: diameter of the cable, in metres.
+        rng: random generator of the look.
+    """
     ends = (_sample_end(ranges, diameter_m, rng), _sample_end(ranges, diameter_m, rng))
     return ends if isinstance(look, Skin) else (CableEnd(), CableEnd())
 
@@ -164,7 +182,7 @@ def _sample_marking(make: _Make, sheath: Rgb, rng: np.random.Generator) -> Marki
     height = float(rng.uniform(0.35, 0.6))
     dark = float(np.dot(sheath, REC709_LUMINANCE)) < 110
     letters: Rgb = (225, 225, 215) if dark else (25, 25, 30)
-    # Letters are about 0.6 of their height wide; some air follows.
+    # A letter is about 0.6 of its height wide; a gap follows each text.
     words_m = 0.6 * height * make.diameter_m * len(text)
     return Marking(text=text, colour=letters, height_share=height, repeat_m=words_m + float(rng.uniform(0.01, 0.06)))
 
@@ -173,7 +191,7 @@ def _sample_bundle(ranges: CableRanges, make: _Make, seen_m: float, rng: np.rand
     bundle: BundleRanges = ranges.bundle
     strands = level(rng, bundle.strands)
     ratio = envelope_ratio(strands)
-    # A bundle may be half as wide again as a single cable.
+    # A bundle may be up to 1.5 times as wide as a single cable.
     strand = max(log_uniform(rng, bundle.strand_diameter_m), ranges.narrowest_share * seen_m)
     strand = min(strand, 1.5 * ranges.widest_share * seen_m / ratio)
     diameter = ratio * strand
@@ -187,7 +205,7 @@ def _sample_bundle(ranges: CableRanges, make: _Make, seen_m: float, rng: np.rand
         phase_deg=float(rng.uniform(0.0, 360.0)),
         ties=ties,
     )
-    # Strands that slide on each other add up their stiffness and their weight; the section is a full one's.
+    # The stiffness and weight of strands that slide on each other add up; both are relative to a full round section.
     return CableKind(
         diameter_m=diameter,
         look=look,
@@ -200,6 +218,6 @@ def _sample_ties(ranges: BundleRanges, rng: np.random.Generator) -> tuple[Tie, .
     count = level(rng, ranges.ties)
     colour = _TIE_COLOURS[int(rng.integers(len(_TIE_COLOURS)))]
     width = uniform(rng, ranges.tie_width_m)
-    # Spread over the middle, where they are seen.
+    # Ties are spread over the middle half of the bundle, where the picture shows them.
     places = 0.25 + 0.5 * (np.arange(count) + rng.uniform(0.15, 0.85, count)) / max(count, 1)
     return tuple(Tie(along=float(place), width_m=width, colour=colour) for place in places)

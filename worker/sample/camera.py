@@ -1,4 +1,4 @@
-"""Drawing the camera and what its sensor does."""
+"""Samples the camera, its lens, and the development of the light on its sensor."""
 
 import numpy as np
 
@@ -8,7 +8,12 @@ from worker.sample.values import chance, level, log_uniform, pattern_seed, unifo
 
 
 def sample_camera(ranges: CameraRanges, rng: np.random.Generator) -> Camera:
-    """Draw the camera; with another lens it stands so far away that the picture is as wide."""
+    """Sample the camera; with every lens it stands at the distance that keeps the picture's width on the floor.
+
+    Args:
+        ranges: ranges of the style.
+        rng: random generator of the camera.
+    """
     height = ranges.heights_m[int(rng.integers(len(ranges.heights_m)))]
     focal_length = ranges.focal_lengths_mm[int(rng.integers(len(ranges.focal_lengths_mm)))]
     distance = height * focal_length / FOCAL_LENGTH_MM
@@ -27,7 +32,16 @@ def sample_camera(ranges: CameraRanges, rng: np.random.Generator) -> Camera:
 def sample_development(
     ranges: DevelopmentRanges, rng: np.random.Generator, *, over_light_floor: bool
 ) -> Development | None:
-    """Draw how the sensor's light becomes a picture; None leaves it to Blender."""
+    """Sample the settings that turn light on the sensor into a picture.
+
+    Args:
+        ranges: ranges of the style.
+        rng: random generator of the development.
+        over_light_floor: whether the floor is a light one, over which some pictures are exposed more.
+
+    Returns:
+        The settings; None for a picture that Blender's view transform develops.
+    """
     if not chance(rng, ranges.share):
         return None
     noisy, compressed = chance(rng, ranges.noise_share), chance(rng, ranges.jpeg_share)

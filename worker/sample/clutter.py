@@ -1,4 +1,4 @@
-"""Drawing what lies about that is not cable."""
+"""Samples clutter: objects on the floor that are not cables."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from farm.spec.ranges.placement import SPACING_DIAMETERS
 from worker.sample.values import chance, level, log_uniform, pattern_seed, rgb, uniform
 
 _REACH = 0.45
-"""How far from the middle things lie, as a share of the picture's width."""
+"""Largest distance of an object's middle from the picture's middle, along each axis, as a share of the width."""
 
 _SHEET_SIZES_M: dict[SheetKind, tuple[tuple[float, float], tuple[float, float]]] = {
     SheetKind.TAPE: ((0.05, 0.5), (0.010, 0.050)),
@@ -21,7 +21,7 @@ _SHEET_SIZES_M: dict[SheetKind, tuple[tuple[float, float], tuple[float, float]]]
     SheetKind.SLOT: ((0.2, 0.8), (0.002, 0.008)),
     SheetKind.SEAM: ((0.6, 0.8), (0.0006, 0.002)),
 }
-"""Range of lengths and of widths."""
+"""Ranges of the length and of the width of each kind of sheet, in metres."""
 
 _PART_SIZES_M: dict[PartKind, tuple[float, float]] = {
     PartKind.WASHER: (0.007, 0.016),
@@ -30,24 +30,25 @@ _PART_SIZES_M: dict[PartKind, tuple[float, float]] = {
     PartKind.CONNECTOR: (0.008, 0.025),
     PartKind.CABLE_TIE: (0.020, 0.060),
 }
+"""Range of the length or diameter of each kind of part, in metres."""
 
 _SLENDER = 9.0
-"""A stick is at least so many times longer than thick."""
+"""Least length of a stick, in its diameters: a shorter one would not look like a cable."""
 
 
 def sample_sticks(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Stick, ...]:
-    """Draw sticks that start above each other, from the floor up.
+    """Sample sticks that start one above the other, from the floor up.
 
     Args:
-        ranges: of the style.
-        seen_m: width of the picture on the floor.
-        rng: of the clutter.
+        ranges: ranges of the style.
+        seen_m: width of the picture on the floor, in metres.
+        rng: random generator of the clutter.
     """
     sticks: list[Stick] = []
     start = 0.0005
     for _ in range(level(rng, ranges.sticks)):
         kind = list(StickKind)[int(rng.integers(len(StickKind)))]
-        # Thicker than a tenth of the picture it would be a wall.
+        # A stick thicker than a tenth of the picture would look like a wall.
         diameter = min(log_uniform(rng, ranges.stick_diameter_m), 0.1 * seen_m)
         sticks.append(
             Stick(
@@ -67,7 +68,7 @@ def sample_sticks(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator
 
 
 def sample_sheets(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Sheet, ...]:
-    """Draw flat things, the lowest first."""
+    """Sample flat objects, the lowest first; the arguments are those of `sample_sticks`."""
     sheets: list[Sheet] = []
     for _ in range(level(rng, ranges.sheets)):
         kind = list(SheetKind)[int(rng.integers(len(SheetKind)))]
@@ -88,7 +89,7 @@ def sample_sheets(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator
 
 
 def sample_parts(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Part, ...]:
-    """Draw small things."""
+    """Sample small objects; the arguments are those of `sample_sticks`."""
     parts: list[Part] = []
     for _ in range(level(rng, ranges.parts)):
         kind = list(PartKind)[int(rng.integers(len(PartKind)))]
@@ -111,7 +112,7 @@ def _place(seen_m: float, rng: np.random.Generator) -> float:
 
 
 def _sheet_colour(kind: SheetKind, rng: np.random.Generator) -> Rgb:
-    """Paper is pale, most slots and seams are dark, steel is grey; tape and paint have any colour."""
+    """Sample a sheet's colour: pale paper, dark slots and seams, mostly grey rulers; others may have any colour."""
     colour = rgb(rng, (0, 255))
     grey = int(rng.integers(150, 215)) if kind is SheetKind.RULER else int(rng.integers(10, 60))
     if kind in {SheetKind.SLOT, SheetKind.SEAM} or (kind is SheetKind.RULER and chance(rng, 0.6)):

@@ -1,4 +1,4 @@
-"""Draws of the floor: its texture, how it lies, and its wear."""
+"""Samples the floor: its texture, the texture's position, and its wear."""
 
 import numpy as np
 
@@ -11,7 +11,14 @@ from worker.sample.values import chance, log_uniform, pattern_seed, uniform
 def sample_floor(
     ranges: FloorRanges, header: DatasetHeader, rng: np.random.Generator, wear_rng: np.random.Generator
 ) -> Floor:
-    """Draw a surface, how it lies, and what it has been through."""
+    """Sample the floor's surface, its position and its wear.
+
+    Args:
+        ranges: ranges of the style.
+        header: header of the dataset, with its surfaces.
+        rng: random generator of the floor.
+        wear_rng: random generator of the wear, and of the choice of a light surface.
+    """
     drawn = header.surfaces[int(rng.integers(len(header.surfaces)))]
     light = [surface for surface in header.surfaces if surface.light] or list(header.surfaces)
     lighter = light[int(wear_rng.integers(len(light)))]
@@ -48,7 +55,7 @@ def _sample_wear(ranges: WearRanges, rng: np.random.Generator) -> Wear | None:
         mirrored=chance(rng, 0.5),
         pattern_seed=pattern_seed(rng),
     )
-    # Drawn last, and always, so that joints move no other draw.
+    # The filling is sampled last, and always, so that it changes no other random value.
     joints = _sample_joint_fill(ranges, rng)
     return worn.model_copy(update={"joints": joints}) if chance(rng, ranges.refilled_share) else worn
 

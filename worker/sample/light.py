@@ -1,4 +1,4 @@
-"""Draws of the lamps and of the grey world about them."""
+"""Samples the lamps and the grey world around them."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,12 @@ from worker.sample.values import chance, level, log_uniform, uniform
 
 @dataclass(frozen=True, slots=True)
 class Lighting:
-    """Lamps and what is about them; None is the template's own grey."""
+    """The lamps of a scene and the light around them.
+
+    Attributes:
+        lamps: lamps; none if an HDRI lights the scene.
+        grey_world: light around the lamps; None for the template's own grey.
+    """
 
     lamps: tuple[Lamp, ...]
     grey_world: GreyWorld | None
@@ -21,7 +26,13 @@ NO_LAMPS = Lighting((), None)
 
 
 def sample_lamps(lamp: LampRanges, studio: StudioRanges, rng: np.random.Generator) -> Lighting:
-    """Draw the lamps of a concentrated light and the grey world about them."""
+    """Sample the lamps of a concentrated light and the grey world around them.
+
+    Args:
+        lamp: ranges of the one published lamp.
+        studio: ranges of studio lamps, which a share of the pictures has in its place.
+        rng: random generator of the light.
+    """
     published = _sample_published(lamp, rng)
     if not chance(rng, studio.share):
         return Lighting((published,), None)

@@ -1,7 +1,7 @@
-"""Colours of sheaths: the common codes of wires, neutral ones, and any at all.
+"""Samples the colours of sheaths: from the common codes of wires, from neutral colours, or from all colours.
 
-The codes name colours, not their coordinates; the sRGB levels here are typical of PVC sheaths in those colours, and
-each draw varies a little, as batches and makers do.
+The codes name colours, not their coordinates. The sRGB levels here are typical of PVC sheaths in those colours; each
+sample deviates a little, as batches and makers do.
 """
 
 from collections.abc import Sequence
@@ -45,7 +45,7 @@ DIN_47100: Sequence[tuple[Rgb, Rgb | None]] = (
     (_WHITE, _BLACK),
     (_BROWN, _BLACK),
 )
-"""The first 26 wires of a cable by DIN 47100: from the eleventh on, two colours."""
+"""Colours of the first 26 wires of a cable by DIN 47100, sRGB levels: from the eleventh wire on, two colours each."""
 
 IEC_60757: Sequence[Rgb] = (
     _BLACK,
@@ -63,21 +63,24 @@ IEC_60757: Sequence[Rgb] = (
     _TURQUOISE,
     _SILVER,
 )
-"""BK BN RD OG YE GN BU VT GY WH PK GD TQ SR."""
+"""Colours of IEC 60757, sRGB levels, in the order BK BN RD OG YE GN BU VT GY WH PK GD TQ SR."""
 
 GREEN_YELLOW: tuple[Rgb, Rgb] = (_GREEN, _YELLOW)
-"""GNYE, the protective conductor."""
+"""The two colours of the protective conductor (GNYE), sRGB levels."""
 
 _BATCH_LEVELS = 9.0
-"""Standard deviation between batches of one colour."""
+"""Standard deviation of each channel between batches of a colour, in sRGB levels."""
 
 
 def sample_colours(ranges: PaletteRanges, rng: np.random.Generator) -> tuple[Rgb, Rgb]:
-    """Draw a sheath's colour and the one that a stripe on it would have.
+    """Sample the colour of a sheath, and the colour of a stripe on it.
 
     Args:
-        ranges: the palettes' weights; all 0 counts as any colour.
-        rng: of the draw.
+        ranges: weights of the palettes; if all are 0, every colour may come.
+        rng: random generator of the look.
+
+    Returns:
+        The two colours, sRGB levels.
     """
     weights = np.array([ranges.uniform_rgb, ranges.neutral, ranges.din_47100, ranges.iec_60757])
     total = float(weights.sum())
@@ -99,7 +102,7 @@ def _any(rng: np.random.Generator, colours: Sequence[Rgb]) -> Rgb:
 
 
 def _neutral(rng: np.random.Generator) -> Rgb:
-    """Black and white more often than the greys between."""
+    """Sample black, white or a grey between them, with weights of 0.45, 0.35 and 0.2."""
     grey = (rng.uniform(14, 45), rng.uniform(205, 245), rng.uniform(60, 190))[int(rng.choice(3, p=[0.45, 0.35, 0.2]))]
     return _batch(rng, (int(grey), int(grey), int(grey)), 3.0)
 

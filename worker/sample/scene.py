@@ -1,4 +1,4 @@
-"""Drawing a scene: every random value of a picture, from the job's own streams, one stream per stage."""
+"""Samples a scene: every random value of a picture, from the job's random streams, one for each stage."""
 
 import numpy as np
 
@@ -21,9 +21,14 @@ from worker.sample.wind import sample_wind
 
 
 def sample_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
-    """Draw the scene of one attempt at a job.
+    """Sample the scene of one attempt at a job.
 
     The same header, job and attempt give the same scene on every machine.
+
+    Args:
+        header: header of the dataset.
+        job: job, whose category decides background, light and disposition.
+        attempt: number of the attempt, from 0.
     """
 
     def streams(stage: Stage) -> np.random.Generator:

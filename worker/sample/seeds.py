@@ -1,7 +1,7 @@
-"""Random streams: every draw of a job comes from the dataset's seed, the job's identity and the stage's name.
+"""Random streams: the dataset's seed, the job, the attempt and the stage decide every random value.
 
-Spawn keys of `numpy.random.SeedSequence` separate the streams, so a parameter added to one stage leaves the
-draws of the others as they were, and a redrawn scene (the next sub-seed) shares nothing with the one before.
+Spawn keys of `numpy.random.SeedSequence` separate the streams: a parameter added to one stage leaves the values of
+the others as they are, and the scene of the next attempt shares nothing with the one before.
 """
 
 from collections.abc import Callable
@@ -13,7 +13,7 @@ from farm.spec.category import Category
 
 
 class Stage(IntEnum):
-    """A stage that draws; the numbers are part of every seed and must never change."""
+    """A stage of the sampling. The numbers are part of every seed and must never change."""
 
     CABLES = 0
     PLACEMENT = 1
@@ -34,14 +34,22 @@ class Stage(IntEnum):
 def seed_sequence(
     dataset_seed: int, category: Category, index: int, attempt: int, stage: Stage
 ) -> np.random.SeedSequence:
-    """The seed of one stage of one attempt at one job. All integers >= 0; 0 is a seed like any other."""
+    """Build the seed of one stage of one attempt at one job.
+
+    Args:
+        dataset_seed: seed of the dataset, 0 or more; 0 is a seed like any other.
+        category: category of the job.
+        index: index of the job, 0 or more.
+        attempt: number of the attempt, from 0.
+        stage: stage of the sampling.
+    """
     return np.random.SeedSequence(dataset_seed, spawn_key=(category.code, index, attempt, int(stage)))
 
 
 def generator(dataset_seed: int, category: Category, index: int, attempt: int, stage: Stage) -> np.random.Generator:
-    """A generator over `seed_sequence`; PCG64 by name, as numpy's default may change."""
+    """Make a generator from `seed_sequence`, a PCG64, as numpy's default generator may change."""
     return np.random.Generator(np.random.PCG64(seed_sequence(dataset_seed, category, index, attempt, stage)))
 
 
 Streams = Callable[[Stage], np.random.Generator]
-"""A fresh generator of a stage: asking twice for one stage gives the same numbers twice."""
+"""Function that makes a new random generator of a stage; two generators of the same stage give the same numbers."""

@@ -1,4 +1,4 @@
-"""Draws of the wind and its gusts."""
+"""Samples the wind and its gusts."""
 
 import numpy as np
 
@@ -7,11 +7,16 @@ from farm.spec.ranges.placement import WindRanges
 from worker.sample.values import uniform
 
 GUSTS = 3
-"""Swings that are laid over the wind's mean speed."""
+"""Number of oscillations that are added to the wind's mean speed."""
 
 
 def sample_wind(ranges: WindRanges, rng: np.random.Generator) -> Wind:
-    """Draw the wind and its gusts."""
+    """Sample the wind and its gusts.
+
+    Args:
+        ranges: ranges of the style.
+        rng: random generator of the wind.
+    """
     strength = uniform(rng, ranges.strength)
     return Wind(
         bearing_deg=uniform(rng, ranges.bearing_deg),

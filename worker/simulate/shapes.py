@@ -1,4 +1,4 @@
-"""Cables as curves: what the fall produces, and what checking, building and labelling read."""
+"""Settled cables as curves: the result of the fall, which checks, renderer and labels read."""
 
 from dataclasses import dataclass, field
 
@@ -11,18 +11,19 @@ from worker.curves import Points
 
 @dataclass(frozen=True, slots=True)
 class CableShapes:
-    """Settled cables.
+    """The shapes of settled cables and sticks.
 
     Attributes:
-        nodes_m: per cable (N, 3), nodes of the centreline from end to end.
-        radii_m: (cables,), radius of each cable.
-        lengths_m: (cables,), unstretched length of each cable.
-        speeds_m_s: per cable (N,), speed of each node when the shape was captured.
-        start_order: numbers of cables, and after them of sticks, from the lowest start to the highest.
-        fall_s: true seconds from the start to the capture.
-        steps: time steps of the rod solver, or frames of the cloth.
-        sticks_m: per stick (N, 3), nodes of its axis from end to end; none where the simulator has none.
-        stick_radii_m: (sticks,), radius of each stick.
+        nodes_m: for each cable (N, 3) metres, nodes of the centreline from end to end.
+        radii_m: (cables,) metres, radius of each cable.
+        lengths_m: (cables,) metres, length of each cable without strain.
+        speeds_m_s: for each cable (N,), speed of each node when the shape was captured, in m/s.
+        start_order: numbers of the cables and sticks from the lowest start to the highest; sticks count on after the
+            cables.
+        fall_s: time from the start to the capture, in seconds of true scale.
+        steps: number of time steps of the rod solver, or of frames of the cloth.
+        sticks_m: for each stick (N, 3) metres, nodes of the axis from end to end; none if the simulator has no sticks.
+        stick_radii_m: (sticks,) metres, radius of each stick.
     """
 
     nodes_m: tuple[Points, ...]
@@ -37,15 +38,15 @@ class CableShapes:
 
 
 def bent_rod(length_m: float, bends_per_m: tuple[float, ...], nodes: int) -> NDArray[np.float64]:
-    """A plane polyline of given length and curvature, its middle at the origin and its mean bearing along x.
+    """Make a plane polyline of given length and curvature, with its middle at the origin and its chord along x.
 
     Args:
-        length_m: length of the polyline.
-        bends_per_m: curvature at equally spaced points from end to end, interpolated smoothly between them.
-        nodes: number of points, at least 2, at equal distances along it.
+        length_m: length of the polyline, in metres.
+        bends_per_m: curvature at equally spaced points from end to end, in 1/m, interpolated smoothly between them.
+        nodes: number of points, 2 or more, at equal distances.
 
     Returns:
-        (nodes, 2) coordinates in metres.
+        (nodes, 2) metres.
     """
     knots = np.linspace(0.0, length_m, len(bends_per_m))
     curvature = CubicSpline(knots, bends_per_m, bc_type="natural")

@@ -4,7 +4,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assets.surfaces.kit.cells import mask_distance
-from assets.surfaces.kit.circuit_layout import VIA_MM, Body, BodyKind, Pad, RunRegistry, lay_out
+from assets.surfaces.kit.circuit_layout import VIA_MM, Body, BodyKind, Pad, Board, lay_out
 from assets.surfaces.kit.colour import mix, plain, ramp, shade
 from assets.surfaces.kit.grid import Field, Grid
 from assets.surfaces.kit.lettering import stamp, text_patch
@@ -138,7 +138,7 @@ class _Parts:
         face *= (0.55 + 0.45 * dot)[..., None]
 
 
-def _pads(board: RunRegistry, grid: Grid) -> tuple[Field, Field]:
+def _pads(board: Board, grid: Grid) -> tuple[Field, Field]:
     """Bare metal and drilled holes, each 0 to 1."""
     metal, holes = np.zeros((2, grid.pixels, grid.pixels), np.uint8)
     for pad in board.pads:
@@ -154,7 +154,7 @@ def _pads(board: RunRegistry, grid: Grid) -> tuple[Field, Field]:
     return as_field(metal), as_field(holes)
 
 
-def _copper(rng: np.random.Generator, grid: Grid, board: RunRegistry, pads: Field) -> Field:
+def _copper(rng: np.random.Generator, grid: Grid, board: Board, pads: Field) -> Field:
     """Copper under the mask: traces, vias, and poured areas that keep clear of them; 0 to 1."""
     lines: Image = np.zeros((grid.pixels, grid.pixels), np.uint8)
     for trace in board.traces:
@@ -180,7 +180,7 @@ def _poured(rng: np.random.Generator, grid: Grid) -> Field:
     return as_field(image)
 
 
-def _print(board: RunRegistry, grid: Grid) -> Field:
+def _print(board: Board, grid: Grid) -> Field:
     """The white print: outlines, the first pin's corner, and names beside the components; 0 to 1."""
     image: Image = np.zeros((grid.pixels, grid.pixels), np.uint8)
     for body in board.bodies:

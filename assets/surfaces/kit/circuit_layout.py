@@ -59,7 +59,7 @@ class Body:
 
 
 @dataclass
-class RunRegistry:
+class Board:
     """All that lies on a board; positions in millimetres, which wrap round the tile."""
 
     pads: list[Pad] = field(default_factory=list)
@@ -89,7 +89,7 @@ class _Footprint:
     body: tuple[float, float]
 
 
-def lay_out(rng: np.random.Generator, size_mm: float) -> RunRegistry:
+def lay_out(rng: np.random.Generator, size_mm: float) -> Board:
     """Place components on a square board whose edges meet, and route traces from their pins.
 
     Args:
@@ -100,7 +100,7 @@ def lay_out(rng: np.random.Generator, size_mm: float) -> RunRegistry:
         The board.
     """
     lattice = _Lattice(round(size_mm / CELL_MM))
-    board = RunRegistry()
+    board = Board()
     placed: list[tuple[_Footprint, int, int]] = []
     turns = (0, 1)
     wanted = [_square_chip(12)] * 4 + [_square_chip(8)] * 5
@@ -173,7 +173,7 @@ class _Lattice:
 
 
 def _fan_out(
-    rng: np.random.Generator, lattice: _Lattice, board: RunRegistry, row: _Row, column: int, line: int
+    rng: np.random.Generator, lattice: _Lattice, board: Board, row: _Row, column: int, line: int
 ) -> None:
     """Put down a row's pads and lead their traces away side by side, staggered so that they turn together."""
     across, down = OCTANTS[row.octant]
@@ -197,7 +197,7 @@ def _fan_out(
             _draw(board, [(x, y), *lattice.walk(*start, legs)], width)
 
 
-def _bus(rng: np.random.Generator, lattice: _Lattice, board: RunRegistry) -> None:
+def _bus(rng: np.random.Generator, lattice: _Lattice, board: Board) -> None:
     """Lead parallel traces over free ground, from via to via."""
     column, line = (int(i) for i in rng.integers(lattice.cells, size=2))
     octant, turn = 2 * int(rng.integers(4)), int(rng.choice([-1, 1]))
@@ -216,7 +216,7 @@ def _bus(rng: np.random.Generator, lattice: _Lattice, board: RunRegistry) -> Non
                 _draw(board, corners, width)
 
 
-def _draw(board: RunRegistry, corners: list[tuple[int, int]], width: float) -> None:
+def _draw(board: Board, corners: list[tuple[int, int]], width: float) -> None:
     """Add a trace through lattice corners, with a via at its end."""
     if len(corners) < 2:
         return

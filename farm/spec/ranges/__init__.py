@@ -1,1 +1,1 @@
-"""The range of every random parameter, a module a subject."""
+"""The range of every random parameter, in modules by subject."""

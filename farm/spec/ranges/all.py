@@ -1,11 +1,12 @@
-"""The range of every random parameter, with the published defaults.
+"""All ranges of random parameters together, with the published ones as defaults.
 
 Source: Malvido Fresnillo et al., "Generation of realistic synthetic cable images to train deep learning
 segmentation models", Machine Vision and Applications 35(4), 2024, doi 10.1007/s00138-024-01562-y.
 
-Lengths are metres of the picture, in which cables are true to size (2.4 mm thick); angles are degrees. The wind's
-numbers are those of a Blender wind field in the fall's own units (docs/design/solver.md, "Two scales"). Where the
-publication gives no figure (cable length, drop height, spacing, f-number) the default is ours and marked so.
+Lengths are in metres of the picture, in which cables have their true size (2.4 mm thick); angles are in degrees. The
+wind's numbers are those of a Blender wind field in the fall's own units (docs/design/solver.md, "Two scales"). Where
+the publication gives no figure (cable length, drop height, spacing, f-number) the default is ours, and the docstring
+says so.
 """
 
 from typing import Self
@@ -24,7 +25,7 @@ from farm.spec.ranges.placement import PlacementRanges, WindRanges
 
 
 class Ranges(Model):
-    """Every range, by the part of the scene it belongs to."""
+    """The ranges of all random parameters, by the part of the scene that they belong to."""
 
     floor: FloorRanges = FloorRanges()
     wind: WindRanges = WindRanges()
@@ -51,5 +52,5 @@ class Ranges(Model):
 
 
 def seen_width_m(height_m: float) -> float:
-    """Width of the floor that the published lens sees from a height."""
+    """Compute the width of the floor, in metres, that a lens of `FOCAL_LENGTH_MM` sees from a height in metres."""
     return height_m * SENSOR_MM / FOCAL_LENGTH_MM

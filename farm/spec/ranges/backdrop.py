@@ -1,4 +1,4 @@
-"""The ranges of what is behind the cables: the HDRI, or a photograph."""
+"""The ranges of what the picture shows behind the cables: an HDRI, or a photograph."""
 
 from typing import Annotated
 
@@ -11,7 +11,14 @@ Blur = Annotated[float, Field(ge=0, le=64)]
 
 
 class WorldRanges(Model):
-    """The HDRI's turn, its brightness if it is a dark one, its tilt over a floor, and whether it is the same there."""
+    """The ranges of the HDRI that lights a scene.
+
+    Attributes:
+        rotation_deg: rotation about the HDRI's vertical.
+        dark_brightness: share of its light that is added to a dark HDRI; others stay as they are.
+        one_over_floors: whether one HDRI lights all pictures over a floor.
+        close_tilts_deg: tilts of which a picture over a floor has one; see `farm.scene.backdrop.HdriWorld`.
+    """
 
     rotation_deg: Range = (-180.0, 180.0)
     dark_brightness: FractionRange = (0.10, 0.60)
@@ -20,12 +27,12 @@ class WorldRanges(Model):
 
 
 class PlateRanges(Model):
-    """The user's photographs behind far cables, where there are any.
+    """The ranges of the user's photographs behind far cables.
 
     Attributes:
-        share: of the far pictures that have one.
-        zoom: edge of the seen square over the photograph's shorter side.
-        blur_px: radius by which it is out of focus, at 512 px.
+        share: share of the far pictures that show a photograph, if the dataset has any.
+        zoom: edge of the visible square, as a share of the photograph's shorter side.
+        blur_px: radius of the blur disc, in pixels of a picture of 512 px.
     """
 
     share: Fraction = 0.5

@@ -1,8 +1,8 @@
-"""The ranges of cables: how many, how thick, how stiff, and what they look like.
+"""The ranges of cables: their number, thickness, stiffness and look.
 
-What goes beyond the published surface is off unless a style turns it on.
+Everything beyond the published surface is off unless a style turns it on.
 
-A *share* is a chance from 0 to 1, drawn once for each cable unless it says otherwise.
+A *share* is a chance from 0 to 1, decided once for each cable unless its description says otherwise.
 """
 
 from typing import Annotated, Self
@@ -35,9 +35,13 @@ TieWidth = Annotated[float, Field(ge=0.001, le=0.02)]
 
 
 class PaletteRanges(Model):
-    """Where a sheath's colour comes from, by weight; `neutral` is black, white and grey.
+    """The weights by which a palette of sheath colours is chosen; only their ratios count.
 
-    The codes are those of DIN 47100 (data cables) and IEC 60757 (the colours of conductors).
+    Attributes:
+        uniform_rgb: weight of any colour.
+        neutral: weight of black, white and grey.
+        din_47100: weight of the code of DIN 47100, for data cables.
+        iec_60757: weight of the code of IEC 60757, for conductors.
     """
 
     uniform_rgb: Weight = 1.0
@@ -47,22 +51,23 @@ class PaletteRanges(Model):
 
 
 class SkinRanges(Model):
-    """Sheaths drawn as images around and along a cable.
+    """The ranges of skins: sheaths that are painted as images around and along a cable.
 
     Attributes:
-        share: of the pictures whose cables have skins; the others have the published surface.
-        alike_share: of the pictures in which all cables are of one thickness, sheath and finish, only coloured apart.
-        stripe_share: two-coloured cables.
-        spiral_share: of these, those whose stripe winds round; the others' is straight.
-        stripe_width: of the circumference, all stripes together.
-        stripe_count: around the cable.
-        spiral_pitch_diameters: length of a turn over the diameter.
-        roughness: 0.15 is glossy, 0.75 matt.
-        translucent_share: sheaths through which strands of copper are seen.
-        braided_share: textile or metal braid.
-        marking_share: printed text.
-        dirt: share of the surface that is soiled, 0 at the low end for as many as are clean.
-        clean_share: cables without any dirt.
+        share: share of the pictures whose cables have skins; the others have the published surface.
+        alike_share: share of the pictures whose cables have one thickness, sheath and finish, and differ in colour.
+        palette: weights of the palettes of colours.
+        stripe_share: share of cables with stripes of a second colour.
+        spiral_share: share of striped cables whose stripes wind round; the others have straight ones.
+        stripe_width: share of the circumference that all stripes together take.
+        stripe_count: number of stripes around the cable.
+        spiral_pitch_diameters: length of one turn of a spiral, in diameters of the cable.
+        roughness: roughness of the surface: 0.15 is glossy, 0.75 matt.
+        translucent_share: share of sheaths that let strands of copper show through.
+        braided_share: share of sheaths that are a braid of textile or metal.
+        marking_share: share of cables with printed text.
+        dirt: share of the surface that is soiled, for cables that are not clean.
+        clean_share: share of cables without dirt.
         wear: share of the surface that is rubbed.
     """
 
@@ -84,15 +89,15 @@ class SkinRanges(Model):
 
 
 class BundleRanges(Model):
-    """Bundles of strands with ties, in the place of single cables.
+    """The ranges of bundles of strands with ties, in the place of single cables.
 
     Attributes:
-        share: cables that are bundles.
-        strands: how many.
-        strand_diameter_m: of each strand; thicker where `CableRanges.narrowest_share` asks for it.
-        lay_diameters: length of one turn around each other over the bundle's diameter.
-        ties: how many a bundle has.
-        tie_width_m: along the bundle.
+        share: share of cables with skins that are bundles.
+        strands: number of strands.
+        strand_diameter_m: diameter of each strand, in metres; thicker if `CableRanges.narrowest_share` asks for it.
+        lay_diameters: length over which the strands turn once around each other, in diameters of the bundle.
+        ties: number of ties around a bundle.
+        tie_width_m: width of a tie along the bundle, in metres.
     """
 
     share: Fraction = 0.0
@@ -104,12 +109,12 @@ class BundleRanges(Model):
 
 
 class EndRanges(Model):
-    """How cables end.
+    """The ranges of cables' ends.
 
     Attributes:
-        stripped_share: ends with bare copper.
-        ferrule_share: ends with a ferrule and its collar.
-        bare_m: length without sheath.
+        stripped_share: share of ends with bare copper.
+        ferrule_share: share of ends with a ferrule and its collar.
+        bare_m: length without sheath, in metres; at least two diameters of the cable.
     """
 
     stripped_share: Fraction = 0.0
@@ -121,16 +126,33 @@ WidestShare = Annotated[float, Field(ge=0.01, le=1)]
 
 
 class CableRanges(Model):
-    """How many cables, how thick (ours: one value), how long (ours), how heavy and stiff, and their surface.
+    """The ranges of cables. Diameter (one value), length, Young's modulus, density and friction are ours.
 
-    Of `count_draws` even draws of the count the largest holds: with three, up to eight cables are six on average.
-    Far cables may have a length of their own: over a floor that is not seen, one that ends in the picture floats.
-    Diameters are drawn evenly in their logarithm, from what is neither narrower than `narrowest_share` of the picture
-    nor wider than `widest_share`.
+    Young's modulus and density are those of a full round section of the cable's diameter that has the cable's bending
+    stiffness and weight; they range from soft silicone leads to stiff sheathed wire.
 
-    `vertex_mass` is the published setting of the cloth. Young's modulus (drawn evenly in its logarithm), density and
-    friction are ours: soft silicone leads to stiff sheathed wire. Modulus and density are those of a full round
-    section of the cable's diameter with the cable's bending stiffness and weight.
+    Attributes:
+        count: number of cables in a picture.
+        count_draws: number of uniform draws of which the largest is taken: three draws from 1 to 8 give 6.5 on average.
+        diameter_m: diameter in metres, sampled log-uniformly; one number stands for a range without width.
+        narrowest_share: smallest diameter, as a share of the picture's width on the floor.
+        widest_share: largest diameter, as a share of the picture's width on the floor.
+        length_m: length of a cable, in metres; one number stands for a range without width.
+        far_length_m: length of a cable in far pictures, in metres; None is `length_m`. A far picture shows no floor, so
+            a cable that ends in it seems to float.
+        vertex_mass: mass of each vertex of the cloth, the published setting.
+        youngs_modulus_pa: Young's modulus in pascals, sampled log-uniformly.
+        density_kg_m3: density in kg/m3.
+        friction_floor: coefficient of friction between a cable and the floor.
+        friction_cable: coefficient of friction between two cables.
+        colour: levels of each channel of the published surface's colour.
+        dirt_position: position on the published colour ramp from which dirt shows.
+        dirt_offset: offset of the published dirt pattern, in each of its four coordinates.
+        dirt_colour: levels of each channel of the published dirt's colour.
+        reflection_position: position of the published reflection ramp's second element.
+        skin: ranges of skins.
+        bundle: ranges of bundles.
+        ends: ranges of the ends.
     """
 
     count: CableCountRange = (1, 8)
@@ -161,7 +183,7 @@ class CableRanges(Model):
         return self
 
     def diameters_m(self, seen_m: float) -> tuple[float, float]:
-        """The range of diameters in a picture that shows `seen_m` of the floor from side to side."""
+        """Compute the range of diameters, in metres, in a picture whose width on the floor is `seen_m` metres."""
         narrowest, widest = self.narrowest_share * seen_m, self.widest_share * seen_m
         low, high = (min(max(end, narrowest), widest) for end in self.diameter_m)
         return low, high

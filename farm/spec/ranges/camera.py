@@ -1,4 +1,7 @@
-"""The ranges of the camera, its lens and its sensor. The published lens is ideal, and Blender stands for the sensor."""
+"""The ranges of the camera, its lens and its sensor.
+
+The published style has an ideal lens, and Blender's view transform in place of a sensor.
+"""
 
 import math
 from typing import Annotated, Self
@@ -30,16 +33,18 @@ Aberration = Annotated[float, Field(ge=-0.05, le=0.05)]
 
 
 class CameraRanges(Model):
-    """The camera's heights, which set the cable's size in pixels; f-number, lens and tilt are ours.
-
-    Above 1.5 m a picture would show the edge of the floor. The heights are those of a 50 mm lens: another one stands as
-    much nearer or farther as keeps the picture's width. One of `focal_lengths_mm` is drawn.
+    """The ranges of the camera and its lens. The f-number, lens and tilt are ours.
 
     Attributes:
-        tilt_deg: between the camera's view and straight down.
-        roll_deg: about its view.
-        focus_offset_share: how much nearer than the floor the focus is, as a share of the distance.
-        distortion: radial, at the picture's corner; negative is a barrel.
+        heights_m: heights of a 50 mm lens above the floor, in metres, of which a picture has one; they set the cables'
+            size in pixels. Another lens stands at the distance that keeps the picture's width. Above 1.5 m a picture
+            would show the edge of the floor.
+        f_number: focal length over the diameter of the aperture, sampled log-uniformly.
+        focal_lengths_mm: focal lengths, in millimetres, of which a picture has one.
+        tilt_deg: angle between the camera's view and straight down.
+        roll_deg: rotation about the camera's view.
+        focus_offset_share: distance by which the focus is nearer than the floor, as a share of the camera's distance.
+        distortion: radial distortion at the picture's corner; negative is a barrel.
     """
 
     heights_m: Annotated[tuple[Heights, ...], Field(min_length=1)] = (
@@ -78,7 +83,7 @@ class CameraRanges(Model):
 
 
 def _farthest_m(height_m: float, focal_length_mm: float, tilt_deg: float) -> float:
-    """How far from the middle of the floor a corner of the picture may be; inf at the horizon and above."""
+    """Bound the distance of the picture's corners from the floor's middle, in metres; inf if they see the horizon."""
     distance_m, tilt = height_m * focal_length_mm / FOCAL_LENGTH_MM, math.radians(tilt_deg)
     angle = tilt + math.atan(math.sqrt(0.5) * SENSOR_MM / focal_length_mm)
     if angle >= 0.5 * math.pi:
@@ -87,17 +92,17 @@ def _farthest_m(height_m: float, focal_length_mm: float, tilt_deg: float) -> flo
 
 
 class DevelopmentRanges(Model):
-    """What a camera's sensor and electronics do; see `farm.scene.camera.Development` for each.
+    """The ranges of a sensor's and its electronics' settings; `farm.scene.camera.Development` explains each.
 
     Attributes:
-        share: of the pictures that are developed so; the others have Blender's Filmic view.
-        light_floor_share: share of the pictures of light floors (`farm.spec.header`) that are exposed more. A meter
-            that makes all grey makes a white table grey: a photographer opens up, and an automatic camera does not.
-        light_floor_ev: by how much more.
+        share: share of the pictures that are developed like this; the others have Blender's Filmic view transform.
+        light_floor_share: share of the pictures of light floors (see `farm.spec.header`) that are exposed more. A meter
+            makes a white table grey: a photographer corrects that, and an automatic camera does not.
+        light_floor_ev: further exposure of those pictures, in stops.
         white_balance_ev: error of red and of blue, in stops.
-        noise_share: of the pictures with noise at all.
-        full_well: electrons, drawn evenly in its logarithm.
-        jpeg_share: of the pictures that were compressed.
+        noise_share: share of the pictures with noise.
+        full_well: electrons of a white pixel, sampled log-uniformly.
+        jpeg_share: share of the pictures that are compressed.
     """
 
     share: Fraction = 0.0
@@ -119,5 +124,5 @@ class DevelopmentRanges(Model):
 
     @property
     def most_ev(self) -> float:
-        """The most that any picture is overexposed: the larger upper end, as the two do not add up beyond it."""
+        """Largest exposure error of any picture, in stops: the two ranges do not add up beyond the larger upper end."""
         return max(self.exposure_ev[1], self.light_floor_ev[1])

@@ -1,4 +1,4 @@
-"""The ranges of what lies about and is not cable."""
+"""The ranges of clutter: objects on the floor that are not cables."""
 
 from typing import Annotated
 
@@ -14,15 +14,15 @@ StickLength = Annotated[float, Field(ge=0.01, le=1.0)]
 
 
 class ClutterRanges(Model):
-    """What lies about and is not cable; drawn over floors alone.
+    """The ranges of objects on the floor that are not cables; only pictures over a floor have them.
 
     Attributes:
-        share: of the pictures over a floor that have any.
-        sticks: pens, pipes, tools: how many of those pictures' have.
-        stick_diameter_m: of them.
-        stick_length_m: of them.
-        sheets: tapes, papers, rulers, painted lines, slots.
-        parts: washers, nuts, screws, connectors.
+        share: share of the pictures over a floor that have clutter.
+        sticks: number of pens, pipes and tools.
+        stick_diameter_m: diameter of a stick, in metres, sampled log-uniformly.
+        stick_length_m: length of a stick, in metres.
+        sheets: number of tapes, papers, rulers, painted lines and slots.
+        parts: number of washers, nuts, screws and connectors.
     """
 
     share: Fraction = 0.0

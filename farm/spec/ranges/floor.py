@@ -1,4 +1,4 @@
-"""The ranges of the floor: how its texture lies, and its wear."""
+"""The ranges of the floor: the position of its texture, and its wear."""
 
 from typing import Annotated
 
@@ -17,15 +17,18 @@ JointSpread = Annotated[float, Field(ge=0, le=0.003)]
 
 
 class WearRanges(Model):
-    """What a floor has been through, beyond what its texture shows; see `farm.scene.scene.Wear` for each.
+    """The ranges of a floor's wear; `farm.scene.floor.Wear` and `JointFill` explain what has no description here.
 
     Attributes:
-        share: of the floors that are changed so.
-        brightness_ev: stops, by which its colour is brighter or darker.
-        tint_ev: stops of red, green and blue beside that.
-        stained_share: of these floors that have stains; likewise for scratches, dust and refilled joints.
-        joint_albedo: of what fills them, drawn evenly in its logarithm.
-        joint_warmth_ev: stops, by which it is redder than green, and as much less blue.
+        share: share of the floors that are worn.
+        brightness_ev: change of the floor's brightness, in stops.
+        tint_ev: further change of each of red, green and blue, in stops.
+        stained_share: share of the worn floors that have stains.
+        scratched_share: share of the worn floors that have scratches.
+        dusty_share: share of the worn floors that have dust.
+        refilled_share: share of the worn floors whose joints are filled otherwise.
+        joint_albedo: albedo of the joints' filling in green light, sampled log-uniformly.
+        joint_warmth_ev: excess of the filling's red over its green, in stops; its blue is as much below the green.
     """
 
     share: Fraction = 0.0
@@ -47,10 +50,16 @@ class WearRanges(Model):
 
 
 class FloorRanges(Model):
-    """Where the floor's texture lies. Offsets are counted in whole tiles of the texture.
+    """The ranges of the floor.
 
-    `light_share` is ours: the share of floors that are drawn from the light surfaces alone (`farm.spec.header`), as
-    tables are.
+    Attributes:
+        offset_x: offset of the texture along its x axis, in tiles.
+        offset_y: offset of the texture along its y axis, in tiles.
+        rotation_deg: rotation of the texture.
+        scale: factor of the texture's size on the floor.
+        light_share: share of floors that are chosen from the light surfaces alone (see `farm.spec.header`), as tables
+            are light; it is ours.
+        wear: ranges of the wear.
     """
 
     offset_x: Range = (-100.0, 100.0)

@@ -1,7 +1,7 @@
 """The ranges of the lamps that light a scene.
 
-Sizes are metres, angles degrees. The published ranges are those of `LampRanges`; the others are off unless a style
-turns them on.
+Sizes are in metres, angles in degrees. `LampRanges` has the published ranges; the others are off unless a style turns
+them on.
 """
 
 from farm.model import Model
@@ -17,7 +17,12 @@ from farm.spec.ranges.types import (
 
 
 class LampRanges(Model):
-    """The one lamp of a concentrated light: a point or an area light, distances in metres."""
+    """The ranges of the one published lamp of a concentrated light; `farm.scene.light` explains each value.
+
+    Attributes:
+        area_share: share of the pictures with an area light; the others have a point light.
+        area_distance_m: horizontal distance of an area light from the cables, to either side.
+    """
 
     area_share: Fraction = 0.5
     point_bearing_deg: Range = (0.0, 360.0)
@@ -30,18 +35,18 @@ class LampRanges(Model):
 
 
 class StudioRanges(Model):
-    """Lamps of any colour, size and number, beside grey surroundings of any strength.
+    """The ranges of studio lamps, of any colour, size and number, beside grey surroundings of any strength.
 
     Attributes:
-        share: of the pictures under lamps that have these instead of the published one.
-        count: of lamps.
-        elevation_deg: above the floor, seen from the cables.
-        distance_m: from the cables.
-        size_share: diameter over distance, drawn evenly in its logarithm: small ones throw hard shadows.
-        irradiance_w_m2: at the cables, of each lamp.
-        temperature_k: of its colour.
-        grey: radiance of the surroundings, drawn evenly in its logarithm.
-        grey_temperature_k: of their colour.
+        share: share of the pictures under lamps that have these instead of the published one.
+        count: number of lamps.
+        elevation_deg: angle of a lamp above the floor, seen from the cables.
+        distance_m: distance of a lamp from the cables, sampled log-uniformly.
+        size_share: diameter of a lamp over its distance, sampled log-uniformly: small lamps throw hard shadows.
+        irradiance_w_m2: irradiance of each lamp at the cables, in W/m2.
+        temperature_k: colour temperature of a lamp, in kelvins.
+        grey: radiance of the surroundings, sampled log-uniformly.
+        grey_temperature_k: colour temperature of the surroundings, in kelvins.
     """
 
     share: Fraction = 0.0

@@ -1,4 +1,4 @@
-"""The ranges of where the cables start, and of the wind that pushes them while they fall."""
+"""The ranges of the cables' start positions and curves, and of the wind that pushes them while they fall."""
 
 from typing import Annotated
 
@@ -17,16 +17,22 @@ from farm.spec.ranges.types import (
 )
 
 BEND_KNOTS = 7
-
+"""Number of equally spaced points along a cable at which its natural curvature is sampled."""
 
 SPACING_DIAMETERS = 1.5
-"""Cables start at least so many diameters above each other, which leaves room for the cloth's collision distance."""
+"""Least height of a cable's start above that of the cable below it, in that cable's diameters; it leaves room for the
+cloth's collision distance."""
 
 
 class WindRanges(Model):
-    """The wind field: where it stands, how it points and how hard it blows, in the cloth's units.
+    """The ranges of the wind; `farm.scene.physics.Wind` explains what has no description here. The gusts are ours.
 
-    `speed_per_strength_m_s`, for the rod solver, and the gusts are ours: at full strength a light breeze of 2.5 m/s.
+    Attributes:
+        flow_per_strength: flow of the wind field over its strength.
+        speed_per_strength_m_s: speed of the air for the rod solver over the field's strength; it is ours, and gives a
+            light breeze of 2.5 m/s at full strength.
+        gust_share: amplitude of each gust, as a share of the mean speed.
+        gust_period_s: period of each gust, in seconds.
     """
 
     bearing_deg: Range = (0.0, 360.0)
@@ -41,11 +47,26 @@ class WindRanges(Model):
 
 
 class PlacementRanges(Model):
-    """Where the cables start, at stacked heights. `drop_height_m`, `spacing_m` and `bend_per_m` are ours.
+    """The ranges of the cables' start, one above the other. Heights, spacing, bends, loops and coils are ours.
 
-    `bend_per_m` is a cable's natural curvature, drawn at `BEND_KNOTS` points along it: what is left of the coil it
-    came from. The published cables start straight and are bent by the cloth's own drift. Cables with a loop
-    somewhere, or coiled all along, are ours too.
+    The published cables start straight, and the cloth's own drift bends them.
+
+    Attributes:
+        free_x_m: x of the middle of a cable in a free disposition, in metres.
+        free_y_m: y of the middle of a cable in a free disposition, in metres.
+        free_rotation_deg: mean bearing of a cable in a free disposition.
+        aligned_x_m: x of the middle of an aligned cable, in metres.
+        aligned_y_m: y of the middle of an aligned cable, in metres.
+        aligned_bearing_deg: common bearing of aligned cables.
+        aligned_deviation_deg: deviation of each cable from the common bearing.
+        drop_height_m: height of the lowest cable's start above the floor, in metres; sticks may lift it.
+        spacing_m: least height of a cable's start above that of the cable below it, in metres.
+        bend_per_m: natural curvature at each of `BEND_KNOTS` points along a cable, in 1/m: the rest of the coil that it
+            came from.
+        loop_share: share of the cables without a coil that have a loop.
+        loop_radius_m: radius of a loop, in metres, sampled log-uniformly.
+        coil_share: share of the cables that are coiled all along.
+        coil_radius_m: radius of a coil, in metres, sampled log-uniformly.
     """
 
     free_x_m: LengthRange = (-0.025, 0.025)

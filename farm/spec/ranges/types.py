@@ -1,4 +1,4 @@
-"""Types of the random parameters' ranges: a low and a high end, each within what makes sense."""
+"""The types of random parameters' ranges: a low and a high end, each within the limits of its kind of value."""
 
 from typing import Annotated
 
@@ -6,10 +6,16 @@ from pydantic import AfterValidator, BeforeValidator, Field
 
 
 def in_order(bounds: tuple[float, float]) -> tuple[float, float]:
-    """Check that a range's low end is not above its high end.
+    """Check that the low end of a range is not above its high end.
+
+    Args:
+        bounds: low and high end.
+
+    Returns:
+        The range itself.
 
     Raises:
-        ValueError: if it is.
+        ValueError: if the low end is above the high end.
     """
     if bounds[0] > bounds[1]:
         raise ValueError(f"the low end {bounds[0]} is above the high end {bounds[1]}")
@@ -22,7 +28,7 @@ def _counts_in_order(bounds: tuple[int, int]) -> tuple[int, int]:
 
 
 def _both_ends(value: object) -> object:
-    """One number stands for a range without width."""
+    """Turn one number into a range without width."""
     return (value, value) if isinstance(value, int | float) and not isinstance(value, bool) else value
 
 
@@ -67,7 +73,7 @@ StripeCountRange = Annotated[tuple[StripeCount, StripeCount], AfterValidator(_co
 StrandCountRange = Annotated[tuple[StrandCount, StrandCount], AfterValidator(_counts_in_order)]
 StopsRange = Annotated[tuple[Stops, Stops], AfterValidator(in_order)]
 JpegQualityRange = Annotated[tuple[JpegQuality, JpegQuality], AfterValidator(_counts_in_order)]
-# Before a validator of one's own JSON's lists are no longer taken for tuples, unless that is allowed.
+# With a BeforeValidator, pydantic takes JSON's lists for tuples only if the field is not strict.
 DiameterRange = Annotated[
     tuple[Diameter, Diameter], Field(strict=False), BeforeValidator(_both_ends), AfterValidator(in_order)
 ]

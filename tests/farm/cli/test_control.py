@@ -61,7 +61,7 @@ def test_cancel(farm: Farm, submitted: RunHandle, dataset: Dataset, redis_url: s
 def test_no_run(farm: Farm, dataset: Dataset, redis_url: str, redis_client: "redis.Redis", command: str) -> None:
     """Of a dataset of which nothing was submitted there is nothing to control, and nothing comes up."""
     result = farm(command, dataset.storage.location, "--broker", redis_url)
-    assert_refused(result, ConflictError.exit_code, "nothing of it was submitted")
+    assert_refused(result, ConflictError.exit_code, "it was not submitted")
     assert RedisRegistry(redis_client).runs() == {}
 
 

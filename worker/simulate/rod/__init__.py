@@ -1,1 +1,1 @@
-"""The rod solver: inextensible elastic rods with contact and friction, compiled."""
+"""The rod solver: inextensible elastic rods with contact and friction, compiled by numba."""

@@ -1,4 +1,4 @@
-"""`python -m worker.simulate.rod`: compile the rod solver and keep it on disk, so that no worker has to."""
+"""`python -m worker.simulate.rod`: compiles the rod solver and keeps it on disk, so that no worker has to."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""The solver's state as flat arrays: all nodes of all rods one after the other, coordinates in rows."""
+"""The solver's state as flat arrays: the nodes of all rods, rod after rod, with a row for each coordinate."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -12,17 +12,17 @@ Integers = NDArray[np.int64]
 
 
 class Bodies(NamedTuple):
-    """What does not change: the rods' make-up.
+    """The properties of the rods, which do not change.
 
     Attributes:
-        first: (rods + 1,) number of each rod's first node, and of all nodes.
-        owner: (nodes,) the rod of each node.
-        mass: (nodes,) kg; half a segment's at the ends.
+        first: (rods + 1,) number of each rod's first node; last the number of nodes.
+        owner: (nodes,) number of each node's rod.
+        mass: (nodes,) mass of each node, kg; an end has half the mass of a segment.
         curvature: (nodes,) natural curvature, 1/m.
-        pinned: (nodes,) nodes that are held.
-        length: (rods,) of a segment, m.
-        stiffness: (rods,) EI, N m^2.
-        radius: (rods,) m.
+        pinned: (nodes,) whether a node is held in its place.
+        length: (rods,) length of a rod's segments, m.
+        stiffness: (rods,) bending stiffness EI, N m^2.
+        radius: (rods,) radius, m.
     """
 
     first: Integers
@@ -36,14 +36,14 @@ class Bodies(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """What changes: where the nodes are, how fast, and what holds them.
+    """The state of the rods, which changes from step to step.
 
     Attributes:
-        x: (3, nodes) m.
-        v: (3, nodes) m/s.
-        tension: (nodes,) N in the segment that starts at each node; 0 at a rod's last node.
-        floor_impulse: (3, nodes) N s of the floor on each node in the last step.
-        touched: (rods,) whether anything pushed a rod in the last step.
+        x: (3, nodes) places of the nodes, m.
+        v: (3, nodes) velocities of the nodes, m/s.
+        tension: (nodes,) tension of the segment that starts at each node, N; 0 at a rod's last node.
+        floor_impulse: (3, nodes) impulse of the floor on each node in the last step, N s.
+        touched: (rods,) whether the floor or another rod pushed a rod in the last step.
     """
 
     x: Array
@@ -54,20 +54,22 @@ class Motion(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Room for what is computed within a step.
+    """Arrays for the values that a step computes.
 
     Attributes:
-        momentum: (3, nodes) N s, without contact and tension.
-        load: (3, nodes) N s, the momentum with contact.
-        v: (3, nodes) m/s, at the end of the step.
-        start: (3, nodes) m, where the nodes were at the start of the step.
-        bulge: (nodes,) m, how far the curve leaves the chords; see `worker.simulate.rod.narrow_phase`.
-        reach: (nodes,) m, how far around each node contact is looked for; see `worker.simulate.rod.narrow_phase`.
-        stirred: (stretches,) number of the sweep that last changed velocities there; see `worker.simulate.rod.contact`.
-        rise: (nodes,) m/s, how fast nodes near the floor must rise at least.
-        near_floor: (nodes,) the nodes that the floor may touch, the first ones of these.
-        held: (nodes,) which nodes lengths are kept against; see `worker.simulate.rod.lengths`.
-        system: for the equations of `worker.simulate.rod.lengths`.
+        momentum: (3, nodes) momentum at the end of the step without contact and tension, N s.
+        load: (3, nodes) that momentum with the impulses of contacts, N s.
+        v: (3, nodes) velocities at the end of the step, m/s.
+        start: (3, nodes) places of the nodes at the start of the step, m.
+        bulge: (nodes,) largest distance of the curve from its chords, m; see `worker.simulate.rod.narrow_phase`.
+        reach: (nodes,) distance around each node within which contact is looked for, m; see
+            `worker.simulate.rod.narrow_phase`.
+        stirred: (stretches,) number of the sweep that last changed velocities in a stretch of nodes; see
+            `worker.simulate.rod.contact`.
+        rise: (nodes,) least upward speed of the nodes near the floor, m/s.
+        near_floor: (nodes,) numbers of the nodes that the floor may touch, at the beginning of the array.
+        held: (nodes,) whether and how a node is held while lengths are kept; see `worker.simulate.rod.lengths`.
+        system: arrays for the equations of `worker.simulate.rod.lengths`.
     """
 
     momentum: Array
@@ -84,7 +86,7 @@ class Scratch(NamedTuple):
 
 
 def flatten(rods: Sequence[Rod]) -> tuple[Bodies, Motion]:
-    """The rods at rest where they start."""
+    """Put rods into flat arrays, at rest in their starting places."""
     counts = [len(rod.nodes_m) for rod in rods]
     nodes = int(np.sum(counts))
     length = np.array([rod.segment_length_m for rod in rods])

@@ -1,15 +1,15 @@
-"""Equations of a chain of nodes, solved in blocks of a node's unknowns: three coordinates and a multiplier.
+"""Solves the equations of a chain of nodes in blocks of a node's unknowns: three coordinates and a multiplier.
 
-In 4x4 blocks the matrix is symmetric and pentadiagonal: D on the diagonal, B beside it, and beside that C, which
-couples each coordinate only with itself. With S = D^-1 and the right-hand side r, eliminating node i,
+In 4x4 blocks the matrix is symmetric and pentadiagonal: D on the diagonal, B next to it, and C next to B; C couples
+each coordinate only with itself. With S = D^-1 and the right-hand side r, the elimination of node i,
 
     W = S B,  V = S C,  z = S r,
 
-leaves node i + 1 with D - B^T W, B - W^T C and r - B^T z, and node i + 2 with D - C V and r - C z: C stays as it is.
-From the end back, the solution is u[i] = z - W u[i + 1] - V u[i + 2].
+leaves node i + 1 with D - B^T W, B - W^T C and r - B^T z, and node i + 2 with D - C V and r - C z: C does not change.
+From the last node back, the solution is u[i] = z - W u[i + 1] - V u[i + 2].
 
-Nothing is pivoted. What remains of D must be regular: it is where the coordinates' part is positive definite and each
-multiplier stands at the last of the nodes that it acts on.
+There is no pivoting, so every reduced D must be regular. It is, if the part of the coordinates is positive definite and
+each multiplier belongs to the last of the nodes on which it acts.
 """
 
 from typing import NamedTuple
@@ -18,23 +18,24 @@ from worker.simulate.rod.compiled import compiled
 from worker.simulate.rod.model import Array
 
 DIAGONAL, RIGHT, NEXT, BEYOND, OWN, LATER = 0, 4, 8, 11, 14, 17
-"""Where in a node's row its equations stand: their diagonal and right-hand side, 4 each; then 3 each: what couples its
-coordinates with themselves at the next node, and at the one after; with its own multiplier; with that of the next."""
+"""Offsets in a node's row of its equations: 4 numbers each of the diagonal and the right-hand side; then 3 numbers each
+that couple its coordinates with the same coordinates of the next node (NEXT) and of the one after (BEYOND), with its
+own multiplier (OWN), and with the multiplier of the next node (LATER)."""
 
 W, V, SOLUTION = 0, 16, 28
-"""Where the columns of W and V come to stand, 4 each, and z, in which the solution is left."""
+"""Offsets in a node's row of the columns of W and V, 4 numbers each, and of z, which becomes the solution."""
 
 ROW = 32
-"""Numbers in a row."""
+"""Number of numbers in a row."""
 
 Four = tuple[float, float, float, float]
-"""A vector, or a column of a matrix: x, y, z and the multiplier, s."""
+"""A vector, or a column of a matrix: three coordinates x, y, z and a multiplier s."""
 
 NOTHING = (0.0, 0.0, 0.0, 0.0)
 
 
 class Symmetric(NamedTuple):
-    """A symmetric 4x4 matrix, by its upper half."""
+    """The upper half of a symmetric 4x4 matrix."""
 
     xx: float
     xy: float
@@ -49,7 +50,7 @@ class Symmetric(NamedTuple):
 
 
 class Matrix(NamedTuple):
-    """A 4x4 matrix, by its columns."""
+    """The columns of a 4x4 matrix."""
 
     x: Four
     y: Four
@@ -74,7 +75,7 @@ def _times(s: Symmetric, v: Four) -> Four:
 
 @compiled
 def _inverse(d: Symmetric) -> Symmetric:
-    """By 2x2 blocks [P R; R^T Q]: with T = P^-1 R, the inverse of Q - R^T T is the last block of the whole inverse."""
+    """Invert by 2x2 blocks [P R; R^T Q]: with T = P^-1 R, the inverse of Q - R^T T is the last block of the inverse."""
     p = 1.0 / (d.xx * d.yy - d.xy * d.xy)
     pxx, pxy, pyy = p * d.yy, -p * d.xy, p * d.xx
     txz, txs = pxx * d.xz + pxy * d.yz, pxx * d.xs + pxy * d.ys
@@ -102,7 +103,7 @@ def _inverse(d: Symmetric) -> Symmetric:
 
 @compiled
 def _own_diagonal(d: Symmetric, row: Array) -> Symmetric:
-    """Add a node's own equations to what is left at it of those before: D."""
+    """Add a node's own equations to the rest that the eliminated nodes have left there: D."""
     return Symmetric(
         xx=d.xx + row[DIAGONAL],
         xy=d.xy,
@@ -119,7 +120,7 @@ def _own_diagonal(d: Symmetric, row: Array) -> Symmetric:
 
 @compiled
 def _own_next(b: Matrix, row: Array) -> Matrix:
-    """The same for B."""
+    """Add a node's own equations to the rest that the eliminated nodes have left there: B."""
     return Matrix(
         x=(b.x[0] + row[NEXT], b.x[1], b.x[2], b.x[3]),
         y=(b.y[0], b.y[1] + row[NEXT + 1], b.y[2], b.y[3]),
@@ -130,7 +131,7 @@ def _own_next(b: Matrix, row: Array) -> Matrix:
 
 @compiled
 def _left_at_next(d: Symmetric, b: Matrix, w: Matrix) -> Symmetric:
-    """D - B^T W."""
+    """Compute D - B^T W."""
     return Symmetric(
         xx=d.xx - _dot(b.x, w.x),
         xy=d.xy - _dot(b.x, w.y),
@@ -147,7 +148,7 @@ def _left_at_next(d: Symmetric, b: Matrix, w: Matrix) -> Symmetric:
 
 @compiled
 def _left_beyond(c: Four, v: Matrix) -> Symmetric:
-    """-C V."""
+    """Compute -C V."""
     return Symmetric(
         xx=-c[0] * v.x[0],
         xy=-c[0] * v.y[0],
@@ -164,7 +165,7 @@ def _left_beyond(c: Four, v: Matrix) -> Symmetric:
 
 @compiled
 def _left_between(c: Four, w: Matrix) -> Matrix:
-    """-W^T C."""
+    """Compute -W^T C."""
     return Matrix(
         x=(-c[0] * w.x[0], -c[0] * w.y[0], -c[0] * w.z[0], -c[0] * w.s[0]),
         y=(-c[1] * w.x[1], -c[1] * w.y[1], -c[1] * w.z[1], -c[1] * w.s[1]),
@@ -183,8 +184,8 @@ def _keep(row: Array, w: Matrix, v: Matrix, z: Four) -> None:
 
 @compiled
 def _eliminate(rows: Array) -> None:
-    """From the first node to the last; each row's equations give way to W, V and z."""
-    # What the nodes before have left at this one and at the next.
+    """Eliminate from the first node to the last; W, V and z replace each row's equations."""
+    # The rest that the eliminated nodes have left at this node, and at the next.
     d = d_next = Symmetric(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     b = Matrix(NOTHING, NOTHING, NOTHING, NOTHING)
     r = r_next = NOTHING
@@ -224,11 +225,11 @@ def solve(rows: Array) -> None:
     """Solve the equations of a chain of nodes in place.
 
     Args:
-        rows: (nodes, ROW) see `DIAGONAL` and the others; the rest of a row may hold anything, and nothing that would
-            couple with nodes beyond the last may differ from zero. The solution stands at `SOLUTION`; all else is lost.
+        rows: (nodes, ROW) equations at `DIAGONAL` and the offsets after it; what couples with nodes beyond the last
+            must be zero, and the rest of a row is ignored. The solution replaces them at `SOLUTION`; all else is lost.
     """
     _eliminate(rows)
-    # Of the next node, and of the one after it.
+    # The solutions of the next node, and of the one after it.
     u = u_after = NOTHING
     for i in range(len(rows) - 1, -1, -1):
         row = rows[i]

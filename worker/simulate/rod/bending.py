@@ -1,8 +1,8 @@
 """Bending: the implicit operator A = M + h (h + tau) K of each rod, its factors, and its response to a push.
 
 K is the second derivative of the bending energy sum(EI / (2 l^3) |x[i-1] - 2 x[i] + x[i+1]|^2). For an inextensible rod
-this is quadratic without approximation (Bergou et al. 2006, "A quadratic bending model for inextensible surfaces"), so
-that A is the same in x, y and z and for the whole fall, and is factored once.
+this energy is quadratic without approximation (Bergou et al. 2006, "A quadratic bending model for inextensible
+surfaces"). So A is the same in x, y and z and for the whole fall, and is factored once.
 """
 
 from typing import NamedTuple
@@ -14,20 +14,20 @@ from worker.simulate.rod.compiled import compiled
 from worker.simulate.rod.model import Array
 
 NEGLIGIBLE_RESPONSE = 0.01
-"""This share of a push's response, that of the farthest nodes, is left out while contacts iterate; after each round of
+"""Share of the response to a push, that of the farthest nodes, that sweeps over contacts leave out; after each round of
 sweeps the impulses act in full."""
 
 
 class Operator(NamedTuple):
-    """A for one time step.
+    """The operator A for one time step.
 
     Attributes:
-        step: h, s.
-        bands: (3, nodes) diagonal of A and the two above it, kg.
-        factors: (3, nodes) of A = L D L^T: 1/D, and the two diagonals below that of L.
-        reach: (rods,) nodes on either side of a push that respond to it.
-        coupling: (rods,) change of velocity of all nodes together when a push changes that of its own node by one.
-        response: (nodes, 2 max(reach) + 1) velocity per impulse around the pushed node, 1/kg.
+        step: time step h, s.
+        bands: (3, nodes) diagonal of A and the two diagonals above it, kg.
+        factors: (3, nodes) factors of A = L D L^T: 1/D, and the two diagonals of L below its main one.
+        reach: (rods,) number of nodes on either side of a push that respond to it.
+        coupling: (rods,) sum of all nodes' changes of velocity when a push changes that of its own node by one.
+        response: (nodes, 2 max(reach) + 1) velocity per impulse of the nodes around a pushed node, 1/kg.
     """
 
     step: float
@@ -66,7 +66,7 @@ def _assemble(bodies: Bodies, factor: float, bands: Array) -> None:
 
 @compiled
 def _factor(bodies: Bodies, bands: Array, factors: Array) -> None:
-    """L D L^T of a symmetric pentadiagonal matrix, rod by rod."""
+    """Factor a symmetric pentadiagonal matrix into L D L^T, rod by rod."""
     for rod in range(len(bodies.length)):
         first, end = bodies.first[rod], bodies.first[rod + 1]
         d1 = d2 = 0.0
@@ -91,7 +91,7 @@ def _factor(bodies: Bodies, bands: Array, factors: Array) -> None:
 
 @compiled
 def solve(bodies: Bodies, factors: Array, rod: int, right: Array) -> None:
-    """Replace the columns of `right` (3, nodes) that belong to a rod by A^-1 of them."""
+    """Multiply the columns of `right` (3, nodes) that belong to a rod by A^-1, in place."""
     first, end = bodies.first[rod], bodies.first[rod + 1]
     for i in range(first + 1, end):
         l1, l2 = factors[1, i], factors[2, i]
@@ -130,7 +130,7 @@ def _unit_response(bodies: Bodies, factors: Array, rod: int, node: int, column: 
 
 @compiled
 def _reach(bodies: Bodies, factors: Array, reach: Integers, coupling: Array) -> None:
-    """How far the response to a push on each rod's middle is not negligible."""
+    """Find `reach`, beyond which the response to a push on a rod's middle is negligible, and `coupling`, in place."""
     for rod in range(len(bodies.length)):
         first, end = bodies.first[rod], bodies.first[rod + 1]
         middle = (first + end) // 2
@@ -138,7 +138,7 @@ def _reach(bodies: Bodies, factors: Array, reach: Integers, coupling: Array) -> 
             middle += 1
         column = np.zeros(end - first)
         _unit_response(bodies, factors, rod, middle, column)
-        # Many pushes on a stiff rod add up, so it is the sum of what is left out that must be small.
+        # Many pushes on a stiff rod add up, so the sum of the responses that are left out must be small.
         coupling[rod] = np.abs(column).sum() / abs(column[middle - first])
         left_out = NEGLIGIBLE_RESPONSE * np.abs(column).sum()
         far = end - first - 1
@@ -165,7 +165,13 @@ def _respond(bodies: Bodies, factors: Array, reach: Integers, response: Array) -
 
 
 def operator_for(bodies: Bodies, step_s: float, damping_s: float) -> Operator:
-    """Factor A for a time step, and tabulate its response."""
+    """Factor A for a time step, and tabulate the response to pushes.
+
+    Args:
+        bodies: the rods.
+        step_s: time step h, s.
+        damping_s: time constant tau of the internal damping, s.
+    """
     nodes = len(bodies.mass)
     bands, factors = np.zeros((3, nodes)), np.zeros((3, nodes))
     reach = np.zeros(len(bodies.length), np.int64)
@@ -180,7 +186,7 @@ def operator_for(bodies: Bodies, step_s: float, damping_s: float) -> Operator:
 
 @compiled
 def energy_of(bodies: Bodies, bands: Array, v: Array) -> float:
-    """V A v / 2 of velocities (3, nodes), J: kinetic energy, and what bending takes up within a step."""
+    """Compute v A v / 2, J, of velocities (3, nodes): kinetic energy, and the energy that bending takes in a step."""
     total = 0.0
     for rod in range(len(bodies.length)):
         for i in range(bodies.first[rod], bodies.first[rod + 1]):

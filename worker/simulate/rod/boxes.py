@@ -1,6 +1,7 @@
-"""Boxes with sides along the axes, and which of them overlap: a box is a row of least x, y, z and greatest x, y, z.
+"""Boxes with sides along the axes, and the search for boxes that overlap.
 
-A box of NaN is empty: it overlaps none, not even one that is infinite, and adds nothing to a hull.
+A box is a row of its least x, y, z and its greatest x, y, z. A box of NaN is empty: it overlaps no box, not even an
+infinite one, and adds nothing to a hull.
 """
 
 import numpy as np
@@ -10,20 +11,20 @@ from worker.simulate.rod.compiled import compiled
 from worker.simulate.rod.model import Array
 
 RUN = 8
-"""Segments that follow each other and share a box."""
+"""Number of consecutive segments that share a box."""
 
 
 @compiled
 def segment_boxes(low: Array, high: Array, first: Integers) -> Array:
-    """Boxes around segments, each named by its first node; a rod's last node gets an empty one.
+    """Make the boxes around segments.
 
     Args:
         low: (3, nodes) least coordinates of the boxes around nodes, m.
-        high: (3, nodes) greatest.
-        first: (rods + 1,) number of each rod's first node, and of all nodes.
+        high: (3, nodes) greatest coordinates of these boxes, m.
+        first: (rods + 1,) number of each rod's first node; last the number of nodes.
 
     Returns:
-        (nodes, 6) m.
+        (nodes, 6) box around the segment that starts at each node, m; a rod's last node has an empty one.
     """
     boxes = np.empty((low.shape[1], 6))
     for rod in range(len(first) - 1):
@@ -41,11 +42,11 @@ def runs_of(first: Integers) -> tuple[Integers, Integers]:
     """Cut rods into runs of segments.
 
     Args:
-        first: (rods + 1,) number of each rod's first node, and of all nodes.
+        first: (rods + 1,) number of each rod's first node; last the number of nodes.
 
     Returns:
-        (runs + 1,) first node of each run, and the number of all nodes; (rods + 1,) first run of each rod, and the
-        number of all runs.
+        (runs + 1,) number of each run's first node, last the number of nodes; and (rods + 1,) number of each rod's
+        first run, last the number of runs.
     """
     rods = len(first) - 1
     of_rod = np.zeros(rods + 1, np.int64)
@@ -61,14 +62,22 @@ def runs_of(first: Integers) -> tuple[Integers, Integers]:
 
 @compiled
 def hulls(boxes: Array, starts: Integers) -> Array:
-    """(groups, 6): boxes around those of `boxes` (n, 6) from each of `starts` (groups + 1,) to the next."""
+    """Make the box around each group of boxes.
+
+    Args:
+        boxes: (n, 6) boxes, m.
+        starts: (groups + 1,) number of each group's first box; last the number of boxes.
+
+    Returns:
+        (groups, 6) boxes, m.
+    """
     around = np.empty((len(starts) - 1, 6))
     for group in range(len(starts) - 1):
         around[group, :3] = np.inf
         around[group, 3:] = -np.inf
         for i in range(starts[group], starts[group + 1]):
             for c in range(3):
-                # In this order NaN is left out: it is not less than what is there, nor greater.
+                # In this order NaN is ignored, as it is neither less nor greater than the value before.
                 around[group, c] = min(around[group, c], boxes[i, c])
                 around[group, c + 3] = max(around[group, c + 3], boxes[i, c + 3])
     return around
@@ -76,26 +85,26 @@ def hulls(boxes: Array, starts: Integers) -> Array:
 
 @compiled
 def add_overlapping(others: Array, begin: int, end: int, boxes: Array, one: int, found: Integers, count: int) -> int:
-    """Append the numbers of those boxes that overlap one.
+    """Append the numbers of the boxes that overlap a given box.
 
-    It takes numbers, not views of parts of arrays: to make these would take longer than the comparisons.
+    The arguments are numbers, not views of parts of arrays: making views would take longer than the comparisons.
 
     Args:
-        others: (n, 6) m.
-        begin: number of the first that is asked.
-        end: number after the last.
-        boxes: (m, 6) m.
-        one: number of the one of these.
-        found: the numbers, in ascending order; there must be room for all.
-        count: how many of `found` there were.
+        others: (n, 6) boxes that are compared, m.
+        begin: number of the first of them.
+        end: number after the last of them.
+        boxes: (m, 6) boxes among which the given one is, m.
+        one: number of the given box.
+        found: array that gets the numbers, in ascending order; it must have room for all.
+        count: number of entries that `found` has before.
 
     Returns:
-        How many there are.
+        The number of entries that `found` has now.
     """
     x, y, z, end_x, end_y, end_z = _sides(boxes, one)
     for i in range(begin, end):
         meet = (others[i, 0] <= end_x) & (others[i, 3] >= x) & (others[i, 1] <= end_y) & (others[i, 4] >= y)
-        # Written always, counted if it overlaps: no branch that can't be foretold.
+        # Every number is written, and counted if its box overlaps: so the processor has no branch to predict.
         found[count] = i
         count += meet & (others[i, 2] <= end_z) & (others[i, 5] >= z)
     return count
@@ -103,7 +112,19 @@ def add_overlapping(others: Array, begin: int, end: int, boxes: Array, one: int,
 
 @compiled
 def pick_overlapping(others: Array, asked: Integers, number: int, boxes: Array, one: int, found: Integers) -> int:
-    """Find those of the first so many boxes `asked` that overlap one; as `add_overlapping`."""
+    """Find the boxes among some that overlap a given box.
+
+    Args:
+        others: (n, 6) boxes, m.
+        asked: numbers of the boxes that are compared.
+        number: number of entries of `asked` to compare.
+        boxes: (m, 6) boxes among which the given one is, m.
+        one: number of the given box.
+        found: array that gets the numbers, from its beginning; it must have room for all.
+
+    Returns:
+        The number of boxes found.
+    """
     x, y, z, end_x, end_y, end_z = _sides(boxes, one)
     count = 0
     for k in range(number):

@@ -1,11 +1,10 @@
-"""Which segments may come into contact: a list that lasts several steps.
+"""Lists the pairs of segments that may come into contact, for several steps at a time.
 
-Each node gets a box around the way that it would go within some steps, with its reach (see
-`worker.simulate.rod.narrow_phase`) and some slack. Segments whose boxes overlap are listed. The list holds for as long
-as all nodes, with the reach that they have by then, are inside their boxes: whatever made them move, and whether they
-went all the way or stopped.
+Each node gets a box around its expected path in some steps, enlarged by its reach (see
+`worker.simulate.rod.narrow_phase`) and some slack. Segments whose boxes overlap are listed. The list is valid as long
+as all nodes, with their present reach, are inside their boxes, whatever made them move.
 
-Rods that fall together meet as little as if they were at rest. So until they land, boxes move along with the mean.
+Rods that fall together are at rest relative to each other. So until they land, boxes move with the nodes' mean.
 """
 
 from typing import NamedTuple
@@ -18,29 +17,31 @@ from worker.simulate.rod.compiled import compiled
 from worker.simulate.rod.model import Array
 
 NEIGHBOUR_RADII = 6.0
-"""Segments of one rod nearer to each other along it than so many radii never count as touching."""
+"""Distance along a rod, in its radii, within which two of its segments never count as touching."""
 
 HORIZON_STEPS = 8.0
-"""How far ahead boxes reach."""
+"""Number of time steps for which a node's box holds its expected path."""
 
 SWEEP_RADII = 8.0
-"""How far ahead boxes reach at most, in the greatest radius: a node that flies off must not be near all others."""
+"""Longest expected path in a box along each axis, in the largest radius: a node that flies off must not be near all
+others."""
 
 SLACK_RADII = 0.5
-"""How far nodes may leave the way foreseen before the list is made anew, in the greatest radius."""
+"""Distance by which nodes may leave their expected path before a new list is made, in the largest radius."""
 
 
 class Candidates(NamedTuple):
-    """Pairs of segments, in ascending order of (one, other), with what is remembered of each.
+    """Pairs of segments that may touch, in ascending order of (one, other), with the memory of each pair.
 
     Attributes:
-        one: (pairs,) first node of a segment.
-        other: (pairs,) first node of another, > one.
-        normal: (pairs, 3) from the other to the one when last seen, a unit vector if they were near; 0 if never seen.
-        impulse: (pairs, 3) N s on the one in the last step.
+        one: (pairs,) number of a segment's first node.
+        other: (pairs,) number of another segment's first node, greater than `one`.
+        normal: (pairs, 3) last direction from the other segment to the one, a unit vector if they were near; 0 for a
+            pair that no step has looked at.
+        impulse: (pairs, 3) impulse on the one segment in the last step, N s.
         low: (3, nodes) least coordinates of the box around each node, m.
-        high: (3, nodes) greatest.
-        middle: (3,) mean of the nodes when the list was made, m.
+        high: (3, nodes) greatest coordinates of these boxes, m.
+        middle: (3,) mean place of the nodes when the list was made, m.
     """
 
     one: Integers
@@ -53,20 +54,27 @@ class Candidates(NamedTuple):
 
 
 def no_candidates(nodes: int) -> Candidates:
-    """An empty list that does not hold: no node is inside an empty box."""
+    """Make an empty list that is not valid: its boxes are empty, so no node is inside."""
     none, nowhere = np.zeros(0, np.int64), np.full((3, nodes), np.nan)
     return Candidates(none, none, np.zeros((0, 3)), np.zeros((0, 3)), nowhere, nowhere, np.zeros(3))
 
 
 @compiled
 def middle_of(x: Array) -> Array:
-    """(3,): mean of (3, nodes)."""
+    """Compute the mean (3,) of (3, nodes)."""
     return np.array([x[0].mean(), x[1].mean(), x[2].mean()])
 
 
 @compiled
 def still_hold(candidates: Candidates, x: Array, reach: Array, together: bool) -> bool:
-    """Whether all nodes are inside their boxes, with their reach; `together`, if these move along with the mean."""
+    """Whether a list is valid: all nodes, with their reach, are inside their boxes.
+
+    Args:
+        candidates: the list.
+        x: (3, nodes) places of the nodes, m.
+        reach: (nodes,) reach of each node in this step, m.
+        together: whether the boxes move with the nodes' mean, as rods fall together.
+    """
     low, high = candidates.low, candidates.high
     moved = middle_of(x) - candidates.middle if together else np.zeros(3)
     for c in range(3):
@@ -83,15 +91,15 @@ def still_hold(candidates: Candidates, x: Array, reach: Array, together: bool) -
 def find_candidates(
     bodies: Bodies, motion: Motion, frame: Array, step: float, reach: Array, before: Candidates
 ) -> Candidates:
-    """List all pairs of segments that may touch in the next steps; what `before` remembers of them is kept.
+    """List all pairs of segments that may touch in the next steps, with the memory that the old list has of them.
 
     Args:
         bodies: the rods.
-        motion: where they are, and how fast.
+        motion: their places and velocities.
         frame: (3,) velocity that all rods share, m/s.
-        step: s.
-        reach: (nodes,) of each node in the first of these steps, m.
-        before: the list until now.
+        step: time step, s.
+        reach: (nodes,) reach of each node in the first of these steps, m.
+        before: the old list.
     """
     low, high = _node_boxes(motion, frame, step, reach, bodies.radius.max())
     one, other = _overlapping_segments(segment_boxes(low, high, bodies.first), bodies.first, _least_apart(bodies))
@@ -101,7 +109,7 @@ def find_candidates(
 
 @compiled
 def _node_boxes(motion: Motion, frame: Array, step: float, reach: Array, radius: float) -> tuple[Array, Array]:
-    """Least and greatest coordinates, (3, nodes) m, of where nodes will soon be, with their reach and slack."""
+    """Compute the least and greatest coordinates, (3, nodes) m, of the nodes' expected paths with reach and slack."""
     x, v = motion.x, motion.v
     low, high = np.empty_like(x), np.empty_like(x)
     slack, farthest = SLACK_RADII * radius, SWEEP_RADII * radius
@@ -115,21 +123,25 @@ def _node_boxes(motion: Motion, frame: Array, step: float, reach: Array, radius:
 
 @compiled
 def _least_apart(bodies: Bodies) -> Integers:
-    """(rods,): how many segments apart those of one rod are at least that may touch."""
+    """Compute the least distance of two segments of a rod that may touch, (rods,), in segments."""
     apart: Integers = np.maximum(2, np.ceil(NEIGHBOUR_RADII * bodies.radius / bodies.length) + 1).astype(np.int64)
     return apart
 
 
 @compiled
 def _overlapping_segments(segments: Array, first: Integers, least_apart: Integers) -> tuple[Integers, Integers]:
-    """All pairs of segments with boxes that overlap, but for neighbours on a rod, in ascending order.
+    """Find all pairs of segments with overlapping boxes, but for neighbours on a rod, in ascending order.
 
-    Boxes around rods are asked first, then those around runs of segments, all in order: so nothing needs sorting.
+    The boxes around rods are compared first, then those around runs of segments, each in order, so that no sorting is
+    needed.
 
     Args:
-        segments: (nodes, 6) boxes, m.
-        first: (rods + 1,) number of each rod's first node, and of all nodes.
-        least_apart: (rods,) how many segments apart those of one rod must be.
+        segments: (nodes, 6) boxes around segments, m.
+        first: (rods + 1,) number of each rod's first node; last the number of nodes.
+        least_apart: (rods,) least distance of two segments of a rod that may touch, in segments.
+
+    Returns:
+        (pairs,) and (pairs,), numbers of the first nodes of the two segments of each pair.
     """
     starts, first_run = runs_of(first)
     runs = hulls(segments, starts)
@@ -160,7 +172,19 @@ def _overlapping_segments(segments: Array, first: Integers, least_apart: Integer
 
 @compiled
 def _runs_near(runs: Array, run: int, first_run: Integers, rods: Integers, number: int, near: Integers) -> int:
-    """Find those runs of the first so many `rods` whose boxes overlap that of a run, from it on; returns how many."""
+    """Find the runs, from a given one on, whose boxes overlap the given run's.
+
+    Args:
+        runs: (runs, 6) boxes around runs, m.
+        run: number of the given run.
+        first_run: (rods + 1,) number of each rod's first run; last the number of runs.
+        rods: numbers of the rods whose runs are compared.
+        number: number of entries of `rods` to compare.
+        near: array that gets the numbers of the runs, from its beginning.
+
+    Returns:
+        The number of runs found.
+    """
     count = 0
     for k in range(number):
         rod = rods[k]
@@ -170,7 +194,7 @@ def _runs_near(runs: Array, run: int, first_run: Integers, rods: Integers, numbe
 
 @compiled
 def _longer(numbers: Integers, least: int) -> Integers:
-    """A copy with twice the room, or at least so much more."""
+    """Copy an array into one of twice the length, or of `least` more entries if that is longer."""
     longer = np.empty(len(numbers) + max(len(numbers), least), np.int64)
     longer[: len(numbers)] = numbers
     return longer
@@ -178,7 +202,7 @@ def _longer(numbers: Integers, least: int) -> Integers:
 
 @compiled
 def _remembered(one: Integers, other: Integers, before: Candidates) -> tuple[Array, Array]:
-    """Normals and impulses, (pairs, 3), that a list remembers of pairs; 0 of those that it does not have."""
+    """Look up the normals and impulses, (pairs, 3), that a list remembers of pairs; 0 for those that it lacks."""
     normal, impulse = np.zeros((len(one), 3)), np.zeros((len(one), 3))
     known_one, known_other, known_normal, known_impulse = before.one, before.other, before.normal, before.impulse
     k = 0

@@ -1,8 +1,8 @@
-"""Compiled functions: one decorator, one place for the compiled code.
+"""Compiles functions with numba, and keeps the compiled code on disk.
 
-Compiled code is kept on disk, below a folder named after the sources' contents: numba alone would not notice a change
-in a function that another file's function calls. No fast-math: the order of operations is as written, so that results
-are the same bits in every process.
+The code lies in a folder named after the contents of the sources: numba alone would not notice a change in a function
+that another file's function calls. Fast-math is off: operations keep their order, so that results are the same bits in
+every process.
 """
 
 import hashlib
@@ -27,10 +27,10 @@ def compiled(function: Function) -> Function:
 
 
 def kept_in() -> Path:
-    """The folder of the compiled code: below FARM_COMPILED, or the user's cache folder.
+    """Find the folder of the compiled code, below FARM_COMPILED or the user's cache folder.
 
-    A folder that can't be written, as in a container's read-only image, is copied to the user's cache folder first:
-    numba does not read from where it can't write.
+    A folder that can't be written, such as one in a container's read-only image, is copied to the user's cache folder
+    first: numba does not read from a folder in which it can't write.
     """
     fingerprint = _fingerprint()
     own = cache_folder() / "compiled" / fingerprint
@@ -50,7 +50,7 @@ def _copy(source: Path, target: Path) -> None:
     with tempfile.TemporaryDirectory(dir=target.parent) as folder:
         copy = Path(folder) / "copy"
         shutil.copytree(source, copy)
-        # Another process may have been faster.
+        # Another process may have put its copy there first.
         with suppress(OSError):
             copy.rename(target)
 

@@ -1,15 +1,15 @@
-"""Contact: where rods touch, and the impulses that keep them apart and rub.
+"""Contact: the places where rods touch, and the impulses that keep them apart and act as friction.
 
-A contact acts on the smooth curves through the nodes, not on the chords: a point of a segment is moved by the mean of
-the two parabolas at its ends (a Catmull-Rom curve), so that its weights act on four nodes.
+A contact acts on the smooth curves through the nodes, not on the chords: a point of a segment lies on the mean of the
+two parabolas at its ends (a Catmull-Rom curve), so that it has weights on four nodes.
 
-The velocity that an impulse causes is that of the implicit operator, bending and all, so that it says how soft a rod is
-there. As the operator is the same in x, y and z, a contact's own block is a multiple of the unit matrix, and Coulomb's
-cone a true cone.
+The implicit operator, with bending, gives the velocity that an impulse causes, so that a contact knows how soft a rod
+is there. As the operator is the same in x, y and z, a contact's own block is a multiple of the unit matrix, and
+Coulomb's cone is a true cone.
 
-Contacts are speculative: a pair that would meet within the step is stopped at the touch, whatever its speed, so that
-nothing tunnels. A pair remembers which side it was on; a curve that got to the wrong side is pushed back. Rods that
-start within each other have no side: the first of them is taken for the lower one, wherever they cross.
+Contacts are speculative: a pair that would meet within the step is stopped where it touches, whatever its speed, so
+that nothing tunnels. A pair remembers its sides, and a curve on the wrong side is pushed back. Rods that start within
+each other have no sides yet: the first of them counts as the lower one at every crossing.
 """
 
 from typing import NamedTuple
@@ -24,39 +24,39 @@ from worker.simulate.rod.model import Array
 from worker.simulate.rod.narrow_phase import find_near
 
 DEPENETRATION_SHARE = 0.2
-"""Of a penetration that is undone in a step at most."""
+"""Largest share of a penetration that a step undoes."""
 
 UNDOING_S = 0.01
-"""Time constant of undoing a penetration: what is pushed out faster keeps moving, falls back, and never rests."""
+"""Time constant of undoing a penetration, in seconds: a rod that is pushed out faster falls back, and never rests."""
 
 DEEP_SHARE = 0.9
-"""Of the distance at which two rods touch. Nearer ones have cut into each other so deep that the way between their
-axes may not be the way out."""
+"""Distance of two rods' axes, as a share of that at which they touch, below which they have cut into each other deeply:
+the direction between their axes may not lead out."""
 
 TURN_SHARE = 0.5
-"""Cosine of the greatest angle between the way between the axes of such rods and the last one that was remembered."""
+"""Cosine of the largest angle between the direction between the axes of such rods and the direction remembered."""
 
 STRETCH = 8
-"""So many nodes in a row are looked at together when sweeps ask where anything has changed."""
+"""Number of consecutive nodes in a stretch. Sweeps note for a whole stretch whether its velocities have changed."""
 
 SLOP_RADII = 0.002
-"""Depth that is left as it is: to lift a rod out would give it energy."""
+"""Penetration that is not undone, in the smaller radius: lifting a rod out would give it energy."""
 
 
 class Contacts(NamedTuple):
-    """The touching pairs of one step; only the first `count` are meant.
+    """The contacts of one step, at the beginning of arrays with room for n. Each contact has two sides, a segment each.
 
     Attributes:
-        pair: number of the candidate pair.
-        at: (2, n) where on their segments they are closest, in [0, 1].
-        base: (2, n) first of the four nodes on either side.
-        weights: (2, n, 4) of these nodes.
+        pair: (n,) number of the contact's candidate pair.
+        at: (2, n) place on each segment that is closest to the other one, as a share of its length, 0 to 1.
+        base: (2, n) number of the first of the four nodes on which each side acts.
+        weights: (2, n, 4) weights of these nodes.
         normal: (n, 3) unit vector from the second side to the first.
-        approach: (n,) relative speed along the normal that must not be undercut, m/s.
+        approach: (n,) least relative speed of the first side along the normal, m/s.
         compliance: (n,) relative velocity per impulse, 1/kg.
-        low: (2, n) first node that responds.
-        width: (2, n) how many do.
-        column: (2, n, max) their velocity per impulse, 1/kg.
+        low: (2, n) number of the first node that responds to an impulse.
+        width: (2, n) number of nodes that respond.
+        column: (2, n, max) velocity per impulse of these nodes, 1/kg.
     """
 
     pair: Integers
@@ -73,7 +73,7 @@ class Contacts(NamedTuple):
 
 @compiled
 def room_for_contacts(pairs: int, operator: Operator) -> Contacts:
-    """Room for as many contacts as there are candidate pairs."""
+    """Make arrays for as many contacts as there are candidate pairs."""
     widest = operator.response.shape[1] + 3
     return Contacts(
         np.empty(pairs, np.int64),
@@ -91,9 +91,19 @@ def room_for_contacts(pairs: int, operator: Operator) -> Contacts:
 
 @compiled
 def _weigh(weights: Array, side: int, n: int, i: int, t: float, first: int, end: int) -> int:
-    """Weights of four nodes that give the curve's point at fraction t of segment i; returns the first node.
+    """Find the four nodes, and their weights, that give the curve's point at a place on a segment.
 
-    They become `weights[side, n]`. The rod's nodes are those from `first` on, before `end`.
+    Args:
+        weights: (2, n, 4) array whose entry [side, n] gets the weights.
+        side: side of the contact, 0 or 1.
+        n: number of the contact.
+        i: number of the segment's first node.
+        t: place on the segment, as a share of its length, 0 to 1.
+        first: number of the rod's first node.
+        end: number after that of the rod's last node.
+
+    Returns:
+        The number of the first of the four nodes.
     """
     base = min(max(i - 1, first), end - 4)
     for k in range(4):
@@ -117,17 +127,20 @@ def _weigh(weights: Array, side: int, n: int, i: int, t: float, first: int, end:
 def _respond(
     response: Array, reach: int, weights: Array, side: int, n: int, base: int, span: tuple[int, int], column: Array
 ) -> float:
-    """Fill in the column of one side of a contact; returns its compliance.
+    """Fill in the column of one side of a contact.
 
     Args:
-        response: (nodes, width) of the operator, 1/kg.
-        reach: how far it is not negligible, in nodes.
-        weights: (2, n, 4).
-        side: of the contact.
+        response: (nodes, width) response of the operator, 1/kg.
+        reach: number of nodes on either side beyond which the response is negligible.
+        weights: (2, n, 4) weights of the contacts' nodes.
+        side: side of the contact, 0 or 1.
         n: number of the contact.
-        base: first of the four nodes.
-        span: the first node that responds, and the one after the last.
-        column: (2, n, max); that of the contact is set.
+        base: number of the first of the contact's four nodes on this side.
+        span: numbers of the first node that responds, and of the one after the last.
+        column: (2, n, max) array whose entry [side, n] gets the velocities per impulse, 1/kg.
+
+    Returns:
+        The velocity per impulse of the contact's point on this side, 1/kg.
     """
     centre = (response.shape[1] - 1) // 2
     low, high = span
@@ -159,16 +172,16 @@ def gather_contacts(
 
     Args:
         bodies: the rods.
-        operator: of this time step.
-        motion: where they are, and how fast.
-        candidates: what they remember is changed.
-        bulge: (nodes,) how far the curve leaves the chords, m.
-        reach: (nodes,) how far around each node contact is looked for, m.
-        margin: how far apart surfaces may be that are still looked at, m.
-        contacts: is filled in.
+        operator: operator of this time step.
+        motion: places and velocities of the rods.
+        candidates: pairs that may touch; their memory changes.
+        bulge: (nodes,) largest distance of the curve from its chords, m.
+        reach: (nodes,) distance around each node within which contact is looked for, m.
+        margin: largest distance of two surfaces that may count as near, m.
+        contacts: arrays that get the contacts.
 
     Returns:
-        How many there are.
+        The number of contacts.
     """
     x, owner, radius, first = motion.x, bodies.owner, bodies.radius, bodies.first
     pairs, at, base, weights = contacts.pair, contacts.at, contacts.base, contacts.weights
@@ -197,7 +210,7 @@ def gather_contacts(
                 operator.response, operator.reach[rod], weights, side, count, middle, (low, high), contacts.column
             )
         if compliance > 0.0:
-            # Never ahead of what is still to be read.
+            # `count` is never ahead of `n`, so no pair is overwritten before it is read.
             pairs[count] = pair
             contacts.compliance[count] = compliance
             contacts.approach[count] = allowed_approach(distance - one - other, operator.step, min(one, other))
@@ -207,7 +220,7 @@ def gather_contacts(
 
 @compiled
 def _point(x: Array, base: Integers, weights: Array, n: int, normal: Array) -> None:
-    """Set `normal[n]` to the way from the second side of contact n to the first, m."""
+    """Set `normal[n]` to the vector from the second side of contact n to the first, m."""
     for c in range(3):
         offset = 0.0
         for k in range(4):
@@ -218,17 +231,17 @@ def _point(x: Array, base: Integers, weights: Array, n: int, normal: Array) -> N
 
 @compiled
 def _turn(normal: Array, n: int, memory: Array, pair: int, touching: float) -> float:
-    """Make the way `normal[n]` a unit vector, and the way out; returns how far the first side is along it, m.
+    """Turn the vector `normal[n]` into the unit vector along which the first side leaves the second one.
 
     Args:
-        normal: (n, 3) ways from the second side to the first, m.
+        normal: (n, 3) vectors from the second side to the first, m; that of the contact becomes the unit vector.
         n: number of the contact.
-        memory: (pairs, 3) such ways or unit vectors as last seen; 0 if never. The pair's becomes the unit vector.
-        pair: its number.
-        touching: the distance at which the two touch, m.
+        memory: (pairs, 3) last such vectors or unit vectors, 0 for none; that of the pair becomes the unit vector.
+        pair: number of the contact's candidate pair.
+        touching: distance of the two axes at which the rods touch, m.
 
     Returns:
-        The distance, negative if the first side is on the wrong one.
+        The distance of the first side along the unit vector, m, negative if it is on the wrong side.
     """
     squared = known = side = 0.0
     for c in range(3):
@@ -257,7 +270,7 @@ def _turn(normal: Array, n: int, memory: Array, pair: int, touching: float) -> f
 
 @compiled
 def _forget_pull(impulse: Array, pair: int, normal: Array, n: int) -> None:
-    """Set the impulse of a pair, (pairs, 3) N s, to 0 if it would pull along the normal, (n, 3)."""
+    """Set the impulse of a pair, (pairs, 3) N s, to 0 if it would pull along the contact's normal, (n, 3)."""
     if impulse[pair, 0] * normal[n, 0] + impulse[pair, 1] * normal[n, 1] + impulse[pair, 2] * normal[n, 2] < 0.0:
         for c in range(3):
             impulse[pair, c] = 0.0
@@ -265,7 +278,13 @@ def _forget_pull(impulse: Array, pair: int, normal: Array, n: int) -> None:
 
 @compiled
 def allowed_approach(gap: float, step: float, radius: float) -> float:
-    """Least relative speed along the normal, m/s: to close a gap just so, or to undo a penetration gently."""
+    """Compute the least relative speed along the normal, m/s, which just closes a gap or gently undoes a penetration.
+
+    Args:
+        gap: distance of the surfaces, m, negative for a penetration.
+        step: time step, s.
+        radius: smaller radius of the two rods, m.
+    """
     if gap > 0.0:
         return -gap / step
     depth = max(-gap - SLOP_RADII * radius, 0.0)
@@ -276,9 +295,10 @@ def allowed_approach(gap: float, step: float, radius: float) -> float:
 def on_cone(
     x: float, y: float, z: float, nx: float, ny: float, nz: float, friction: float
 ) -> tuple[float, float, float]:
-    """The admissible impulse in Coulomb's sense for one that is wanted.
+    """Project an impulse (x, y, z) into Coulomb's cone about the unit normal (nx, ny, nz).
 
-    It pushes along the normal n, or is zero, and rubs no harder than `friction` times that.
+    Returns:
+        An impulse that pushes along the normal, with a part across it of at most `friction` times the push; or zero.
     """
     along = x * nx + y * ny + z * nz
     if along <= 0.0:
@@ -291,7 +311,18 @@ def on_cone(
 
 @compiled
 def push(column: Array, begin: int, low: int, width: int, x: float, y: float, z: float, v: Array) -> None:
-    """Add what an impulse does, `column` from `begin` on, to velocities (3, nodes) of so many nodes from `low` on."""
+    """Add the velocities that an impulse causes.
+
+    Args:
+        column: velocities per impulse, 1/kg.
+        begin: number of the first entry of `column` that counts.
+        low: number of the first node that responds.
+        width: number of nodes that respond.
+        x: x of the impulse, N s.
+        y: y of the impulse, N s.
+        z: z of the impulse, N s.
+        v: (3, nodes) velocities, m/s, changed in place.
+    """
     for j in range(width):
         share = column[begin + j]
         v[0, low + j] += x * share
@@ -301,18 +332,18 @@ def push(column: Array, begin: int, low: int, width: int, x: float, y: float, z:
 
 @compiled
 def stir(stirred: Integers, low: int, width: int, sweep: int) -> None:
-    """Note that a sweep has changed the velocities of so many nodes from `low` on, by stretches of nodes."""
+    """Note for stretches of nodes that a sweep has changed the velocities of `width` nodes from node `low` on."""
     for stretch in range(low // STRETCH, (low + width - 1) // STRETCH + 1):
         stirred[stretch] = sweep
 
 
 @compiled
 def is_calm(stirred: Integers, low: int, high: int, sweep: int) -> bool:
-    """Whether neither this sweep nor the one before it has changed nodes `low` or `high`, or others close to them."""
+    """Whether neither this sweep nor the one before it has changed the stretches of nodes `low` and `high`."""
     return bool(stirred[low // STRETCH] < sweep - 1 and stirred[high // STRETCH] < sweep - 1)
 
 
 @compiled
 def was_stirred(stirred: Integers, first: int, end: int, sweep: int) -> bool:
-    """Whether a sweep after `sweep` has changed nodes from `first` to before `end`, or others close to them."""
+    """Whether a sweep after `sweep` has changed a stretch of the nodes from `first` to before `end`."""
     return bool(stirred[first // STRETCH : (end - 1) // STRETCH + 1].max() > sweep)

@@ -1,4 +1,4 @@
-"""The fall of a drawn scene's cables as rods, until they rest; sticks are rods that do not bend."""
+"""Lets the cables of a sampled scene fall as rods until they rest; sticks are rods that hardly bend."""
 
 import numpy as np
 
@@ -13,23 +13,27 @@ from worker.simulate.rod.simulation import DivergedError, RodSimulation
 from worker.simulate.shapes import CableShapes, bent_rod
 
 INTERNAL_DAMPING_S = 0.01
-"""Time constant of the cables' internal damping: stranded ones swing hardly more than once."""
+"""Time constant of the cables' internal damping, in seconds: stranded cables hardly swing more than once."""
 
 RESISTANCE = 0.01
-"""Dry resistance of what touches, as a share of its weight: about that of rubber rolling on a hard floor."""
+"""Dry resistance of a rod that touches something, as a share of its weight: about that of rubber rolling on a hard
+floor."""
 
 FINEST_RADII = 2.0
-"""The shortest segments, in radii."""
+"""Length of the shortest segments, in radii."""
 
 REST_RMS_M_S = 0.5e-3
+"""Root mean square speed below which the cables rest, in m/s: half of what gate 4 allows."""
+
 REST_FASTEST_M_S = 2.5e-3
-"""Half of what gate 4 asks for."""
+"""Speed of the fastest node below which the cables rest, in m/s: half of what gate 4 allows."""
 
 REST_S = 0.02
-"""How long the cables must have been that slow."""
+"""Time for which the cables must have been that slow, in seconds."""
 
 STICK_YOUNGS_MODULUS_PA = 2e9
-"""A stick of 0.2 m and 3 mm radius sags by 3 micrometres between its ends: no cable bends it, and no eye sees more."""
+"""Young's modulus of sticks, in pascals: a stick of 0.2 m and 3 mm radius sags by 3 micrometres between its ends, so
+cables do not visibly bend it."""
 
 STICK_DENSITY_KG_M3 = {
     StickKind.PEN: 1000.0,
@@ -38,11 +42,19 @@ STICK_DENSITY_KG_M3 = {
     StickKind.ROD: 2500.0,
     StickKind.SCREWDRIVER: 1500.0,
 }
-"""Of a full round section. A steel rod is heavier, but what no cable moves need not be as heavy as that."""
+"""Density of each kind of stick with a full round section, in kg/m3. Steel is heavier than 2,500, but cables do not
+move a lighter rod either."""
 
 
 def drop_cables(scene: Scene, fall: RodFall) -> CableShapes:
-    """Let the cables of `scene` fall.
+    """Let the cables and sticks of a scene fall until they rest or the time is over.
+
+    Args:
+        scene: sampled scene.
+        fall: settings of the solver.
+
+    Returns:
+        The shapes of the cables and sticks at the end.
 
     Raises:
         SceneError: if the solver diverges.
@@ -71,13 +83,13 @@ def drop_cables(scene: Scene, fall: RodFall) -> CableShapes:
 
 
 def rods_of(scene: Scene, fall: RodFall) -> list[Rod]:
-    """The scene's cables where they start, without stress, and after them its sticks."""
+    """Make the rods of a scene at the start: its cables, without stress, and after them its sticks."""
     cables = [_rod(cable, fall.segment_radii) for cable in scene.cables]
     return cables + [_stiff_rod(stick, fall.segment_radii) for stick in scene.sticks]
 
 
 def surroundings_of(scene: Scene) -> Surroundings:
-    """The scene's floor, friction and wind; still air if its speed is 0."""
+    """Make the floor, friction and wind of a scene; a wind of speed 0 becomes still air without drag."""
     highest = max(cable.start_height_m + cable.rise_m for cable in scene.cables)
     landing_s = float(np.sqrt(2 * highest / GRAVITY_M_S2))
     return Surroundings(
@@ -90,9 +102,16 @@ def surroundings_of(scene: Scene) -> Surroundings:
 
 
 def segment_m(radius_m: float, youngs_modulus_pa: float, density_kg_m3: float, segment_radii: float) -> float:
-    """How long segments are: so many radii, or half the length over which a rod bends under its weight if that is less.
+    """Choose the length of a rod's segments, in metres.
 
-    That length is (EI / rho g A)^(1/3). It is below eight radii only for rods much softer than any cable.
+    It is `segment_radii` radii, or half the length over which the rod bends under its weight, (EI / rho g A)^(1/3), if
+    that is less. That length is below eight radii only for rods much softer than any cable.
+
+    Args:
+        radius_m: radius of the rod, in metres.
+        youngs_modulus_pa: Young's modulus, in pascals.
+        density_kg_m3: density, in kg/m3.
+        segment_radii: length of the segments of most rods, in radii.
     """
     bending_m = (youngs_modulus_pa * radius_m**2 / (4 * density_kg_m3 * GRAVITY_M_S2)) ** (1 / 3)
     return float(min(segment_radii * radius_m, max(bending_m / 2, FINEST_RADII * radius_m)))
@@ -119,7 +138,7 @@ def _rod(cable: Cable, segment_radii: float) -> Rod:
 
 
 def _stiff_rod(stick: Stick, segment_radii: float) -> Rod:
-    """A stick as a straight rod; level, as it starts."""
+    """Make a straight, level rod of a stick."""
     radius = stick.diameter_m / 2
     segments = int(np.clip(round(stick.length_m / (segment_radii * radius)), 8, 2000))
     along = np.linspace(-0.5, 0.5, segments + 1) * stick.length_m
@@ -134,7 +153,7 @@ def _stiff_rod(stick: Stick, segment_radii: float) -> Rod:
 
 
 def curvature_at_rest(nodes: Array) -> Array:
-    """The natural curvature, (N,) 1/m, at which level nodes (N, 3) at equal distances are without stress."""
+    """Compute the natural curvature (N,), in 1/m, with which nodes (N, 3) at equal distances are free of stress."""
     edges = np.diff(nodes[:, :2], axis=0)
     cross = edges[:-1, 0] * edges[1:, 1] - edges[:-1, 1] * edges[1:, 0]
     dot = np.einsum("ij,ij->i", edges[:-1], edges[1:])
@@ -144,7 +163,7 @@ def curvature_at_rest(nodes: Array) -> Array:
 
 
 def _breeze(wind: Wind, landing_s: float) -> Breeze:
-    """Wind that blows until the highest cable has fallen: it pushes the cables while they fall, not for ever."""
+    """Make a wind that dies down after `landing_s` seconds, when the highest cable has fallen: then cables can rest."""
     bearing, tilt = np.radians(wind.bearing_deg), np.radians(wind.tilt_deg)
     direction = np.array([-np.sin(tilt) * np.cos(bearing), -np.sin(tilt) * np.sin(bearing), np.cos(tilt)])
     gusts = [(gust.share, 2 * np.pi / gust.period_s, np.radians(gust.phase_deg)) for gust in wind.gusts]

@@ -1,4 +1,4 @@
-"""The floor: which nodes it may touch, its impulses, and the heights at which it carries them."""
+"""The floor: the nodes that it may touch, its impulses on them, and the heights at which it carries them."""
 
 from worker.simulate.rod.arrays import Bodies, Integers, Motion, Scratch
 from worker.simulate.rod.bending import Operator
@@ -8,28 +8,30 @@ from worker.simulate.rod.lengths import AT_REST, FREE, IN_HEIGHT
 from worker.simulate.rod.model import Array
 
 NEAR_FLOOR_RADII = 0.25
-"""Nodes that come no nearer to the floor in a step are not asked for; others may push them down, but hardly so far."""
+"""Gap to the floor, in radii, beyond twice a node's vertical path in a step, above which the floor does not act on the
+node: other rods hardly push it that far down."""
 
 SUNK_RADII = 0.004
-"""How deep keeping the lengths may press a node into the floor before the floor is asked again."""
+"""Depth, in radii, to which keeping the lengths may press a node into the floor before the floor holds it."""
 
 
 @compiled
 def find_near_floor(
     bodies: Bodies, motion: Motion, step: float, friction: float, touching: Integers, rise: Array
 ) -> int:
-    """Find the nodes that could reach the floor in this step; the others' impulses are forgotten.
+    """Find the nodes that could reach the floor in this step, and set the floor's impulses on the others to 0.
 
     Args:
         bodies: the rods.
-        motion: `floor_impulse` is changed.
-        step: s.
+        motion: state of the rods, whose `floor_impulse` is changed.
+        step: time step, s.
         friction: Coulomb's coefficient.
-        touching: (nodes,) these nodes, ascending, are set.
-        rise: (nodes,) how fast they must rise at least, m/s, is set: to land just so, or to get out of the floor.
+        touching: (nodes,) array that gets the numbers of these nodes, ascending, from its beginning.
+        rise: (nodes,) array that gets the least upward speed of each node, m/s, with which it just lands or gets out of
+            the floor.
 
     Returns:
-        How many there are.
+        The number of these nodes.
     """
     count = 0
     for rod in range(len(bodies.length)):
@@ -51,7 +53,7 @@ def find_near_floor(
 
 @compiled
 def _dip(x: Array, i: int, first: Integers, rod: int) -> float:
-    """How far the smooth curve goes below the lower end of the segment that starts at node i, m; 0 if it does not."""
+    """Compute how far the smooth curve dips below the lower end of the segment that starts at node i, m, 0 or more."""
     if i < first[rod] or i + 1 >= first[rod + 1]:
         return 0.0
     here, there = x[2, i], x[2, i + 1]
@@ -71,7 +73,7 @@ def _vector(array: Array, i: int) -> tuple[float, float, float]:
 
 
 @compiled
-def sweep_floor(  # noqa: PLR0913, PLR0917 - out of nested tuples every access would count references
+def sweep_floor(  # noqa: PLR0913, PLR0917 - in nested tuples every access would count references
     bodies: Bodies,
     operator: Operator,
     floor_impulse: Array,
@@ -83,23 +85,23 @@ def sweep_floor(  # noqa: PLR0913, PLR0917 - out of nested tuples every access w
     stirred: Integers,
     v: Array,
 ) -> float:
-    """Give each node near the floor the impulse that it needs, one after the other.
+    """Give each node near the floor the impulse that it needs, node after node.
 
     Args:
         bodies: the rods.
-        operator: of this time step.
-        floor_impulse: (3, nodes) N s, is changed.
-        rise: (nodes,) m/s, how fast nodes must rise at least.
-        touching: those that the floor may touch.
+        operator: operator of this time step.
+        floor_impulse: (3, nodes) impulses of the floor, N s, changed in place.
+        rise: (nodes,) least upward speed of each node, m/s.
+        touching: numbers of the nodes that the floor may touch.
         friction: Coulomb's coefficient.
-        sweep: its number in this step. Every other one goes backwards.
-        small: changes below that, in m/s and summed over a rod, are not carried on to other nodes.
-        stirred: (stretches,) which sweep last changed a stretch of nodes. Nodes of those that this sweep and the one
-            before it left alone are left out.
-        v: (3, nodes) m/s, is changed by what the impulses do.
+        sweep: number of the sweep in this step; every second sweep goes backwards.
+        small: change of velocity, m/s, summed over a rod, up to which a change moves the node alone.
+        stirred: (stretches,) number of the sweep that last changed each stretch of nodes, changed in place. Nodes of
+            stretches that neither this sweep nor the one before it has changed are left out.
+        v: (3, nodes) velocities, m/s, changed in place as the impulses act.
 
     Returns:
-        The largest change, m/s, summed over a rod.
+        The largest change of velocity, m/s, summed over a rod.
     """
     owner, first, reach, coupling = bodies.owner, bodies.first, operator.reach, operator.coupling
     response, centre = operator.response, (operator.response.shape[1] - 1) // 2
@@ -130,7 +132,7 @@ def sweep_floor(  # noqa: PLR0913, PLR0917 - out of nested tuples every access w
 
 @compiled
 def hold_on_floor(bodies: Bodies, motion: Motion, scratch: Scratch, step: float, rod: int) -> None:
-    """Place a rod's nodes that the floor carries where they end the step; mark them, and pinned ones, as held."""
+    """Place the nodes of a rod that the floor carries at their final height; mark them, and pinned nodes, as held."""
     start, held = scratch.start, scratch.held
     for i in range(bodies.first[rod], bodies.first[rod + 1]):
         held[i] = AT_REST if bodies.pinned[i] else FREE
@@ -141,7 +143,7 @@ def hold_on_floor(bodies: Bodies, motion: Motion, scratch: Scratch, step: float,
 
 @compiled
 def catch_sunk(bodies: Bodies, motion: Motion, scratch: Scratch, step: float, rod: int) -> bool:
-    """Hold the nodes that keeping the lengths has pushed into the floor; returns whether there are any."""
+    """Hold the nodes of a rod that keeping the lengths has pressed into the floor; return whether there are any."""
     start, held = scratch.start, scratch.held
     radius, found = bodies.radius[rod], False
     for i in range(bodies.first[rod], bodies.first[rod + 1]):
@@ -154,7 +156,7 @@ def catch_sunk(bodies: Bodies, motion: Motion, scratch: Scratch, step: float, ro
 
 @compiled
 def let_go_pulled(bodies: Bodies, motion: Motion, scratch: Scratch, rod: int) -> bool:
-    """Let go the nodes that the floor would have to pull; returns whether there are any."""
+    """Let go of the nodes of a rod that the floor would have to pull down; return whether there are any."""
     held, load, found = scratch.held, scratch.load, False
     for i in range(bodies.first[rod], bodies.first[rod + 1]):
         if held[i] == IN_HEIGHT and motion.floor_impulse[2, i] < 0.0:

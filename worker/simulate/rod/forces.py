@@ -1,4 +1,4 @@
-"""Forces that are known at the start of a step: gravity, bending, natural curvature, tension, wind."""
+"""The forces that are known at the start of a step: gravity, bending, natural curvature, tension and wind."""
 
 import numpy as np
 
@@ -8,17 +8,20 @@ from worker.simulate.rod.model import Array
 from worker.simulate.rod.world import World, air_velocity
 
 AIR_DENSITY_KG_M3 = 1.2
-DRAG_COEFFICIENT = 1.1
-"""Of a long cylinder across the flow, Reynolds numbers from 1e2 to 1e5 (Hoerner 1965, "Fluid-Dynamic Drag", ch. 3)."""
+"""Density of air at 20 degrees Celsius and sea level, in kg/m3."""
 
+DRAG_COEFFICIENT = 1.1
+"""Drag coefficient of a long cylinder across the flow, for Reynolds numbers from 1e2 to 1e5 (Hoerner 1965,
+"Fluid-Dynamic Drag", ch. 3)."""
 
 SKIN_COEFFICIENT = 0.02
-"""Of a long cylinder along the flow, on its diameter: pi 1.328 / sqrt(Re) for a laminar skin at Re = 4e4 (ch. 2)."""
+"""Drag coefficient of a long cylinder along the flow, relative to its diameter: pi 1.328 / sqrt(Re) for a laminar skin
+at Re = 4e4 (Hoerner, ch. 2)."""
 
 
 @compiled
 def _add_gravity(bodies: Bodies, gravity: Array, force: Array) -> None:
-    """Weight of each node, N, added to `force` (3, nodes)."""
+    """Add the weight of each node to `force` (3, nodes), N."""
     for i in range(len(bodies.mass)):
         for c in range(3):
             force[c, i] += bodies.mass[i] * gravity[c]
@@ -26,7 +29,7 @@ def _add_gravity(bodies: Bodies, gravity: Array, force: Array) -> None:
 
 @compiled
 def _add_elastic(bodies: Bodies, motion: Motion, rod: int, force: Array) -> None:
-    """Bending about the natural shape."""
+    """Add the forces of a rod's bending about its natural shape to `force` (3, nodes), N."""
     first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
     x = motion.x
     stiff = bodies.stiffness[rod] / length**3
@@ -51,7 +54,7 @@ def _add_elastic(bodies: Bodies, motion: Motion, rod: int, force: Array) -> None
 
 @compiled
 def add_tension(bodies: Bodies, motion: Motion, step: float, momentum: Array) -> None:
-    """Impulse of the last step's tension along the segments as they are, N s, added to `momentum` (3, nodes)."""
+    """Add the impulse of the last step's tension along the present segments to `momentum` (3, nodes), N s."""
     x = motion.x
     for i in range(len(bodies.mass) - 1):
         if motion.tension[i] != 0.0:
@@ -64,9 +67,10 @@ def add_tension(bodies: Bodies, motion: Motion, step: float, momentum: Array) ->
 
 @compiled
 def _add_wind(bodies: Bodies, motion: Motion, air: Array, step: float, force: Array) -> None:
-    """Drag on each segment from the air's velocity across and along it: rho/2 C d l |u| u each, half to either node.
+    """Add the drag on each segment to `force` (3, nodes), N.
 
-    As it would be at the end of the step with |u| of its start, so that a light rod is not blown past the air's speed.
+    The air's velocity u across and along the segment each give rho/2 C d l |u| u, half of it to either node. The drag
+    is that of the step's end with |u| of its start, so that the wind does not make a light rod faster than the air.
     """
     x, v = motion.x, motion.v
     for i in range(len(bodies.mass) - 1):
@@ -95,13 +99,13 @@ def _add_wind(bodies: Bodies, motion: Motion, air: Array, step: float, force: Ar
 
 @compiled
 def _damped(drag: float, step: float, mass: float) -> float:
-    """A drag per speed, kg/s, such that within the step it stops a mass against the air, but does not throw it back."""
+    """Limit a drag per speed, kg/s, so that a step may stop a mass, kg, against the air, but not throw it back."""
     return drag / (1 + step * drag / mass)
 
 
 @compiled
 def _resist(bodies: Bodies, motion: Motion, slower: float, momentum: Array) -> None:
-    """Take what makes each node slower by so much, m/s, or stops it, off the momentum of rods that touch something."""
+    """Slow the nodes of rods that touch something by `slower`, m/s, or stop them, in `momentum` (3, nodes), N s."""
     for rod in range(len(bodies.length)):
         if not motion.touched[rod]:
             continue
@@ -115,7 +119,16 @@ def _resist(bodies: Bodies, motion: Motion, slower: float, momentum: Array) -> N
 
 @compiled
 def momentum_to_be(bodies: Bodies, motion: Motion, world: World, step: float, time: float, momentum: Array) -> None:
-    """M v + h f, N s: momentum and what all forces but contact and tension add to it by `time`, the end of the step."""
+    """Compute M v + h f: the momentum at the end of the step without contact and tension.
+
+    Args:
+        bodies: the rods.
+        motion: places and velocities of the rods.
+        world: gravity, wind and resistance.
+        step: time step h, s.
+        time: time at the end of the step, s.
+        momentum: (3, nodes) array that gets the momentum, N s.
+    """
     force = np.zeros(motion.x.shape)
     _add_gravity(bodies, world.gravity, force)
     for rod in range(len(bodies.length)):

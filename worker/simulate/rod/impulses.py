@@ -1,4 +1,4 @@
-"""The impulses of all contacts of a step: projected Gauss-Seidel iteration over them, in fixed order."""
+"""Finds the impulses of all contacts of a step, by projected Gauss-Seidel iteration in fixed order."""
 
 from typing import NamedTuple
 
@@ -12,33 +12,33 @@ from worker.simulate.rod.model import Array
 from worker.simulate.rod.world import World
 
 MAX_SWEEPS = 8
-"""At a time. What is missing then is made up for in the next step, which starts from these impulses."""
+"""Largest number of sweeps at a time. The next step starts from their impulses, and makes up for what is missing."""
 
 TOLERANCE_M_S = 3e-3
-"""Sweeps end when none changes velocities by more, summed over a rod: soft rods, of which some five nodes respond to a
-push, then move by a quarter of what counts as resting."""
+"""Change of velocity, summed over a rod, in m/s, below which sweeps end. About five nodes of a soft rod respond to a
+push; each then changes by a quarter of the speed that counts as rest."""
 
 ENOUGH = 0.05
-"""They also end when none changes a velocity by more than this share of what the step's first one did."""
+"""Share of the largest change in the step's first sweep below which sweeps end, if it is more than `TOLERANCE_M_S`."""
 
 SMALL_CHANGE_M_S = 1e-4
-"""A change of velocity is not carried on within the sweeps if over all nodes of a rod it adds up to less: many small
-ones move a stiff rod as a whole."""
+"""Change of velocity, summed over a rod, in m/s, up to which sweeps do not pass a change on to other nodes. It is
+small, as many small changes move a stiff rod as a whole."""
 
 SMALL_SHARE = 0.05
-"""Nor if it is less than this share of the change below which sweeps end."""
+"""Share of the change below which sweeps end, up to which they do not pass a change on either."""
 
 
 class Touch(NamedTuple):
-    """What touches in this step.
+    """The contacts of this step, between rods and with the floor.
 
-    Loops take its parts as arguments: out of a nested tuple, compiled code would count references at every access.
+    Loops take its parts as arguments: compiled code would count references at every access to a nested tuple.
 
     Attributes:
-        contacts: between rods, the first `pairs` of them.
-        pairs: how many.
-        impulse: (candidates, 3) N s, of all pairs that may touch.
-        floor: nodes that the floor may touch.
+        contacts: contacts between rods, at the beginning of their arrays.
+        pairs: number of contacts between rods.
+        impulse: (candidates, 3) impulse of each pair that may touch, N s.
+        floor: numbers of the nodes that the floor may touch.
     """
 
     contacts: Contacts
@@ -48,7 +48,7 @@ class Touch(NamedTuple):
 
 
 @compiled
-def _sweep_contacts(  # noqa: PLR0913, PLR0917 - out of nested tuples every access would count references
+def _sweep_contacts(  # noqa: PLR0913, PLR0917 - in nested tuples every access would count references
     owner: Integers,
     coupling: Array,
     contacts: Contacts,
@@ -60,23 +60,23 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - out of nested tuples every acce
     stirred: Integers,
     v: Array,
 ) -> float:
-    """Give each contact between rods the impulse that it needs, one after the other.
+    """Give each contact between rods the impulse that it needs, contact after contact.
 
     Args:
-        owner: (nodes,) the rod of each node.
-        coupling: (rods,) how much a push moves a whole rod; see `worker.simulate.rod.bending`.
-        contacts: of this step, the first `pairs` of them.
-        pairs: how many.
-        impulses: (candidates, 3) N s, is changed.
+        owner: (nodes,) number of each node's rod.
+        coupling: (rods,) sum of all nodes' changes of velocity; see `worker.simulate.rod.bending.Operator`.
+        contacts: contacts of this step, at the beginning of their arrays.
+        pairs: number of contacts.
+        impulses: (candidates, 3) impulse of each pair that may touch, N s, changed in place.
         friction: Coulomb's coefficient.
-        sweep: its number in this step. Every other one goes backwards.
-        small: smaller changes, in m/s and summed over a rod, are not made.
-        stirred: (stretches,) which sweep last changed a stretch of nodes. Contacts between two that this sweep and the
-            one before it left alone are left out.
-        v: (3, nodes) m/s, is changed by what the impulses do.
+        sweep: number of the sweep in this step; every second sweep goes backwards.
+        small: change of velocity, m/s, summed over a rod, up to which a change is not made.
+        stirred: (stretches,) number of the sweep that last changed each stretch of nodes, changed in place. Contacts
+            between stretches that neither this sweep nor the one before it has changed are left out.
+        v: (3, nodes) velocities, m/s, changed in place as the impulses act.
 
     Returns:
-        The largest change, m/s, summed over a rod.
+        The largest change of velocity, m/s, summed over a rod.
     """
     base, weights, normal, compliance = contacts.base, contacts.weights, contacts.normal, contacts.compliance
     worst = 0.0
@@ -118,7 +118,7 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - out of nested tuples every acce
 
 @compiled
 def _add_impulses(impulse: Array, contacts: Contacts, pairs: int, load: Array) -> None:
-    """Add the impulses between rods, (candidates, 3) N s, to `load` (3, nodes)."""
+    """Add the impulses between rods, (candidates, 3) N s, to `load` (3, nodes), N s."""
     for n in range(pairs):
         pair, i, j = contacts.pair[n], contacts.base[0, n], contacts.base[1, n]
         for k in range(4):
@@ -129,7 +129,10 @@ def _add_impulses(impulse: Array, contacts: Contacts, pairs: int, load: Array) -
 
 @compiled
 def _velocities(bodies: Bodies, operator: Operator, motion: Motion, load: Array, v: Array) -> None:
-    """What velocities a load, in N s, gives to the rods with the tension that they have; lengths are not kept."""
+    """Compute the velocities `v`, m/s, that a load, N s, and the present tension give, both (3, nodes).
+
+    Lengths are not kept.
+    """
     v[:] = load
     add_tension(bodies, motion, operator.step, v)
     for i in range(len(bodies.mass)):
@@ -141,14 +144,14 @@ def _velocities(bodies: Bodies, operator: Operator, motion: Motion, load: Array,
 
 @compiled
 def predict(bodies: Bodies, operator: Operator, motion: Motion, touch: Touch, scratch: Scratch) -> None:
-    """Velocities at the end of the step if all impulses and tensions were those of the step before.
+    """Predict the velocities at the end of the step with all impulses and tensions of the step before.
 
     Args:
         bodies: the rods.
-        operator: of this time step.
-        motion: where they are, and their tension.
-        touch: what touches.
-        scratch: `momentum` is read; `load` and `v` receive it with all impulses, and the velocities that it gives.
+        operator: operator of this time step.
+        motion: places and tension of the rods, and the floor's impulses.
+        touch: contacts of this step.
+        scratch: arrays of the step: `momentum` is read; `load` gets it with all impulses, and `v` the velocities.
     """
     gather_load(motion, touch, scratch)
     _velocities(bodies, operator, motion, scratch.load, scratch.v)
@@ -156,7 +159,7 @@ def predict(bodies: Bodies, operator: Operator, motion: Motion, touch: Touch, sc
 
 @compiled
 def gather_load(motion: Motion, touch: Touch, scratch: Scratch) -> None:
-    """Put `momentum` and the impulses of all contacts, N s, into `load`."""
+    """Set `scratch.load` to `scratch.momentum` with the impulses of all contacts, N s."""
     for c in range(3):
         for i in range(scratch.load.shape[1]):
             scratch.load[c, i] = scratch.momentum[c, i] + motion.floor_impulse[c, i]
@@ -174,21 +177,20 @@ def correct(
     done: int,
     tolerance: float,
 ) -> tuple[int, float]:
-    """Sweep over the contacts until their impulses hardly change.
+    """Sweep over the contacts until their impulses hardly change, at most `MAX_SWEEPS` times.
 
     Args:
         bodies: the rods.
-        operator: of this time step.
-        motion: `floor_impulse` is changed.
-        world: how strong friction is.
-        touch: what touches; `impulse` is changed.
-        scratch: `v` is changed by what the impulses' changes do nearby. Contacts where neither this sweep nor the one
-            before it has `stirred` anything are left alone.
-        done: sweeps of this step so far.
-        tolerance: what this returned before, m/s; 0 in the step's first call.
+        operator: operator of this time step.
+        motion: state of the rods, whose `floor_impulse` is changed.
+        world: coefficients of friction.
+        touch: contacts of this step, whose `impulse` is changed.
+        scratch: arrays of the step, whose `v` and `stirred` are changed: the impulses act on the nodes nearby.
+        done: number of sweeps in this step so far.
+        tolerance: change of velocity, m/s, that the last call returned; 0 in the step's first call.
 
     Returns:
-        The sweeps of this step so far, and the change of velocity below which they end.
+        The number of sweeps in this step so far, and the change of velocity, m/s, below which they end.
     """
     last = done + MAX_SWEEPS
     while done < last:
@@ -228,7 +230,7 @@ def correct(
 
 @compiled
 def work_of_depenetration(motion: Motion, touch: Touch, rise: Array) -> float:
-    """What the impulses of a step do at most, J, by pushing apart what had cut into each other."""
+    """Bound the work, J, by which the impulses of a step push apart rods and floor that have cut into each other."""
     contacts, total = touch.contacts, 0.0
     for n in range(touch.pairs):
         if contacts.approach[n] > 0.0:
@@ -242,7 +244,7 @@ def work_of_depenetration(motion: Motion, touch: Touch, rise: Array) -> float:
 
 @compiled
 def find_touched(bodies: Bodies, motion: Motion, touch: Touch) -> None:
-    """Note which rods were pushed by anything in this step."""
+    """Note in `motion.touched` which rods the floor or another rod has pushed in this step."""
     motion.touched[:] = False
     for i in touch.floor:
         if motion.floor_impulse[2, i] > 0.0:
@@ -256,7 +258,13 @@ def find_touched(bodies: Bodies, motion: Motion, touch: Touch) -> None:
 
 @compiled
 def worst_miss(contacts: Contacts, pairs: int, v: Array) -> float:
-    """How much faster rods approach at velocities `v` (3, nodes) than any of the first `pairs` contacts allows, m/s."""
+    """Compute the largest excess of an approach over what its contact allows, m/s, 0 or more.
+
+    Args:
+        contacts: contacts between rods, at the beginning of their arrays.
+        pairs: number of contacts.
+        v: (3, nodes) velocities, m/s.
+    """
     base, weights, normal = contacts.base, contacts.weights, contacts.normal
     worst = 0.0
     for n in range(pairs):

@@ -1,20 +1,20 @@
-"""Length: each segment keeps its own, exactly, while the step stays implicit Euler as a whole.
+"""Keeps the length of each segment exactly, while the step as a whole stays implicit Euler.
 
-The end of a step obeys A (x - x0) = h p + h^2 F, with p the momentum and impulses of all but the tension and F the
-tension of each segment along the mean of its edge before and after the step. That direction does no work, whatever the
-tension: (e0 + e1) . (e1 - e0) = |e1|^2 - |e0|^2 = 0. (Along the new edge, compression would feed energy in; along the
-old one, tension would.) Newton's method solves for all nodes and tensions of a rod at once:
+The end of a step obeys A (x - x0) = h p + h^2 F. Here p is the momentum with all impulses but those of the tension, and
+F is the tension of each segment along the mean of its edges before and after the step. Tension along that direction
+does no work: (e0 + e1) . (e1 - e0) = |e1|^2 - |e0|^2 = 0. (Along the new edge compression would add energy, along the
+old edge tension would.) Newton's method solves for all nodes and tensions of a rod at once:
 
     [A + G  J^T] [dx]   [ residual ]
     [J       0 ] [ y] = [    -C    ]
 
-with C = |e1| - l, J the mean directions, y the change of tension times h^2, and G the stiffness that tension adds,
-where it pulls. A node couples with two on either side when each multiplier stands at the second of its nodes, and
-elimination needs no pivoting, as each multiplier comes after the coordinates that it acts on. It is the "fast
-projection" of Goldenthal et al. 2007 ("Efficient simulation of inextensible cloth") with bending in the metric and
-momentum kept.
+with C = |e1| - l, J the mean directions, y the change of tension times h^2, and G the stiffness that tension adds where
+it pulls. Each multiplier belongs to the second node of its segment: then a node couples with two nodes on either side,
+and elimination needs no pivoting, as each multiplier comes after the coordinates on which it acts. This is the "fast
+projection" of Goldenthal et al. 2007 ("Efficient simulation of inextensible cloth"), with bending in the metric, and
+with the momentum kept.
 
-Nodes that the floor carries are held at their height meanwhile: an upright rod that lands is stopped as a whole.
+Nodes that the floor carries are held at their height meanwhile, so that an upright rod that lands stops as a whole.
 """
 
 from typing import NamedTuple
@@ -29,30 +29,32 @@ from worker.simulate.rod.compiled import compiled
 from worker.simulate.rod.model import Array
 
 TOLERANCE = 1e-8
-"""Of a segment's strain."""
+"""Largest strain of a segment at the end of a step."""
 
 BALANCE_TOLERANCE_M_S = 2e-6
-"""Of a node's speed, if all that its momentum lacks were to move it alone: a stiff rod moves so as a whole."""
+"""Largest imbalance of a node's momentum over its mass, in m/s: a stiff rod as a whole then errs by this speed."""
 
 FREE, IN_HEIGHT, AT_REST = 0, 1, 2
+"""Ways in which a node is held while lengths are kept: not at all, at its height, and in its place."""
 
 MAX_ITERATIONS = 12
+"""Newton iterations after which lengths count as not kept."""
 
 PADDING = 2
-"""Zeros after a rod's last node, for the nodes that others would couple with."""
+"""Number of zeros after a rod's last node, in place of the nodes with which the last ones would couple."""
 
 
 class Work(NamedTuple):
-    """What is computed for a rod.
+    """Arrays for the computation of a rod.
 
     Attributes:
-        free: (4, nodes + PADDING) 0.0 for coordinates that are held and multipliers that have nothing to act on, else
-            1.0. The multiplier at each node is that of the segment that ends there.
-        mean: (3, nodes) direction of the segment that starts at each node, before and after the step.
-        excess: (nodes,) by how much that segment is too long, m.
-        moved: (nodes + PADDING,) how far the nodes have moved in the step, in one direction, m.
-        lack: (3, nodes) what the nodes' balance of momentum lacks, kg m, at the places of the nodes.
-        rows: (nodes, ROW) the equations.
+        free: (4, nodes + PADDING) 0.0 for coordinates that are held, and for multipliers that act on no free node, else
+            1.0; the multiplier at each node is that of the segment that ends there.
+        mean: (3, nodes) mean of the directions, before and after the step, of the segment that starts at each node.
+        excess: (nodes,) length by which that segment is too long, m.
+        moved: (nodes + PADDING,) distance by which each node has moved in the step along one axis, m.
+        lack: (3, nodes) imbalance of each node's momentum times the time step, kg m.
+        rows: (nodes, ROW) equations; see `worker.simulate.rod.banded`.
     """
 
     free: Array
@@ -65,7 +67,7 @@ class Work(NamedTuple):
 
 @compiled
 def room_for_system(nodes: int) -> Array:
-    """Room for the equations of a rod of so many nodes."""
+    """Make one array for all arrays of `Work`, for a rod with `nodes` nodes or fewer."""
     return np.empty((ROW + 3 + 1 + 3) * nodes + (4 + 1) * (nodes + PADDING))
 
 
@@ -84,7 +86,7 @@ def _parts(room: Array, nodes: int) -> Work:
 
 @compiled
 def _find_free(held: NDArray[np.int8], work: Work) -> None:
-    """What the equations leave out."""
+    """Find the coordinates and multipliers that are free, from the nodes' holds (nodes,); set `work.free`."""
     free, nodes = work.free, len(held)
     free[:, nodes:] = 0.0
     work.moved[nodes:] = 0.0
@@ -98,7 +100,7 @@ def _find_free(held: NDArray[np.int8], work: Work) -> None:
 
 @compiled
 def _directions(bodies: Bodies, start: Array, x: Array, rod: int, slack: float, work: Work) -> int:
-    """Mean direction and excess length of each segment; returns how many have not kept their length."""
+    """Compute the mean direction and excess length of a rod's segments; return how many do not have their length."""
     first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
     segments, excess, acts = end - first - 1, work.excess, work.free[3, 1:]
     excess[:] = 0.0
@@ -119,10 +121,10 @@ def _directions(bodies: Bodies, start: Array, x: Array, rod: int, slack: float, 
 def _imbalance(
     bodies: Bodies, operator: Operator, motion: Motion, start: Array, load: Array, rod: int, slack: float, work: Work
 ) -> int:
-    """What the balance of momentum lacks; returns in how many coordinates nodes are not where momentum takes them."""
+    """Compute the imbalance of each node's momentum; return the number of free coordinates in which it is too large."""
     first, end = bodies.first[rod], bodies.first[rod + 1]
     h, nodes, moved = operator.step, end - first, work.moved
-    # The last two are zero where there is no node to couple with.
+    # `beside` and `beyond` are zero where there is no node to couple with.
     diagonal, beside, beyond = operator.bands[0, first:end], operator.bands[1, first:end], operator.bands[2, first:end]
     tension, mass, limit = motion.tension[first:end], bodies.mass[first:end], slack * BALANCE_TOLERANCE_M_S * h
     wrong = 0
@@ -146,7 +148,7 @@ def _imbalance(
 
 @compiled
 def _assemble(bodies: Bodies, operator: Operator, motion: Motion, rod: int, work: Work) -> None:
-    """Fill in the equations of what is free; what is held gets those of not moving."""
+    """Fill in a rod's equations; those of a held coordinate say that it does not move."""
     first, end = bodies.first[rod], bodies.first[rod + 1]
     free, mean, rows, nodes = work.free, work.mean, work.rows, end - first
     diagonal, beside, beyond = operator.bands[0, first:end], operator.bands[1, first:end], operator.bands[2, first:end]
@@ -170,7 +172,7 @@ def _assemble(bodies: Bodies, operator: Operator, motion: Motion, rod: int, work
 
 @compiled
 def _move(bodies: Bodies, operator: Operator, motion: Motion, rod: int, rows: Array) -> None:
-    """Add the solution to the places and the tension."""
+    """Add the solution of a rod's equations to its places and its tension."""
     first, end = bodies.first[rod], bodies.first[rod + 1]
     scale = 1.0 / (operator.step * operator.step)
     for c in range(3):
@@ -184,21 +186,22 @@ def _move(bodies: Bodies, operator: Operator, motion: Motion, rod: int, rows: Ar
 
 @compiled
 def keep_lengths(bodies: Bodies, operator: Operator, motion: Motion, scratch: Scratch, rod: int, slack: float) -> int:
-    """Move a rod's nodes to where they are at the end of the step, and find its tension.
+    """Move a rod's nodes to their places at the end of the step, and find its tension.
 
     Args:
         bodies: the rods.
-        operator: of this time step.
-        motion: `x` is a guess of the end, `tension` that of the step before; both are changed. So is the height's
-            part of `floor_impulse`, where nodes are held, to what holding them takes, be it a pull.
-        scratch: `start`; `load`, the momentum and impulses of all forces but tension, changed with `floor_impulse`;
-            `held`, which nodes stay where `x` has them: `FREE`, `IN_HEIGHT`, or `AT_REST` in all directions, as pinned
-            nodes do.
-        rod: which.
-        slack: how many times the tolerances will do for now.
+        operator: operator of this time step.
+        motion: state of the rods. `x` is a guess of the end, and `tension` that of the step before; both are changed.
+            For nodes that are held at their height, `floor_impulse` gets the vertical impulse that holds them, which
+            may be a pull.
+        scratch: arrays of the step: `start`; `load`, momentum with all impulses but those of the tension, which changes
+            with `floor_impulse`; and `held`, which nodes stay where `x` has them: `FREE`, `IN_HEIGHT`, or `AT_REST`,
+            as pinned nodes do.
+        rod: number of the rod.
+        slack: multiple of the tolerances that is enough for now.
 
     Returns:
-        Newton iterations; MAX_ITERATIONS + 1 if they did not converge.
+        The number of Newton iterations; MAX_ITERATIONS + 1 if they did not converge.
     """
     first, end = bodies.first[rod], bodies.first[rod + 1]
     start, load, held = scratch.start, scratch.load, scratch.held[first:end]

@@ -1,4 +1,4 @@
-"""Time steps, one after the other, until the rods rest or something else is due."""
+"""Makes time steps until the rods rest, or until something must change before the next one."""
 
 from enum import IntEnum
 from typing import NamedTuple
@@ -21,11 +21,11 @@ from worker.simulate.rod.tally import CONTACTS, LISTS, STEPS, Tally
 from worker.simulate.rod.world import World
 
 WARY_STEPS = 16
-"""So many steps are made after one for which no sound end was found before a greater one is tried."""
+"""Number of steps after one without a sound end, before a larger time step is tried again."""
 
 
 class Outcome(IntEnum):
-    """Why `march` returned."""
+    """The reason for which `march` returns."""
 
     STEPS_DONE = 0
     RESTED = 1
@@ -36,18 +36,18 @@ class Outcome(IntEnum):
 
 
 class Bounds(NamedTuple):
-    """When `march` returns.
+    """The bounds at which `march` returns.
 
     Attributes:
-        steps: made at most.
-        rest_rms: root mean square speed below which the rods rest, m/s.
-        rest_fastest: largest speed below which they do, m/s.
-        rest_s: how long they must have rested, s.
-        horizon: how long before rods land they count as landing, s; whatever the time step is.
-        most_move: how far nodes may move in a step against others that they may meet, m; inf if no smaller step can be
-            had.
-        few_move: how little they must move for a greater step, m; negative if none can be had.
-        finest: whether no smaller step can be had.
+        steps: largest number of steps.
+        rest_rms: root mean square speed up to which the rods rest, m/s.
+        rest_fastest: speed of the fastest node up to which the rods rest, m/s.
+        rest_s: time for which they must have rested, s.
+        horizon: time before their landing from which rods count as landing, s, whatever the time step is.
+        most_move: largest movement of a node in a step while others may be in its way, m; inf if the time step can't be
+            made smaller.
+        few_move: movement below which the time step may be larger, m; negative if it can't be made larger.
+        finest: whether the time step can't be made smaller.
     """
 
     steps: int
@@ -74,25 +74,25 @@ def march(
 
     Args:
         bodies: the rods.
-        operator: of the time step.
-        motion: changed in place.
-        world: what acts on them.
-        candidates: pairs that may touch; a new list is made when it is out of date.
-        tally: counts on.
-        bounds: when to return.
+        operator: operator of the time step.
+        motion: state of the rods, changed in place.
+        world: forces and surfaces that act on them.
+        candidates: pairs that may touch; a new list replaces one that is no longer valid.
+        tally: counts, which are added to.
+        bounds: bounds at which to return.
 
     Returns:
-        The value of an `Outcome`, and the candidates.
+        The value of an `Outcome`, and the present list of candidates.
     """
     smallest, step = bodies.radius.min(), operator.step
     scratch = _room(len(bodies.mass))
     contacts = room_for_contacts(len(candidates.one) + 1, operator)
     for _ in range(bounds.steps):
         landing = world.floor and _is_landing(bodies, motion, bounds.horizon)
-        # Rods that fall together do not meet; but some land before others.
+        # Rods that fall together do not meet, until the first of them lands.
         frame = np.zeros(3) if landing else middle_of(motion.v)
         move = step * _fastest(motion.v, frame)
-        # Both of a pair may move, and gravity adds to it within the step.
+        # Both rods of a pair may move, and gravity adds to it within the step.
         near = 2 * move + 0.1 * smallest
         find_bulge(bodies, motion.x, scratch.bulge)
         find_reach(bodies, motion.v, frame, step, near, scratch.bulge, scratch.reach)
@@ -122,7 +122,7 @@ def march(
 
 @compiled
 def prestress(bodies: Bodies, operator: Operator, motion: Motion, world: World) -> None:
-    """Find the tension that balances the rods where they start: a curved rod at rest is under some."""
+    """Set `motion.tension` to the tension that balances the rods at the start: a curved rod at rest has some."""
     scratch = _room(len(bodies.mass))
     momentum_to_be(bodies, motion, world, operator.step, 0.0, scratch.load)
     scratch.start[:] = motion.x
@@ -180,7 +180,7 @@ def _count(tally: Tally, step: float, pairs: int) -> None:
 
 @compiled
 def _is_landing(bodies: Bodies, motion: Motion, horizon: float) -> bool:
-    """Whether a node may meet the floor within a time, in s."""
+    """Whether a node may meet the floor within a time `horizon`, s."""
     for i in range(len(bodies.owner)):
         if motion.x[2, i] - bodies.radius[bodies.owner[i]] + horizon * motion.v[2, i] < 0.0:
             return True
@@ -189,7 +189,7 @@ def _is_landing(bodies: Bodies, motion: Motion, horizon: float) -> bool:
 
 @compiled
 def _fastest(v: Array, frame: Array) -> float:
-    """Largest speed, m/s, against a frame that moves at a velocity, (3,)."""
+    """Compute the largest speed, m/s, of nodes with velocities (3, nodes) relative to a velocity `frame` (3,)."""
     worst = 0.0
     for i in range(v.shape[1]):
         ax, ay, az = v[0, i] - frame[0], v[1, i] - frame[1], v[2, i] - frame[2]
@@ -199,7 +199,7 @@ def _fastest(v: Array, frame: Array) -> float:
 
 @compiled
 def _speeds(v: Array) -> tuple[float, float]:
-    """Root mean square and largest speed."""
+    """Compute the root mean square speed and the largest one, m/s, of velocities (3, nodes)."""
     total = worst = 0.0
     for i in range(v.shape[1]):
         squared = v[0, i] ** 2 + v[1, i] ** 2 + v[2, i] ** 2

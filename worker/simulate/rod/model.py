@@ -1,4 +1,4 @@
-"""What the rod solver takes: rods, and the world that they fall in. SI units throughout."""
+"""The input of the rod solver: rods, and the surroundings in which they fall. All units are SI."""
 
 from dataclasses import dataclass
 
@@ -15,13 +15,13 @@ class Rod:
     """One round, inextensible, elastic rod.
 
     Attributes:
-        nodes_m: (N, 3), N >= 4: where it starts. All segments have the length of the first.
-        radius_m: of its section.
-        youngs_modulus_pa: its bending stiffness is E pi r^4 / 4.
-        density_kg_m3: its mass per length is rho pi r^2.
-        natural_curvature_per_m: (N,) about the vertical axis, anticlockwise as seen from above along the rod, as
-            tan(theta) / l at each node, theta the angle between its segments and l their length; None: straight.
-        pinned: (N,) which nodes are held where they start; None: none.
+        nodes_m: (N, 3) metres, N >= 4, places of the nodes at the start. All segments have the length of the first.
+        radius_m: radius of the section, in metres.
+        youngs_modulus_pa: Young's modulus E, in pascals; the bending stiffness is E pi r^4 / 4.
+        density_kg_m3: density rho, in kg/m3; the mass per length is rho pi r^2.
+        natural_curvature_per_m: (N,) natural curvature about the vertical axis, in 1/m, anticlockwise seen from above:
+            tan(theta) / l at each node, with theta the angle between its segments and l their length. None is straight.
+        pinned: (N,) whether a node is held in its place; None holds no node.
     """
 
     nodes_m: Array
@@ -33,28 +33,28 @@ class Rod:
 
     @property
     def bending_stiffness_n_m2(self) -> float:
-        """EI."""
+        """Bending stiffness EI of the full round section, in N m^2."""
         return float(self.youngs_modulus_pa * np.pi * self.radius_m**4 / 4)
 
     @property
     def mass_per_length_kg_m(self) -> float:
-        """Density times section."""
+        """Mass per length, in kg/m: density times the area of the section."""
         return float(self.density_kg_m3 * np.pi * self.radius_m**2)
 
     @property
     def segment_length_m(self) -> float:
-        """Rest length of each segment."""
+        """Length of each segment, in metres."""
         return float(np.linalg.norm(self.nodes_m[1] - self.nodes_m[0]))
 
 
 @dataclass(frozen=True, slots=True)
 class Breeze:
-    """A wind, the same everywhere, that dies down.
+    """A wind that is the same everywhere, and dies down.
 
     Attributes:
-        velocity_m_s: (3,) mean velocity of the air.
-        gusts: (K, 3): share of the mean, angular frequency in rad/s and phase in rad of each swing.
-        until_s: when it begins to die down; it is calm 0.1 s later.
+        velocity_m_s: (3,) mean velocity of the air, in m/s.
+        gusts: (K, 3) amplitude as a share of the mean, angular frequency in rad/s and phase in rad of each oscillation.
+        until_s: time at which the wind begins to die down, in seconds; it is calm 0.1 s later.
     """
 
     velocity_m_s: Array
@@ -64,17 +64,19 @@ class Breeze:
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """What acts on the rods.
+    """The forces and surfaces that act on the rods.
 
     Attributes:
-        gravity_m_s2: (x, y, z).
-        floor: whether there is one, at z = 0.
-        friction_floor: Coulomb's coefficient of a rod on the floor.
-        friction_rods: the same between rods.
-        damping_s: bending stress is E (strain + damping_s * strain rate): Kelvin and Voigt's internal damping.
-        resistance: dry resistance to any motion of a rod that touches something, as a share of its weight: what rolling
-            and the friction between a cable's strands take. Without it a rod that rocks upon another never stops.
-        breeze: the wind, or None for still air without drag.
+        gravity_m_s2: gravity (x, y, z), in m/s2.
+        floor: whether there is a floor at z = 0.
+        friction_floor: Coulomb's coefficient of friction between a rod and the floor.
+        friction_rods: Coulomb's coefficient of friction between two rods.
+        damping_s: time constant of the internal damping (Kelvin-Voigt), in seconds: the bending stress is
+            E (strain + damping_s * strain rate).
+        resistance: dry resistance to any motion of a rod that touches something, as a share of its weight. It stands
+            for rolling and for the friction between a cable's strands; without it a rod that rocks on another never
+            stops.
+        breeze: wind; None for still air without drag.
     """
 
     gravity_m_s2: tuple[float, float, float] = (0.0, 0.0, -GRAVITY_M_S2)

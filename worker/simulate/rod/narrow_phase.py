@@ -1,7 +1,7 @@
-"""Which of the candidates are near enough in a step to be contacts.
+"""Finds the candidate pairs that are near enough in a step to be contacts.
 
-A node's reach in a step is how far around it contact must be looked for: segments that are near in this step are no
-farther apart than the reaches of their nodes together.
+A node's reach in a step is the distance around it within which contact must be looked for: two segments that are near
+in this step are no farther apart than the sum of their nodes' reaches.
 """
 
 import numpy as np
@@ -12,20 +12,21 @@ from worker.simulate.rod.compiled import compiled
 from worker.simulate.rod.model import Array
 
 APPROACH_SHARE = 1.5
-"""Of their way against each other in a step, within which segments count as near."""
+"""Distance of two surfaces within which segments count as near, as a multiple of their relative movement in a step."""
 
 NEARBY_SHARE = 0.05
-"""Of the margin within which a pair counts as near although it does not approach."""
+"""Distance of two surfaces within which segments count as near without approaching, as a share of the margin."""
 
 SPARE_SHARE = 0.1
-"""Of the smaller radius, within which a pair counts as near in any case."""
+"""Distance of two surfaces within which segments always count as near, as a share of the smaller radius."""
 
 
 @compiled
 def find_bulge(bodies: Bodies, x: Array, bulge: Array) -> None:
-    """Find how far the smooth curve leaves the chords at each node at most, (nodes,) m.
+    """Set `bulge` (nodes,) to the largest distance of the smooth curve from its chords at each node, m.
 
-    At fraction t the curve is off its chord by t (1 - t) / 2 times the mean of the second differences of its ends.
+    At a share t of a segment, the curve's distance from the chord is t (1 - t) / 2 times the mean of the second
+    differences at the two ends.
     """
     first, length = bodies.first, bodies.length
     for rod in range(len(length)):
@@ -34,33 +35,33 @@ def find_bulge(bodies: Bodies, x: Array, bulge: Array) -> None:
             dx = x[0, i - 1] - 2 * x[0, i] + x[0, i + 1]
             dy = x[1, i - 1] - 2 * x[1, i] + x[1, i + 1]
             dz = x[2, i - 1] - 2 * x[2, i] + x[2, i + 1]
-            # No more than of a rod folded back upon itself.
+            # A rod that is folded back on itself has the largest bulge.
             bulge[i] = min(np.sqrt(dx * dx + dy * dy + dz * dz) / 8, length[rod] / 4)
 
 
 @compiled
 def find_reach(bodies: Bodies, v: Array, frame: Array, step: float, margin: float, bulge: Array, reach: Array) -> None:
-    """Find how far around each node contact must be looked for in a step, in m.
+    """Find the distance around each node within which contact must be looked for in a step.
 
     Args:
         bodies: the rods.
-        v: (3, nodes) m/s.
+        v: (3, nodes) velocities, m/s.
         frame: (3,) velocity that all rods share, m/s.
-        step: s.
-        margin: how far apart surfaces may be that are still looked at, m.
-        bulge: (nodes,) how far the curve leaves the chords, m.
-        reach: (nodes,) is set.
+        step: time step, s.
+        margin: largest distance of two surfaces that may count as near, m.
+        bulge: (nodes,) largest distance of the curve from its chords, m.
+        reach: (nodes,) array that gets the distances, m.
     """
     owner, radius = bodies.owner, bodies.radius
     for i in range(len(owner)):
         vx, vy, vz = v[0, i] - frame[0], v[1, i] - frame[1], v[2, i] - frame[2]
         way = APPROACH_SHARE * step * np.sqrt(vx * vx + vy * vy + vz * vz)
-        # Two of a pair share the margin and what is to spare.
+        # The two segments of a pair share the margin and the spare distance.
         reach[i] = (1 + 0.5 * SPARE_SHARE) * radius[owner[i]] + way + 0.5 * NEARBY_SHARE * margin + bulge[i]
 
 
 @compiled
-def find_near(  # noqa: PLR0913, PLR0917 - all of it is needed for each pair
+def find_near(  # noqa: PLR0913, PLR0917 - each pair needs all of them
     bodies: Bodies,
     motion: Motion,
     candidates: Candidates,
@@ -71,21 +72,22 @@ def find_near(  # noqa: PLR0913, PLR0917 - all of it is needed for each pair
     near: Integers,
     at: Array,
 ) -> int:
-    """Find the candidates that may touch in this step; the others' impulses are forgotten.
+    """Find the candidate pairs that may touch in this step, and set the impulses of the others to 0.
 
     Args:
         bodies: the rods.
-        motion: where they are, and how fast.
-        candidates: what they remember is changed.
-        bulge: (nodes,) how far the curve leaves the chords, m.
-        reach: (nodes,) of each node in this step, m.
-        step: s.
-        margin: how far apart surfaces may be that are still looked at, m.
-        near: (pairs,) their numbers, ascending, are set.
-        at: (2, pairs) where on their segments they are closest, in [0, 1], is set.
+        motion: places and velocities of the rods.
+        candidates: pairs that may touch; their memory changes.
+        bulge: (nodes,) largest distance of the curve from its chords, m.
+        reach: (nodes,) reach of each node in this step, m.
+        step: time step, s.
+        margin: largest distance of two surfaces that may count as near, m.
+        near: (pairs,) array that gets the numbers of the pairs found, ascending, from its beginning.
+        at: (2, pairs) array that gets the place on each segment that is closest to the other one, as a share of its
+            length, 0 to 1.
 
     Returns:
-        How many there are.
+        The number of pairs found.
     """
     x, v, owner, radius = motion.x, motion.v, bodies.owner, bodies.radius
     one, other, normal, impulse = candidates.one, candidates.other, candidates.normal, candidates.impulse
@@ -110,20 +112,20 @@ def find_near(  # noqa: PLR0913, PLR0917 - all of it is needed for each pair
 
 @compiled
 def _near(one: float, other: float, way: float, margin: float) -> float:
-    """How near the axes of two segments must come to each other to count as near, m.
+    """Compute the distance of two segments' axes up to which they count as near, m.
 
     Args:
-        one: radius of one, m.
-        other: radius of the other, m.
-        way: how far they move against each other in the step, m.
-        margin: how far apart surfaces may be that are still looked at, m.
+        one: radius of one segment, m.
+        other: radius of the other segment, m.
+        way: relative movement of the two in the step, m.
+        margin: largest distance of two surfaces that may count as near, m.
     """
     return one + other + SPARE_SHARE * min(one, other) + min(margin, APPROACH_SHARE * way + NEARBY_SHARE * margin)
 
 
 @compiled
 def _between(x: Array, i: int, j: int, s: float, t: float) -> tuple[float, float, float]:
-    """The way from fraction t of segment j to fraction s of segment i; or, of velocities, the relative one."""
+    """Compute the vector from share t of segment j to share s of segment i; from velocities, the relative velocity."""
     return (
         x[0, i] + s * (x[0, i + 1] - x[0, i]) - x[0, j] - t * (x[0, j + 1] - x[0, j]),
         x[1, i] + s * (x[1, i + 1] - x[1, i]) - x[1, j] - t * (x[1, j + 1] - x[1, j]),
@@ -138,7 +140,7 @@ def _norm(a: tuple[float, float, float]) -> float:
 
 @compiled
 def _spheres(x: Array, reach: Array) -> Array:
-    """(nodes, 4): middle of the segment that starts at each node, and radius of a sphere around its nodes' reach."""
+    """Make the sphere around each segment and its nodes' reach, (nodes, 4): middle and radius, by its first node."""
     spheres = np.zeros((x.shape[1], 4))
     for i in range(x.shape[1] - 1):
         squared = 0.0
@@ -151,7 +153,19 @@ def _spheres(x: Array, reach: Array) -> Array:
 
 @compiled
 def _meet(spheres: Array, one: Integers, other: Integers, normal: Array, impulse: Array, near: Integers) -> int:
-    """Find the pairs whose spheres meet; the others only remember where they are. Returns how many there are."""
+    """Find the pairs whose spheres meet; the others get their present direction as memory, and no impulse.
+
+    Args:
+        spheres: (nodes, 4) middle and radius of the sphere around each segment, m.
+        one: (pairs,) number of the first segment's first node.
+        other: (pairs,) number of the second segment's first node.
+        normal: (pairs, 3) remembered directions, changed in place.
+        impulse: (pairs, 3) impulses, N s, changed in place.
+        near: (pairs,) array that gets the numbers of the pairs found, ascending, from its beginning.
+
+    Returns:
+        The number of pairs found.
+    """
     count = 0
     for pair in range(len(one)):
         i, j = one[pair], other[pair]
@@ -161,7 +175,7 @@ def _meet(spheres: Array, one: Integers, other: Integers, normal: Array, impulse
             near[count] = pair
             count += 1
         else:
-            # Of apart spheres, any two points are on the same sides as the middles.
+            # Of two separate spheres, any two points lie on the same sides of each other as the middles.
             normal[pair, 0], normal[pair, 1], normal[pair, 2] = dx, dy, dz
             impulse[pair, 0] = impulse[pair, 1] = impulse[pair, 2] = 0.0
     return count
@@ -169,15 +183,15 @@ def _meet(spheres: Array, one: Integers, other: Integers, normal: Array, impulse
 
 @compiled
 def closest(x: Array, i: int, j: int) -> tuple[float, float]:
-    """Where segments i and j are closest (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
+    """Find the closest points of two segments (Ericson 2005, "Real-Time Collision Detection", 5.1.9).
 
     Args:
-        x: (3, nodes).
-        i: first node of one segment.
-        j: first node of the other.
+        x: (3, nodes) places of the nodes, m.
+        i: number of one segment's first node.
+        j: number of the other segment's first node.
 
     Returns:
-        The fractions along them, in [0, 1].
+        The place of each point on its segment, as a share of the length, 0 to 1.
     """
     d1x, d1y, d1z = x[0, i + 1] - x[0, i], x[1, i + 1] - x[1, i], x[2, i + 1] - x[2, i]
     d2x, d2y, d2z = x[0, j + 1] - x[0, j], x[1, j + 1] - x[1, j], x[2, j + 1] - x[2, j]

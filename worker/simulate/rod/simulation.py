@@ -1,4 +1,4 @@
-"""A fall of rods, step by step or until they rest."""
+"""Simulates the fall of rods, for a number of steps or until they rest."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,26 +14,35 @@ from worker.simulate.rod.tally import COUNT_NAMES, STEPS, new_tally
 from worker.simulate.rod.world import world_of
 
 MAX_HALVINGS = 8
+"""Largest number of times that the time step is halved."""
 
 MOVE_RADII = 1.0
-"""How far nodes may move against each other in a step, in the least radius; faster ones get a finer step."""
+"""Largest relative movement of nodes in a step, in the smallest radius; faster nodes get a smaller time step."""
 
 WELL_BELOW = 2.2
-"""A halved step is doubled again when nodes move so many times less than they may."""
+"""Ratio of the largest movement allowed in a step to the actual one, above which a halved step is doubled again. It is
+more than 2, so that the doubled step is not halved at once."""
 
 MAX_EXPLICIT_SHARE = 0.25
-"""Of the explicit pull towards the natural shape in the implicit rest; from 1 on it would be unstable."""
+"""Largest ratio of the explicit pull towards the natural shape to the implicit part; from 1 on it would be unstable."""
 
 NEVER_RESTS = (-1.0, -1.0, np.inf)
+"""Speeds and time of rest, as `Bounds` has them, that no rods reach."""
 
 
 class DivergedError(Exception):
-    """The rods' speeds are no longer numbers."""
+    """The speeds of the rods are infinite or NaN."""
 
 
 @dataclass(frozen=True, slots=True)
 class Energy:
-    """Energy of all rods together, J. Gravitational energy counts from the origin."""
+    """The energy of all rods together, in joules.
+
+    Attributes:
+        kinetic: kinetic energy.
+        gravitational: gravitational energy, relative to the origin.
+        bending: energy of bending about the natural shape, but for a constant.
+    """
 
     kinetic: float
     gravitational: float
@@ -41,19 +50,25 @@ class Energy:
 
     @property
     def total(self) -> float:
-        """Their sum."""
+        """Sum of the three energies, in joules."""
         return self.kinetic + self.gravitational + self.bending
 
 
 class RodSimulation:
-    """Rods that fall.
+    """A fall of rods.
 
     Attributes:
-        step_s: the time step; it is halved while rods move too far against each other in one, or it has no sound end.
+        step_s: time step, in seconds; it is halved while rods move too far in one, or while it has no sound end.
     """
 
     def __init__(self, rods: Sequence[Rod], surroundings: Surroundings, *, steps_per_s: float) -> None:
-        """Place the rods at rest where they start."""
+        """Place the rods at rest in their starting places.
+
+        Args:
+            rods: rods, at least one.
+            surroundings: forces and surfaces that act on them.
+            steps_per_s: number of time steps in a second.
+        """
         self.step_s = 1.0 / steps_per_s
         self._bodies, self._motion = flatten(rods)
         self._damping = surroundings.damping_s
@@ -66,34 +81,34 @@ class RodSimulation:
 
     @property
     def time_s(self) -> float:
-        """Since the start."""
+        """Time since the start, in seconds."""
         return float(self._tally.time[0])
 
     @property
     def steps(self) -> int:
-        """Time steps made."""
+        """Number of time steps made."""
         return int(self._tally.counts[STEPS])
 
     @property
     def counts(self) -> dict[str, int]:
-        """What it took, for benchmarks; see `worker.simulate.rod.tally`."""
+        """Counts of the solver's work, for benchmarks; see `worker.simulate.rod.tally`."""
         return dict(zip(COUNT_NAMES, self._tally.counts.tolist(), strict=True))
 
     def nodes_m(self, rod: int) -> Array:
-        """(N, 3) where a rod's nodes are."""
+        """Return the places of a rod's nodes, (N, 3) metres."""
         return np.ascontiguousarray(self._motion.x[:, self._part(rod)].T)
 
     def velocities_m_s(self, rod: int) -> Array:
-        """(N, 3) how fast they move."""
+        """Return the velocities of a rod's nodes, (N, 3) m/s."""
         return np.ascontiguousarray(self._motion.v[:, self._part(rod)].T)
 
     def floor_forces_n(self, rod: int) -> Array:
-        """(N, 3) of the floor on a rod's nodes, in the last step."""
+        """Return the forces of the floor on a rod's nodes in the last step, (N, 3) newtons."""
         force: Array = self._motion.floor_impulse[:, self._part(rod)].T / self._operator().step
         return force
 
     def contact_force_n(self, one: int, other: int) -> Array:
-        """(3,) of the rod `other` on the rod `one`, in the last step."""
+        """Return the force of the rod `other` on the rod `one` in the last step, (3,) newtons."""
         owner = self._bodies.owner
         pairs = self._candidates
         forward = (owner[pairs.one] == one) & (owner[pairs.other] == other)
@@ -103,12 +118,12 @@ class RodSimulation:
         return force
 
     def set_velocities(self, rod: int, velocities_m_s: Array) -> None:
-        """Give a rod's nodes velocities, (N, 3); pinned ones stay."""
+        """Set the velocities of a rod's nodes, (N, 3) m/s; pinned nodes stay at rest."""
         part = self._part(rod)
         self._motion.v[:, part] = np.where(self._bodies.pinned[part], 0.0, velocities_m_s.T)
 
     def energy(self) -> Energy:
-        """As it is now; stretching has none, as lengths are kept."""
+        """Compute the present energy; rods keep their lengths, so stretching has none."""
         bodies, x, v = self._bodies, self._motion.x, self._motion.v
         bending = 0.0
         for rod, (length, stiffness) in enumerate(zip(bodies.length, bodies.stiffness, strict=True)):
@@ -124,7 +139,10 @@ class RodSimulation:
         )
 
     def advance(self, steps: int) -> None:
-        """Make so many steps of `step_s`, or of its halves where it had to be halved.
+        """Make a number of time steps, each of `step_s` or smaller.
+
+        Args:
+            steps: number of steps.
 
         Raises:
             DivergedError: if the state is no longer finite.
@@ -132,7 +150,16 @@ class RodSimulation:
         self._march(steps, NEVER_RESTS, np.inf)
 
     def settle(self, *, rms_m_s: float, fastest_m_s: float, quiet_s: float, max_time_s: float) -> bool:
-        """Go on until all nodes have been slow for `quiet_s`; returns whether that was reached by `max_time_s`.
+        """Make time steps until the rods rest.
+
+        Args:
+            rms_m_s: root mean square speed of the nodes up to which the rods rest, in m/s.
+            fastest_m_s: speed of the fastest node up to which the rods rest, in m/s.
+            quiet_s: time for which they must have rested, in seconds.
+            max_time_s: time since the start at which to stop in any case, in seconds.
+
+        Returns:
+            Whether the rods rest.
 
         Raises:
             DivergedError: if the state is no longer finite.
@@ -191,11 +218,11 @@ class RodSimulation:
 
 
 def _halvings_for_curvature(bodies: Bodies, step_s: float, damping_s: float) -> int:
-    """How often the step must be halved for the explicit pull towards the natural shape to be stable.
+    """Count the halvings of the time step that make the explicit pull towards the natural shape stable.
 
-    Against rho A + h (h + tau) EI q^4, the implicit part, a wave of number q is pulled by h^2 EI k q^3. The ratio is
-    greatest at q = 3^(1/4) / a, where it is 0.57 k a h / (h + tau); a = (h (h + tau) EI / rho A)^(1/4) is the length
-    over which the rod responds within a step.
+    A wave of number q is pulled by h^2 EI k q^3, against the implicit part rho A + h (h + tau) EI q^4. The ratio is
+    largest at q = 3^(1/4) / a, where it is 0.57 k a h / (h + tau). Here a = (h (h + tau) EI / rho A)^(1/4) is the
+    length over which the rod responds within a step.
     """
     owner_curvature = np.array(
         [np.abs(bodies.curvature[a:b]).max() for a, b in zip(bodies.first[:-1], bodies.first[1:], strict=True)]

@@ -1,9 +1,9 @@
-"""One time step: implicit Euler with contact.
+"""Makes one time step: implicit Euler with contact.
 
-Impulses of contacts, and tensions that keep the lengths, depend on each other. They are found in turn: sweeps over the
-contacts change impulses, then each rod that they have stirred finds its places and tensions exactly, until a sweep
-finds nothing more to do. Impulses and tensions both do only what costs energy, so a step that has gained any has not
-found them: it is made again from no impulses at all, then as two steps of half the time.
+The impulses of contacts and the tensions that keep the lengths depend on each other. They are found in turn: sweeps
+over the contacts change impulses, then the places and tensions of each rod that the sweeps have changed are found
+exactly, until a sweep finds nothing more to do. Impulses and tensions only take energy, so a step that gains energy has
+not found them: it is made again from no impulses, then as two steps of half the time.
 """
 
 import numpy as np
@@ -28,22 +28,23 @@ from worker.simulate.rod.tally import ITERATIONS, RETRIES, ROUNDS, STOPS, SWEEPS
 from worker.simulate.rod.world import World
 
 MAX_ROUNDS = 4
-"""How often sweeps and lengths take turns."""
+"""Largest number of turns of sweeps and lengths."""
 
 MAX_ROUNDS_FROM_NOTHING = 16
-"""The same, when the impulses of the step before were of no use."""
+"""Largest number of turns of sweeps and lengths in a step that starts without the impulses of the step before."""
 
 MAX_FLOOR_CHANGES = 4
-"""How often the nodes that the floor holds are chosen anew when keeping the lengths has pressed or pulled others."""
+"""Largest number of times that the nodes which the floor holds are chosen again, after keeping the lengths has pressed
+others into the floor or would have to pull held ones down."""
 
 SLACK = 50.0
-"""How many times the tolerances of lengths do while sweeps may still change the load."""
+"""Multiple of the tolerances of lengths that is enough while sweeps may still change the load."""
 
 MISS_RADII = 0.1
-"""How far a step may push a rod into another, in the least radius, because impulses are not quite found."""
+"""Largest depth, in the smallest radius, to which a step may push a rod into another, as its impulses are not exact."""
 
 SPEED_SPARE_M_S = 1.5e-3
-"""A gain of no more than the energy that all rods have at this speed is let pass: sweeps end before all is found."""
+"""Speed, in m/s, of all rods together whose energy a step may gain, as sweeps end before the impulses are exact."""
 
 
 @compiled
@@ -61,16 +62,16 @@ def make_step(
 
     Args:
         bodies: the rods.
-        operator: of the time step.
-        motion: is changed.
-        world: what acts on them.
-        touch: what touches; the impulses are changed.
-        scratch: `momentum` is read: what all else than contact and tension makes of it.
-        tally: counts on.
-        finest: whether no smaller step can be had. Then, rods for which no sound end is found stop where they are.
+        operator: operator of the time step.
+        motion: state of the rods, changed in place.
+        world: forces and surfaces that act on them.
+        touch: contacts of this step, whose impulses are changed.
+        scratch: arrays of the step; `momentum` holds the momentum at its end without contact and tension.
+        tally: counts, which are added to.
+        finest: whether the time step can't be made smaller; rods then stop in their places if no sound end is found.
 
     Returns:
-        Whether a sound end was found; if not, nothing has moved, and impulses and tensions are 0.
+        Whether the step was made; if not, nothing has moved, and impulses and tensions are 0.
     """
     scratch.start[:] = motion.x
     spare = 0.5 * bodies.mass.sum() * SPEED_SPARE_M_S**2
@@ -102,16 +103,16 @@ def make_step(
 
 @compiled
 def _energy_gained(bodies: Bodies, operator: Operator, before: Array, scratch: Scratch) -> float:
-    """How much more energy rods have at the end of a step than at its start, J, but for what damping takes.
+    """Compute the energy that rods gain in a step, J, without the part that damping takes.
 
-    Of a step from velocities v to w with M v + h f = p, f linear in the places, the energy of motion, bending and
-    weight changes by w A w / 2 - w p + w M v - v M v / 2 - h tau w K w / 2. The last of these is damping.
+    In a step from velocities v to w, with M v + h f = p and f linear in the places, the energy of motion, bending and
+    weight changes by w A w / 2 - w p + w M v - v M v / 2 - h tau w K w / 2. The last term is damping.
 
     Args:
         bodies: the rods.
-        operator: of the step.
-        before: (3, nodes) m/s, v.
-        scratch: `momentum`, p; and `v`, w.
+        operator: operator of the step.
+        before: (3, nodes) velocities v before the step, m/s.
+        scratch: arrays of the step: `momentum` is p, and `v` is w.
     """
     total = energy_of(bodies, operator.bands, scratch.v)
     for c in range(3):
@@ -132,7 +133,7 @@ def _take_turns(
     tally: Tally,
     rounds: int,
 ) -> bool:
-    """Find impulses, and places with tensions, in turn; returns whether all lengths are kept in the end."""
+    """Find impulses, and places with tensions, in turn; return whether all lengths are kept in the end."""
     rods, stirred = len(bodies.length), scratch.stirred
     due = np.empty(rods, np.bool_)
     predict(bodies, operator, motion, touch, scratch)
@@ -148,7 +149,7 @@ def _take_turns(
             break
         tally.counts[ROUNDS] += 1
         gather_load(motion, touch, scratch)
-        # A stretch may reach from one rod into the next, so all are asked before any is placed.
+        # A stretch of nodes may reach from one rod into the next, so all rods are checked before any is placed.
         for rod in range(rods):
             due[rod] = turn == 0 or was_stirred(stirred, bodies.first[rod], bodies.first[rod + 1], before)
         for rod in range(rods):
@@ -168,7 +169,10 @@ def _take_turns(
 def _place(
     bodies: Bodies, operator: Operator, motion: Motion, world: World, scratch: Scratch, tally: Tally, rod: int
 ) -> None:
-    """Find about where a rod ends the step under the load that it has, from the velocities `scratch.v`, and these."""
+    """Find roughly the places and velocities of a rod at the end of the step, from a guess of its velocities.
+
+    The guess is `scratch.v`, which the velocities found replace; the load is `scratch.load`.
+    """
     h, start, v, x = operator.step, scratch.start, scratch.v, motion.x
     for c in range(3):
         for i in range(bodies.first[rod], bodies.first[rod + 1]):
@@ -188,10 +192,10 @@ def _keep_lengths_on_floor(
     rod: int,
     slack: float,
 ) -> bool:
-    """Keep a rod's lengths with the nodes held that the floor then pushes, and no others; find its velocities.
+    """Keep a rod's lengths while the floor holds the nodes that it pushes, and no others; find its velocities.
 
     Returns:
-        Whether the lengths are kept to `slack` times the tolerances.
+        Whether the lengths are kept, to `slack` times the tolerances.
     """
     iterations = keep_lengths(bodies, operator, motion, scratch, rod, slack)
     tally.counts[ITERATIONS] += iterations
@@ -207,7 +211,7 @@ def _keep_lengths_on_floor(
 
 @compiled
 def _find_velocities(bodies: Bodies, motion: Motion, scratch: Scratch, step: float, rod: int) -> None:
-    """Set a rod's part of `scratch.v` to what takes it from `scratch.start` to where it is in a step."""
+    """Set a rod's part of `scratch.v` to the velocities, m/s, from `scratch.start` to its present places in a step."""
     for c in range(3):
         for i in range(bodies.first[rod], bodies.first[rod + 1]):
             scratch.v[c, i] = (motion.x[c, i] - scratch.start[c, i]) / step

@@ -1,4 +1,4 @@
-"""What a simulation counts, in arrays so that compiled code can."""
+"""The counts of a simulation's work, in arrays that compiled code can change."""
 
 from typing import NamedTuple
 
@@ -8,7 +8,7 @@ from worker.simulate.rod.arrays import Integers
 from worker.simulate.rod.model import Array
 
 STEPS, SWEEPS, ROUNDS, ITERATIONS, LISTS, CONTACTS, UNKEPT, RETRIES, STOPS = range(9)
-"""Places in `Tally.counts`."""
+"""Numbers of the entries of `Tally.counts`."""
 
 COUNT_NAMES = (
     "steps",
@@ -24,15 +24,15 @@ COUNT_NAMES = (
 
 
 class Tally(NamedTuple):
-    """What was done.
+    """The counts and times of a simulation.
 
     Attributes:
-        counts: time steps; sweeps over contacts; turns of sweeps and lengths; iterations of the lengths; lists of
-            candidates; contacts summed over steps; rods that did not keep their lengths at first; steps tried again
-            from no impulses; steps that ended with all rods stopped, as no sound end was found.
-        time: (1,) s.
-        quiet: (1,) s that the rods have been at rest.
-        wary: (1,) steps to be made before a greater time step is tried.
+        counts: (9,) numbers of time steps; sweeps over contacts; turns of sweeps and lengths; iterations of the
+            lengths; lists of candidates; contacts, summed over steps; rods that did not keep their lengths in a step;
+            steps that were tried again from no impulses; and steps that stopped all rods, as no sound end was found.
+        time: (1,) time since the start, s.
+        quiet: (1,) time for which the rods have been at rest, s.
+        wary: (1,) number of steps before a larger time step is tried.
     """
 
     counts: Integers
@@ -42,5 +42,5 @@ class Tally(NamedTuple):
 
 
 def new_tally() -> Tally:
-    """All 0."""
+    """Make a tally of zeros."""
     return Tally(np.zeros(len(COUNT_NAMES), np.int64), np.zeros(1), np.zeros(1), np.zeros(1, np.int64))

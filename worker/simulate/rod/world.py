@@ -1,4 +1,4 @@
-"""What acts on the rods from outside, as compiled code reads it."""
+"""The surroundings of the rods, in the form that compiled code reads."""
 
 from typing import NamedTuple
 
@@ -8,22 +8,22 @@ from worker.simulate.rod.compiled import compiled
 from worker.simulate.rod.model import Array, Surroundings
 
 DYING_DOWN_S = 0.1
-"""How long the wind takes to die down."""
+"""Time that the wind takes to die down, in seconds."""
 
 
 class World(NamedTuple):
-    """See `worker.simulate.rod.model.Surroundings`.
+    """The forces and surfaces that act on the rods; see `worker.simulate.rod.model.Surroundings`.
 
     Attributes:
-        gravity: (3,) m/s^2.
-        floor: whether there is one.
-        friction_floor: Coulomb's coefficient.
-        friction_rods: Coulomb's coefficient.
+        gravity: (3,) gravity, m/s^2.
+        floor: whether there is a floor at z = 0.
+        friction_floor: Coulomb's coefficient between a rod and the floor.
+        friction_rods: Coulomb's coefficient between two rods.
         air: (3,) mean velocity of the wind, m/s.
-        gusts: (K, 3) share of the mean, angular frequency and phase of each swing.
-        calm_from: when the wind begins to die down, s.
-        drag: whether the air resists.
-        resistance: m/s^2, at which dry resistance slows rods that touch something.
+        gusts: (K, 3) amplitude as a share of the mean, angular frequency, rad/s, and phase, rad, of each oscillation.
+        calm_from: time at which the wind begins to die down, s.
+        drag: whether the air resists the rods' motion.
+        resistance: deceleration by dry resistance of rods that touch something, m/s^2.
     """
 
     gravity: Array
@@ -38,7 +38,7 @@ class World(NamedTuple):
 
 
 def world_of(surroundings: Surroundings) -> World:
-    """The same in arrays."""
+    """Convert surroundings to arrays and numbers."""
     breeze = surroundings.breeze
     return World(
         gravity=np.array(surroundings.gravity_m_s2, dtype=np.float64),
@@ -55,7 +55,7 @@ def world_of(surroundings: Surroundings) -> World:
 
 @compiled
 def air_velocity(world: World, time: float, air: Array) -> None:
-    """Velocity of the air, m/s: the mean with its gusts, until it dies down."""
+    """Set `air` (3,) to the velocity of the air at a time, s: the mean with its gusts, which dies down, in m/s."""
     strength = 1.0
     for k in range(len(world.gusts)):
         strength += world.gusts[k, 0] * np.sin(world.gusts[k, 1] * time + world.gusts[k, 2])
