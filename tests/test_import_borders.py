@@ -1,67 +1,138 @@
-"""Who may import whom, proved in a fresh interpreter."""
+"""Who may import whom: one sentence a border, proved over every module that there is."""
 
-import pkgutil
+import ast
 import subprocess
 import sys
+from collections.abc import Callable
 
 import pytest
 
-import assets
-import farm
+from tests.rooms import CircleError, arrows, floors, imports, is_in, modules
 
-PROGRAM = """
-import importlib, sys
-for name in sys.argv[1:]: importlib.import_module(name)
-print(*sorted({name.partition(".")[0] for name in sys.modules} & {"bpy", "worker", "blend"}))
-"""
-PURE_STAGES = [
-    f"worker.{stage}"
-    for stage in [
-        "randomize",
-        "shapes",
-        "check",
-        "tube",
-        "label",
-        "gates",
-        "plate",
-        "rod.fall",
-        "cloth.strip",
-        "cloth.scale",
-    ]
-]
-ASSETS = ["assets", *(module.name for module in pkgutil.walk_packages(assets.__path__, "assets."))]
-MODULES = ["farm", *(module.name for module in pkgutil.walk_packages(farm.__path__, "farm."))]
+TOPS = ("farm", "worker", "blend", "assets", "benchmarks", "tests")
+BLENDER = ("bpy", "bmesh", "mathutils", "bpy_extras", "gpu")
+BLENDER_ROOMS = ("blend", "worker.blender", "worker.simulate.cloth")
 
 
-def test_all_modules_together() -> None:
-    """No module of `farm` brings Blender, nor the packages that use it, however deep."""
-    program = "\n".join(f"import {name}" for name in MODULES)
-    program += "\nimport sys\nprint(*sorted({n.partition('.')[0] for n in sys.modules} & {'bpy', 'worker', 'blend'}))"
-    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
-    assert result.returncode == 0, result.stderr
-    assert result.stdout.split() == []
+def blender_stays_in_its_rooms(module: str, imported: str) -> bool:
+    """Blender's modules are imported in blend, worker.blender and worker.simulate.cloth alone."""
+    return is_in(module, *BLENDER_ROOMS) or not is_in(imported, *BLENDER)
 
 
-@pytest.mark.parametrize(
-    "module", ["worker.service.process", "worker.cli", "worker.service.tasks", "worker.service.upload"]
+def the_farm_knows_no_worker(module: str, imported: str) -> bool:
+    """Nothing in farm imports worker or blend."""
+    return not (is_in(module, "farm") and is_in(imported, "worker", "blend"))
+
+
+def only_the_command_line_knows_assets(module: str, imported: str) -> bool:
+    """Of farm, the command line alone imports assets."""
+    return is_in(module, "farm.cli") or not (is_in(module, "farm") and is_in(imported, "assets"))
+
+
+def assets_know_errors_and_machine(module: str, imported: str) -> bool:
+    """Of our own packages, assets imports its own, farm.errors and farm.machine."""
+    ours = is_in(imported, *TOPS)
+    return not (is_in(module, "assets") and ours) or is_in(imported, "assets", "farm.errors", "farm.machine")
+
+
+def the_template_knows_no_worker(module: str, imported: str) -> bool:
+    """Nothing in blend imports worker."""
+    return not (is_in(module, "blend") and is_in(imported, "worker"))
+
+
+def only_tests_know_benchmarks(module: str, imported: str) -> bool:
+    """The product imports neither benchmarks nor tests; benchmarks import no tests."""
+    if is_in(module, "benchmarks"):
+        return not is_in(imported, "tests")
+    return not is_in(imported, "benchmarks", "tests")
+
+
+Border = Callable[[str, str], bool]
+BORDERS: tuple[Border, ...] = (
+    blender_stays_in_its_rooms,
+    the_farm_knows_no_worker,
+    only_the_command_line_knows_assets,
+    assets_know_errors_and_machine,
+    the_template_knows_no_worker,
+    only_tests_know_benchmarks,
 )
-def test_worker_process_starts_without_blender(module: str) -> None:
-    """Celery's main process forks, so what it imports must not bring Blender."""
-    result = subprocess.run([sys.executable, "-c", PROGRAM, module], capture_output=True, text=True, check=False)
-    assert result.returncode == 0, result.stderr
-    assert result.stdout.split() == ["worker"]
+BROKEN = {
+    blender_stays_in_its_rooms: ("worker.label.label", "bpy"),
+    the_farm_knows_no_worker: ("farm.run.coordinator", "worker.cli"),
+    only_the_command_line_knows_assets: ("farm.spec.header", "assets.scan.hdris"),
+    assets_know_errors_and_machine: ("assets.files", "farm.model"),
+    the_template_knows_no_worker: ("blend.mesh", "worker.colour"),
+    only_tests_know_benchmarks: ("worker.simulate.simulate", "benchmarks.physics.gates"),
+}
 
 
-@pytest.mark.parametrize("module", PURE_STAGES)
-def test_stage_without_blender(module: str) -> None:
-    """The stages that need no Blender don't bring it, so they can be tested and read without."""
-    result = subprocess.run([sys.executable, "-c", PROGRAM, module], capture_output=True, text=True, check=False)
-    assert result.returncode == 0, result.stderr
-    assert result.stdout.split() == ["worker"]
+@pytest.mark.parametrize("border", BORDERS, ids=lambda border: border.__name__)
+def test_no_module_crosses_a_border(border: Border) -> None:
+    """Each border holds for every import of every module, those inside functions included."""
+    tops = ("farm", "worker", "blend", "assets")
+    if border is only_tests_know_benchmarks:
+        tops = (*tops, "benchmarks")
+    crossings = [
+        f"{module} imports {imported}"
+        for module, file in modules(*tops).items()
+        for imported in imports(ast.parse(file.read_text(encoding="utf-8")))
+        if not border(module, imported)
+    ]
+    assert crossings == []
 
 
-def test_assets_stand_alone() -> None:
-    """Surfaces and HDRIs are drawn and checked without Blender and without what uses them."""
-    result = subprocess.run([sys.executable, "-c", PROGRAM, *ASSETS], capture_output=True, text=True, check=False)
-    assert result.returncode == 0, result.stderr
-    assert result.stdout.split() == []
+@pytest.mark.parametrize("border", BORDERS, ids=lambda border: border.__name__)
+def test_a_crossing_is_found(border: Border) -> None:
+    """A border that let everything through would prove nothing."""
+    assert not border(*BROKEN[border])
+
+
+def test_an_import_inside_a_function_is_found() -> None:
+    """Imports are found wherever they stand, by every spelling."""
+    source = "def f():\n    import worker.cli\n    from benchmarks import physics\n"
+    assert list(imports(ast.parse(source))) == ["worker.cli", "benchmarks", "benchmarks.physics"]
+
+
+@pytest.mark.parametrize("package", ["farm", "worker", "assets", "blend", "benchmarks"])
+def test_rooms_form_floors(package: str) -> None:
+    """Imports between the rooms of a package run one way: no room imports, however indirectly, one that imports it."""
+    assert floors(arrows(package))
+
+
+def test_a_circle_of_rooms_is_found() -> None:
+    """Rooms that import each other form no floors, and the error names the circle."""
+    with pytest.raises(CircleError, match="sample -> label -> sample"):
+        floors({"sample": frozenset({"label"}), "label": frozenset({"sample"})})
+
+
+def loaded_by(names: list[str]) -> set[str]:
+    """The top-level packages that a fresh interpreter holds after it has imported some modules."""
+    program = "import importlib, sys\nfor name in sys.argv[1:]: importlib.import_module(name)\n"
+    program += "print(*{name.partition('.')[0] for name in sys.modules})"
+    done = subprocess.run([sys.executable, "-c", program, *names], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return set(done.stdout.split())
+
+
+def test_the_farm_brings_neither_blender_nor_worker() -> None:
+    """All modules of farm together load neither Blender nor the packages that use it, however deep."""
+    names = [name for name in modules("farm") if not name.endswith("__main__")]
+    assert loaded_by(names).isdisjoint({*BLENDER, "worker", "blend", "benchmarks"})
+
+
+def test_the_service_brings_no_blender() -> None:
+    """Celery's main process forks, so nothing in worker.service, nor the worker's command line, loads Blender."""
+    names = [name for name in modules("worker") if is_in(name, "worker.service", "worker.cli")]
+    assert loaded_by(names).isdisjoint({*BLENDER, "blend"})
+
+
+def test_numpy_rooms_bring_no_blender() -> None:
+    """Every room of worker but those named for Blender can be imported, and so tested, without it."""
+    needs = ("worker.blender", "worker.simulate.cloth", "worker.simulate.simulate", "worker.__main__")
+    names = [name for name in modules("worker") if not is_in(name, *needs)]
+    assert loaded_by(names).isdisjoint({*BLENDER, "blend"})
+
+
+def test_assets_bring_neither_blender_nor_worker() -> None:
+    """Surfaces and panoramas are drawn and checked without Blender and without the packages that use them."""
+    assert loaded_by(list(modules("assets"))).isdisjoint({*BLENDER, "blend", "worker"})
