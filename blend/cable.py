@@ -12,9 +12,8 @@ import bpy
 from blend import names
 from blend.nodes import add_node, link
 
-_RADIUS_M = 0.001
-_LENGTH_M = 0.05
-_SIDES = 16
+_RADIUS_M, _LENGTH_M, _SIDES = 0.001, 0.05, 16
+"""The tube that carries the material; no picture shows it, as every picture has tubes of its own cables."""
 
 
 def add_cable(scene: Any) -> None:

@@ -22,7 +22,7 @@ _LINKS: Final = (
     (names.WORLD_GREY, "Background", names.WORLD_SWITCH, 2),
     (names.WORLD_SWITCH, "Shader", "output", "Surface"),
 )
-"""From which node's output to which node's input."""
+"""The links of the world's nodes: a node, its output, the node that it leads to, and that one's input."""
 
 
 def add_world(scene: Any) -> None:

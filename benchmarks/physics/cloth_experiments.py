@@ -22,17 +22,25 @@ from worker.simulate.cloth.stage import modifier, read_vertices, set_frames, tem
 from worker.simulate.cloth.strip import centreline, zigzag, zigzag_faces
 
 VERTEX_MASS = 0.4
-"""The middle of the published range; a strip at rest does not depend on it."""
+"""Mass of a vertex: the middle of the published range. A strip at rest does not depend on it."""
 
 _FRAMES = 3000
+"""Frames after which a strip is taken as it is."""
+
 _REST = 2e-6
-"""Movement in a frame over the strip's length, below which it hangs still."""
+"""Movement in a frame over the strip's length, below which the strip hangs still."""
+
 _REST_FRAMES = 20
+"""Frames in a row in which a strip must hang still to count as resting."""
+
 _DRY_FRAMES = 30
-"""In the first frames nothing has gathered speed."""
+"""Frames at the start in which rest does not count, as nothing has gathered speed yet."""
+
 _AIR_DAMPING = 1.0
+"""Blender's setting of the air's resistance, with which a strip rests soon."""
+
 _HEIGHT = 200.0
-"""Of the cantilever over the origin, in units: no floor is near."""
+"""Height of the cantilever over the origin, in units: no floor is near."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,10 +49,10 @@ class Deflection:
 
     Attributes:
         gamma: rho g A L^3 / (E I) as asked for.
-        gamma_set: what the settings say, which is more where the solver can't be so stiff.
+        gamma_set: the same as the settings have it, which is more where the solver can't be so stiff.
         droop: H/W as measured, from the clamp to the tip.
-        gamma_effective: at which the heavy elastica droops so.
-        seconds: of computing.
+        gamma_effective: the slenderness at which the heavy elastica droops as much.
+        seconds: time that the computer took.
     """
 
     gamma: float
@@ -55,7 +63,7 @@ class Deflection:
 
     @property
     def error(self) -> float:
-        """Of H/W, relative to the heavy elastica of `gamma`."""
+        """Relative error of H/W against the heavy elastica of `gamma`."""
         return self.droop / droop_ratio(self.gamma) - 1
 
 
@@ -66,9 +74,9 @@ class Crossing:
     Attributes:
         lift_off_m: half the length in the air, fitted to the whole shape.
         theory_m: (72 EI d / w)^(1/4) for the lift d that was measured.
-        lift_m: d, of the centreline over the ridge.
-        misfit: of the fitted shape, root mean square over the lift.
-        seconds: of computing.
+        lift_m: d, by which the ridge lifts the centreline.
+        misfit: root mean square distance from the fitted shape, over the lift.
+        seconds: time that the computer took.
     """
 
     lift_off_m: float
@@ -83,7 +91,8 @@ def cloth_cantilever(gamma: float, *, segments: int, settings: ClothFall, publis
 
     Args:
         gamma: rho g A L^3 / (E I) to aim at.
-        segments: of the free length, >= 4; the stiffness that makes `gamma` of it grows with its third power.
+        segments: number of segments of the free length, >= 4; the stiffness for a given `gamma` grows with its third
+            power.
         settings: quality of the solver; frames and collisions do not matter here.
         published: take the plane of quads of the published set-up and not the zigzag of the joined one. It has
             Blender's own stretching, so soft sideways that it may turn on edge and sag more than asked for.
@@ -116,9 +125,9 @@ def cloth_crossing(stiffness: float, *, segments: int, settings: ClothFall, radi
 
     Args:
         stiffness: EI / w in m^3; E r^2 / (4 rho g) for a round cable.
-        segments: of the strip.
+        segments: number of the strip's segments.
         settings: quality of the solver.
-        radius_m: of the cable.
+        radius_m: the cable's radius.
 
     Raises:
         SceneError: if the solver diverges.

@@ -30,8 +30,8 @@ def run(out: Path, *, seed: int, scenes: int | None) -> int:
 
     Args:
         out: a folder that is there.
-        seed: of the scenes.
-        scenes: most of them for a setting; slow settings have fewer.
+        seed: the seed that the scenes are drawn from.
+        scenes: most scenes for a setting; slow settings have fewer. None for the usual number.
 
     Raises:
         VerificationError: if the rod solver breaks a gate's bound at its default, or does not end in finite places.

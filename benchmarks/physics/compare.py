@@ -26,10 +26,10 @@ def compare(out: Path, settings: Sequence[Setting], *, seed: int, scenes: int, s
 
     Args:
         out: a folder that is there.
-        settings: which to compare.
-        seed: of the scenes.
-        scenes: most of them for a setting.
-        start_s: what the process had computed when the run began.
+        settings: the settings to compare.
+        seed: the seed that the scenes are drawn from.
+        scenes: most scenes for a setting.
+        start_s: processor seconds that the process had taken when the run began.
 
     Raises:
         VerificationError: if the rod solver breaks a gate's bound at its default, or does not end in finite places.

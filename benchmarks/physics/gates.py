@@ -13,7 +13,7 @@ from worker.simulate.checks.measure import Gate, measure
 from worker.simulate.shapes import CableShapes
 
 STRESS_RUNS = 500
-"""No failure in so many runs bounds the true rate at 0.6 %, with 95 % confidence."""
+"""Runs of the stress grid. No failure in this many bounds the true rate at 0.6 %, with 95 % confidence."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,8 +39,8 @@ def cantilever_error(
 
     Args:
         nodes_m: (N, 3), N >= 3, from the clamp to the free end.
-        bending_stiffness_n_m2: EI.
-        weight_per_length_n_m: rho g A.
+        bending_stiffness_n_m2: the cable's EI.
+        weight_per_length_n_m: the cable's rho g A.
 
     Raises:
         ValueError: if the first edge is not level within 1e-3, or the slenderness has no reference.
@@ -80,7 +80,7 @@ def crossing_error(
     Args:
         nodes_m: (N, 3), from end to end over one ridge; both ends lie on the floor, at height zero.
         reactions_n: (N,), upward force on each node from whatever it touches.
-        radius_m: of the cable.
+        radius_m: the cable's radius.
         reference: the crossing as it should be.
 
     Raises:
@@ -161,9 +161,10 @@ def stress_fault(shapes: CableShapes, *, reach_m: float, passes: int | None = No
     """Gate 10: why a run failed, the first reason in the order of `StressFault`; None if it did not.
 
     Args:
-        shapes: of the run's end, finite or not.
-        reach_m: farther than this from the origin, in any direction, a cable has escaped.
-        passes: how often a cable passed through one, as seen on the way; None: count them from the order of the start.
+        shapes: cables at the run's end, finite or not.
+        reach_m: distance from the origin beyond which a cable has escaped.
+        passes: number of times that a cable passed through one, as seen on the way; None to count them from the order
+            of the start.
     """
     nodes, speeds = np.concatenate(shapes.nodes_m), np.concatenate(shapes.speeds_m_s)
     if not (np.isfinite(nodes).all() and np.isfinite(speeds).all()):

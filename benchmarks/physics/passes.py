@@ -22,11 +22,13 @@ UNDECIDED_RADII = 1e-6
 """Centrelines nearer than this are on no side of each other: what parts them is rounding, or nothing."""
 
 UNDONE_RADII = 40.0
-"""Two passages the opposite ways, so near each other along both cables, are one that was undone."""
+"""Distance along both cables below which two passages the opposite ways are one that was undone."""
 
 _BISECTIONS = 48
+"""Halvings of an interval of time that narrow a meeting down to rounding."""
+
 _EDGE = 1e-9
-"""Segments are so much longer, as a share, that a passage exactly at a node is not lost between two of them."""
+"""Share by which segments are taken to be longer, so that a passage exactly at a node is not lost between two."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,10 +36,10 @@ class Passage:
     """Two strands that went through each other.
 
     Attributes:
-        cables: of the two strands; twice the same where a cable went through itself.
-        along_radii: how far along either cable, in the larger radius of the two.
-        side: 1 or -1, the way that it went.
-        near_end: whether it was within `END_RADII` of an end of either cable.
+        cables: the cables that the two strands are of; twice the same where a cable went through itself.
+        along_radii: distance along either cable, in the larger radius of the two.
+        side: 1 or -1, the way that the one went.
+        near_end: whether the passage was within `END_RADII` of an end of either cable.
     """
 
     cables: tuple[int, int]
@@ -65,9 +67,9 @@ def passes_between(
     radii, where a round section has long been crushed.
 
     Args:
-        before_m: per cable (N, 3).
-        after_m: the same nodes later.
-        radii_m: (cables,).
+        before_m: each cable's nodes (N, 3) at the first moment.
+        after_m: the same nodes at the second.
+        radii_m: (cables,), each cable's radius.
     """
     counts = np.array([len(each) for each in before_m])
     cable = np.repeat(np.arange(len(counts)), counts)

@@ -30,21 +30,26 @@ from worker.simulate.cloth.strip import ladder, ladder_faces
 from worker.simulate.shapes import CableShapes
 
 CABLES = 8
+"""Cables that fall, however many the scene shows."""
+
 FRAMES = 100
+"""Frames of the fall, whether the cables rest or not."""
 
 DEFAULT_QUALITY = 5
-"""Blender's own."""
+"""Blender's own setting of the solver's quality."""
 
 RADIUS_UNITS = 0.1
+"""A cable's radius in units; the text above says why."""
 
 SEGMENT_UNITS = 0.4
-"""Length of a face of a plane."""
+"""Length of a face of a plane, in units."""
 
 CABLE_DISTANCE = 0.05
-"""Of a plane to another cable's surface or the floor, in units, and as much again is that collider's own: together a
-radius, the half of the cable that the solver does not see."""
+"""Distance in units that a plane keeps to another cable's surface or the floor; the collider there keeps as much again.
+Together they are a radius, the half of the cable that the solver does not see."""
 
 _GOLDEN_ANGLE_DEG = 137.5
+"""Turn between two repetitions of a cable: no two of eight come to lie in one direction."""
 
 
 @dataclass(frozen=True, slots=True)

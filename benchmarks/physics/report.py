@@ -22,7 +22,7 @@ _PACKAGES = ("bpy", "numba", "numpy", "scipy")
 
 
 def falls_table(rows: Sequence[Row], cables: int) -> Table:
-    """Time and gates 1 to 4 of every setting on so many cables."""
+    """Time and gates 1 to 4 of every setting on scenes of `cables` cables."""
     times = ("scenes", "CPU s\nmean", "CPU s\nmax", "steps", "fall s", "CPU s\na s")
     gates = ("length\n%", "cables\n%", "floor\n%", "through", "mm/s\nrms", "mm/s\nmax")
     title = f"{cables} cables" if cables > 1 else "1 cable"

@@ -32,11 +32,11 @@ class Played:
     """One fall.
 
     Attributes:
-        cpu_s: of the whole process while it fell, and nothing else.
-        fall_s: simulated.
-        steps: of the rod solver, or frames of the cloth.
-        figures: None if it did not end in finite places.
-        fault: why, else empty.
+        cpu_s: processor seconds of the whole process for the fall alone.
+        fall_s: simulated seconds.
+        steps: time steps of the rod solver, or frames of the cloth.
+        figures: what was measured; None if the fall did not end in finite places.
+        fault: the reason for that; empty where there is none.
     """
 
     cpu_s: float
@@ -56,9 +56,9 @@ class Textbook:
     """Gates 5 and 6 at one setting; they do not depend on a scene.
 
     Attributes:
-        cantilevers: infinite errors where one diverged or did not come to rest.
-        lift_off_error: None where it is not measured.
-        reaction_error: the same.
+        cantilevers: error of each cantilever, infinite where it diverged or did not come to rest.
+        lift_off_error: error of the lift-off length; None where it is not measured.
+        reaction_error: error of the ridge's reaction; None where it is not measured.
     """
 
     cantilevers: tuple[CantileverError, ...]
@@ -89,17 +89,17 @@ class Row:
 
     @property
     def cpu_s(self) -> float:
-        """Mean over the scenes."""
+        """Processor seconds of a fall, mean over the scenes."""
         return float(np.mean([fall.cpu_s for fall in self.falls]))
 
     @property
     def cpu_max_s(self) -> float:
-        """Of the slowest scene."""
+        """Processor seconds of the slowest fall."""
         return max(fall.cpu_s for fall in self.falls)
 
     @property
     def fall_s(self) -> float:
-        """Mean simulated seconds."""
+        """Simulated seconds of a fall, mean over the scenes."""
         return float(np.mean([fall.fall_s for fall in self.falls]))
 
     @property
@@ -110,7 +110,7 @@ class Row:
 
     @property
     def worst(self) -> Mapping[Gate, float]:
-        """Of each of gates 1 to 4 the worst figure over the scenes."""
+        """The worst figure of each of gates 1 to 4 over the scenes."""
         return {gate: float(np.max([fall.gates[gate] for fall in self.falls])) for gate in SCENE_GATES}
 
     @property

@@ -13,28 +13,30 @@ from farm.spec.styles import merge_tables
 from worker.sample.scene import sample_scene
 
 CATEGORIES = (Category.FAR, Category.FAR_ALIGNED)
+"""Categories whose scenes fall: one of each disposition, without clutter."""
+
 DRAWN_CABLES = 8
-"""As many as a scene can be drawn with."""
+"""The most cables that a scene is drawn with."""
 
 MOST_CABLES = {"cable": {"count": [DRAWN_CABLES, DRAWN_CABLES]}}
-"""The ranges of a spec whose scenes all have so many."""
+"""The ranges of a spec whose scenes all have `DRAWN_CABLES` cables."""
 
 SPACING_M = 0.004
 """Height of each further cable above the one before, as in drawn scenes."""
 
 _JOBS_APART = 100_000
-"""Between the numbers of a scene's own job and those from which its further cables come."""
+"""Step from the index of a scene's own job to those of the jobs from which its further cables come."""
 
 
 def bench_scenes(count: int, cables: int, seed: int) -> tuple[Scene, ...]:
-    """Scenes of so many cables, the categories taking turns.
+    """Scenes of a number of cables, the categories taking turns.
 
     A scene of fewer cables is the start of the same scene with more.
 
     Args:
-        count: of scenes.
-        cables: of each scene.
-        seed: of the dataset they are drawn as.
+        count: number of scenes.
+        cables: number of cables of each.
+        seed: seed of the dataset that the scenes are drawn as.
     """
     header = _header(seed)
     kinds = len(CATEGORIES)
@@ -42,13 +44,13 @@ def bench_scenes(count: int, cables: int, seed: int) -> tuple[Scene, ...]:
 
 
 def crowd(header: DatasetHeader, category: Category, index: int, cables: int) -> Scene:
-    """The scene of a job's first attempt, with so many cables; see `bench_scenes`.
+    """The scene of a job's first attempt, with a given number of cables; see `bench_scenes`.
 
     Args:
-        header: one that draws `DRAWN_CABLES` cables.
-        category: of the scene.
-        index: of the scene.
-        cables: of the scene.
+        header: a header that draws `DRAWN_CABLES` cables.
+        category: the scene's category.
+        index: the job's index in it.
+        cables: number of the scene's cables.
     """
     scene = sample_scene(header, Job(category=category, index=index), 0)
     drawn: list[Cable] = list(scene.cables)

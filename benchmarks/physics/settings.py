@@ -12,7 +12,7 @@ COMPARED_COUNT = 8
 """The number of cables for which simulators are compared."""
 
 CROWDS = (16, 32)
-"""More cables than a picture shows, for the rod solver's default alone: how its cost grows."""
+"""More cables than a picture shows, for the rod solver's default alone, to tell how its cost grows."""
 
 PUBLISHED_COUNTS = (4, 8)
 """The published set-up drops eight cables whatever it shows; below four they are near copies of each other, which

@@ -28,18 +28,20 @@ _DENSITY_KG_M3 = 1500.0
 _STIFFNESS_OVER_WEIGHT_M3 = _MODULUS_PA * _RADIUS_M**2 / (4 * _DENSITY_KG_M3 * GRAVITY_M_S2)
 
 _LEAST_SEGMENTS = 4
+"""Fewest segments of a cantilever: with fewer it has no shape to measure."""
 
 _DAMPING_S = {1.0: 0.1, 10.0: 0.05, 100.0: 0.3, 1000.0: 3.0}
-"""By slenderness: internal damping with which a cantilever rests soon. Where it rests does not depend on it."""
+"""Internal damping, by slenderness, with which a cantilever rests soon. Where it rests does not depend on it."""
 _REST_RMS_M_S, _REST_FASTEST_M_S, _REST_S, _REST_BY_S = 5e-6, 2e-5, 0.05, 60.0
-"""At 4000 steps a second the most slender one trembles at 2e-6 m/s for ever."""
+"""When a cantilever rests: its speeds, how long it keeps them, and the time by which it must. At 4000 steps a second
+the most slender one trembles at 2e-6 m/s for ever."""
 
 _CROSSING_DAMPING_S = 0.05
 _CROSSING_S = 3.0
 _AVERAGED_S = 0.2
-"""Reactions tremble from step to step; what they carry is their mean."""
+"""Seconds over which reactions are averaged: they tremble from step to step, and what they carry is their mean."""
 _HALF_LENGTHS = 2.2
-"""Of the cable over a ridge on either side, in lift-off lengths."""
+"""Length of the cable on either side of a ridge, in lift-off lengths."""
 _REFERENCE = RidgeCrossing(
     bending_stiffness_n_m2=_MODULUS_PA * np.pi * _RADIUS_M**4 / 4,
     weight_per_length_n_m=_DENSITY_KG_M3 * np.pi * _RADIUS_M**2 * GRAVITY_M_S2,

@@ -18,10 +18,10 @@ from worker.simulate.rod.simulation import DivergedError, RodSimulation
 from worker.simulate.shapes import CableShapes
 
 LOOK_RADII = 0.25
-"""Passages are looked for each time that some node may have come so far, in the least radius, or after every step."""
+"""Distance, in the least radius, that some node may have moved before passages are looked for."""
 
 STRIDE = 8
-"""Steps made at once where the cables are so slow that none could come that far."""
+"""Steps made at once where the cables are too slow to move `LOOK_RADII` in them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,17 +29,18 @@ class Result:
     """What came of a run.
 
     Attributes:
-        fault: None if it is sound.
+        case: the scene.
+        fault: how the run failed; None if it did not.
         detail: the fault's figure.
-        figures: of gates 1 to 4; None if the end is not finite or far away.
-        passes: passages of a cable through another or itself, away from all ends, that stand.
-        end_slips: the same close to an end.
-        undone: passages that were led back.
-        sunk_nodes: how often a node's middle went below the floor's surface.
+        figures: figures of gates 1 to 4; None if the end is not finite or far away.
+        passes: number of passages of a cable through another or itself, away from all ends, that stand.
+        end_slips: number of such passages close to an end.
+        undone: number of passages that were led back.
+        sunk_nodes: number of times that a node's middle went below the floor's surface.
         fall_s: simulated time.
-        max_time_s: by which the cables had to rest.
-        steps: made.
-        wall_s: what it took; decides nothing.
+        max_time_s: simulated time by which the cables had to rest.
+        steps: number of time steps.
+        wall_s: time that the run took; it decides nothing.
     """
 
     case: Case

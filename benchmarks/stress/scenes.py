@@ -11,17 +11,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 EXTREME_SHARE = 0.05
-"""Of the scenes, at either end of each axis."""
+"""Share of the scenes that lie at one end of an axis."""
 
 CROWD = 32
+"""Cables of a crowded scene, more than the axis has."""
+
 CROWD_SHARE = 0.02
-"""So many of the scenes have `CROWD` cables, beyond the axis."""
+"""Share of the scenes that are crowded."""
 
 NODE_BUDGET = 1000
-"""Segments of all cables together, about: many cables are shorter ones."""
+"""Segments of all cables together, about: where there are many cables, they are shorter."""
 
 SEGMENT_RADII = 4.0
+"""Length of a segment over the radius, the default of drawn scenes."""
+
 MIN_LENGTH_RADII = 48.0
+"""Least length of a cable, in radii: a dozen segments."""
 
 _SEED_STREAM, _SCENE_STREAM = 0, 1
 
@@ -36,9 +41,9 @@ class Start(Enum):
     ONE_HEIGHT = "one height"
     """All axes at one height, so that they meet wherever they cross, and no side is the right one."""
     COINCIDENT = "coincident"
-    """In pairs, the one in the place of the other."""
+    """Pairs of cables, the one in the place of the other."""
     UPRIGHT = "upright"
-    """On their ends, side by side, with the small bend that any cable has."""
+    """Standing on their ends, side by side, with the small bend that any cable has."""
     AT_FLOOR = "at the floor"
     """Lying on the floor and on each other, touching all along the height of the pile."""
     IN_FLOOR = "in the floor"
@@ -70,7 +75,7 @@ class Axis:
     scale: Scale
 
     def at(self, share: float) -> float:
-        """The value so far along, 0 to 1; the extremes are returned to the bit."""
+        """The value at a share of the axis, 0 to 1; the extremes are returned to the bit."""
         if share in {0.0, 1.0}:
             return self.high if share else self.low
         if self.scale is Scale.LOGARITHMIC:
@@ -100,13 +105,21 @@ class Case:
     """One scene of the stress test.
 
     Attributes:
-        number: of all; with `seed` and `runs` it says which scene this is.
-        density: kg/m3, of the scene's first cable, as `modulus` (Pa) and `radius` (m).
-        wind: m/s, its mean.
-        drop: m, of the lowest cable above the floor.
-        steps: per second.
-        turn: rad, of the natural shape over the length.
-        length: over `radius`; shorter where so many cables would have too many nodes.
+        seed: seed of the whole test.
+        runs: number of the test's scenes.
+        number: the scene's number among them; with `seed` and `runs` it says which scene this is.
+        start: the way that the cables start.
+        density: density of the scene's first cable, in kg/m3.
+        modulus: Young's modulus of that cable, in Pa.
+        radius: radius of that cable, in m.
+        wind: mean speed of the wind, in m/s.
+        drop: height of the lowest cable above the floor, in m.
+        steps: time steps per second.
+        cables: number of cables.
+        friction_floor: Coulomb's coefficient on the floor.
+        friction_cable: Coulomb's coefficient between cables.
+        turn: angle by which the natural shape turns over the length, in rad.
+        length: length over `radius`; less where many cables would have too many nodes.
         aligned: whether the cables lie in a bundle.
         mixed: whether each cable has its own radius, density and modulus.
     """

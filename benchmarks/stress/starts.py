@@ -12,13 +12,22 @@ from worker.simulate.rod.model import Array, Breeze, Rod, Surroundings
 from worker.simulate.shapes import bent_rod
 
 SPACING_RADII = 3.0
-"""Of stacked cables, as in drawn scenes."""
+"""Distance of stacked cables, in the widest radius, as in drawn scenes."""
+
 BEND_KNOTS = 7
+"""Points from end to end at which a cable's curvature is drawn."""
+
 UPRIGHT_TURN_RAD = 0.05
+"""Angle by which an upright cable bends from end to end."""
+
 THROW_M_S = (2.0, 8.0)
+"""Range of the speed of a thrown cable."""
+
 WIND_TILT_DEG = 6.0
+"""Greatest angle of the wind to the floor."""
 
 _AIR_KG_M3, _DRAG = 1.2, 1.1
+"""Density of the air, and the coefficient of drag of a cylinder across the wind."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,11 +35,13 @@ class Setting:
     """A scene that can be let fall.
 
     Attributes:
-        velocities_m_s: (rods, 3), of each rod at the start.
-        reach_m: farther from the origin than this, a rod has been flung away.
-        max_time_s: by then the rods must rest.
-        parting_s: until then passages do not count. Above 0 only where the start puts axes into each other, and no
-            side is the right one: ten times sqrt(r/g), and 20 steps, are enough to part them.
+        rods: the cables where they start.
+        surroundings: what acts on them.
+        velocities_m_s: (rods, 3), velocity of each rod at the start.
+        reach_m: distance from the origin beyond which a rod has been flung away.
+        max_time_s: time by which the rods must rest.
+        parting_s: time until which passages do not count. Above 0 only where the start puts axes into each other, and
+            no side is the right one: ten times sqrt(r/g), and 20 steps, are enough to part them.
     """
 
     rods: list[Rod]

@@ -172,9 +172,7 @@ class _Lattice:
         return np.ix_(rows, np.arange(column - half_x, column + half_x + 1) % self.cells)
 
 
-def _fan_out(
-    rng: np.random.Generator, lattice: _Lattice, board: Board, row: _Row, column: int, line: int
-) -> None:
+def _fan_out(rng: np.random.Generator, lattice: _Lattice, board: Board, row: _Row, column: int, line: int) -> None:
     """Put down a row's pads and lead their traces away side by side, staggered so that they turn together."""
     across, down = OCTANTS[row.octant]
     turn = int(rng.choice([-1, 1]))

@@ -47,5 +47,5 @@ def test_the_published_cloth_is_refused_in_a_dataset(tmp_path: Path, header: Dat
 
 def test_an_unknown_simulator_is_refused_with_those_that_there_are() -> None:
     """By the key."""
-    with pytest.raises(SpecError, match=r"simulator: .*'rod' or 'cloth'"):
+    with pytest.raises(SpecError, match=r"simulator: .*'rod'.*'cloth'"):
         parse_spec({"images": 6, "simulator": "string"}, source="test")

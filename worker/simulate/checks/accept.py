@@ -4,9 +4,16 @@ from farm.dataset.manifest import SettleFigures
 from worker.simulate.checks.measure import Gate, settled_figures
 
 MAX_PENETRATION_ANYWHERE = 0.20
+"""Deepest single place where cables may cut into each other or the floor, over the radius."""
+
 MAX_SUPPORT_GAP = 0.5
+"""Most air below a cable at its lowest place, over the radius."""
+
 MAX_SPEED_RMS_MM_S = Gate.SPEED_RMS.value.target
+"""Greatest root mean square speed of a picture's cables."""
+
 MAX_SPEED_MM_S = Gate.SPEED_MAX.value.target
+"""Greatest speed of any place of a picture's cables."""
 
 
 def find_fault(figures: SettleFigures) -> str | None:

@@ -13,15 +13,16 @@ from worker.curves import Points
 from worker.simulate.checks.spans import SAMPLES_PER_SPAN, Indices, Spans
 
 SELF_ARC_RADII = 4.0
-"""Nearer along itself than this a cable can't touch itself: a bend that pinches it would be as tight as the cable."""
+"""Arc length, in radii, within which a cable can't touch itself: a bend that tight would be as narrow as the cable."""
 
 _SELF_TURN_RAD = 2 * np.pi / 3
 """A curve of arc length s that turns by p in all has a chord of at least s cos(p/2) (Schur). At s = 4 r and this turn
 that is 2 r, so two spans with less turning between them can't touch and need no search."""
 _SEARCH_RADII = 0.5
-"""Air up to this is measured, in the larger radius; a cable farther away is no neighbour."""
+"""Air up to which a cable is another's neighbour, in the larger radius; more is not measured."""
+
 _ROWS = 8192
-"""Pairs of spans measured at once, to bound the memory."""
+"""Pairs of spans that are measured at once, to bound the memory."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +46,7 @@ def find_contacts(spans: Spans, near: tuple[Indices, Indices], radii_m: NDArray[
     Args:
         spans: the centrelines.
         near: pairs of spans to search, from `Spans.near_in_plan` with at least `search_reach_m`.
-        radii_m: (cables,).
+        radii_m: (cables,), each cable's radius.
     """
     one, other = _worth_searching(spans, near, radii_m)
     depth = np.zeros(len(spans.samples_m))

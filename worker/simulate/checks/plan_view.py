@@ -14,7 +14,7 @@ until all is at rest; and with so little of the cable beyond the crossing, eithe
 have come to by themselves."""
 
 _STRIDE = 3
-"""Every third sample is enough to find crossings."""
+"""Samples from one end to the other of a segment in the search for crossings: every third is enough to find them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,8 +22,8 @@ class PlanCrossings:
     """All crossings, (C,) each.
 
     Attributes:
-        one: cable of the one strand.
-        other: cable of the other; the same where a cable crosses itself.
+        one: the cable of the one strand.
+        other: the cable of the other; the same where a cable crosses itself.
         rise_m: height of the other strand above the one.
         from_end_m: arc length from the crossing to the nearest end of either strand's cable.
     """

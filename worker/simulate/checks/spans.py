@@ -16,6 +16,7 @@ from worker.curves import Points, smooth
 Indices = NDArray[np.int64]
 
 SAMPLES_PER_SPAN = 12
+"""Samples of the smooth curve from one node to the next."""
 
 
 @dataclass(frozen=True)
@@ -24,8 +25,8 @@ class Spans:
 
     Attributes:
         samples_m: (S, 3), the smooth curves through the nodes, one after the other.
-        cable_of_sample: (S,).
-        first_sample: (P,), sample at which each span starts; it ends `SAMPLES_PER_SPAN` later.
+        cable_of_sample: (S,), cable of each sample.
+        first_sample: (P,), sample at which each span starts; the span ends `SAMPLES_PER_SPAN` later.
         cable: (P,), cable of each span.
     """
 

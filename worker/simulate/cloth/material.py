@@ -29,24 +29,26 @@ from farm.spec.simulation import ClothFall
 from worker.simulate.cloth.scale import GRAVITY, RADIUS_UNITS, FallScale
 
 SEGMENT_UNITS = 5.0 * RADIUS_UNITS
-"""Length of a strip's segment."""
+"""Length of a strip's segment, in units of the fall."""
 
 STRIP_WIDTH = 0.08
-"""Narrower than the cable, so that the strip turns over like a round one."""
+"""Width of a strip in units of the fall: less than the cable's, so that the strip turns over as a round one does."""
 
 DIAGONAL = float(np.hypot(SEGMENT_UNITS, STRIP_WIDTH))
+"""Length of the edge between two triangles of a strip, in units of the fall."""
 
 SOLVER_GRAVITY = 0.001 * GRAVITY
-"""In units of the fall per frame squared."""
+"""The gravity that the solver applies, in units of the fall per frame squared."""
 
 LEAST_STRETCHING = 20.0
-"""About what the softest cable that is drawn asks for; at 10 a landed cable is still of its length within 0.03 %."""
+"""Least setting of stretching: about what the softest drawn cable asks for; at 10 a landed cable still keeps its length
+within 0.03 %."""
 
 _STABLE_SHARE = 0.6
-"""Of the bending at which a straight strip becomes unstable."""
+"""Greatest bending that is set, as a share of the one at which a straight strip becomes unstable."""
 
 _DAMPING_SHARE = 0.2
-"""Of the bending damping at which it does."""
+"""Bending damping that is set, as a share of the one at which a straight strip becomes unstable."""
 
 _FASTEST_MODE = 9.48
 """Largest value of 16 sin(q)^2 sin(q / 2)^2: the square of D for nodes moved by one unit in the worst pattern."""
@@ -57,10 +59,10 @@ class StripMaterial:
     """Settings of Blender's cloth.
 
     Attributes:
-        vertex_mass: of every vertex.
-        bending: per cable.
-        bending_damping: of all cables.
-        stretching: per cable, for tension and compression.
+        vertex_mass: mass of every vertex.
+        bending: each cable's setting of bending.
+        bending_damping: the damping that all cables share.
+        stretching: each cable's setting of tension and compression.
     """
 
     vertex_mass: float
@@ -75,7 +77,13 @@ def strip_material(scene: Scene, scale: FallScale, fall: ClothFall) -> StripMate
 
 
 def material_for(stiffnesses: list[float], vertex_mass: float, fall: ClothFall) -> StripMaterial:
-    """The settings for cables of given EI / w, in cubed units of the fall, as nearly as Blender allows."""
+    """The settings for cables of given stiffness, as nearly as Blender allows.
+
+    Args:
+        stiffnesses: each cable's EI / w, in cubed units of the fall.
+        vertex_mass: mass of every vertex.
+        fall: the cloth's settings, of which the quality bounds the bending.
+    """
     most = most_bending(vertex_mass, fall)
     weight = _weight(vertex_mass)
     rails = 2 * SEGMENT_UNITS * STRIP_WIDTH**2 / (DIAGONAL + 2 * SEGMENT_UNITS)

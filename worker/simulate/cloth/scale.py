@@ -13,13 +13,14 @@ import numpy as np
 from farm.scene.physics import GRAVITY_M_S2
 
 RADIUS_UNITS = 0.09
-"""Measured: loaded contacts of cloth kept 0.2 apart settle at 0.18 to 0.2, so that cables of radius 0.09 touch."""
+"""A cable's radius in units of the fall. Measured: loaded contacts of cloth that is kept 0.2 apart settle at 0.18 to
+0.2, so that cables of radius 0.09 touch."""
 
 GRAVITY = GRAVITY_M_S2
 """Gravity in units of the fall per its unit of time squared: the number that it is in metres and seconds."""
 
 FRAME_TIME_UNITS = 1.0 / 31.6
-"""The cloth's clock per frame; it does not follow the scene's frames per second."""
+"""Units of time in a frame of the cloth's clock, which does not follow the scene's frames per second."""
 
 
 @dataclass(frozen=True, slots=True)
