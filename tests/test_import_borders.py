@@ -56,7 +56,7 @@ BORDERS: tuple[Border, ...] = (
     the_template_knows_no_worker,
     only_tests_know_benchmarks,
 )
-BROKEN = {
+BROKEN: dict[Border, tuple[str, str]] = {
     blender_stays_in_its_rooms: ("worker.label.label", "bpy"),
     the_farm_knows_no_worker: ("farm.run.coordinator", "worker.cli"),
     only_the_command_line_knows_assets: ("farm.spec.header", "assets.scan.hdris"),
@@ -69,7 +69,7 @@ BROKEN = {
 @pytest.mark.parametrize("border", BORDERS, ids=lambda border: border.__name__)
 def test_no_module_crosses_a_border(border: Border) -> None:
     """Each border holds for every import of every module, those inside functions included."""
-    tops = ("farm", "worker", "blend", "assets")
+    tops: tuple[str, ...] = ("farm", "worker", "blend", "assets")
     if border is only_tests_know_benchmarks:
         tops = (*tops, "benchmarks")
     crossings = [
