@@ -80,9 +80,9 @@ def desk(a: Assembly, rng: Rng) -> None:
         with a.at(x, 0.12, 0.728, turn=-25 * x):
             monitor(a, rng)
     keyboard(a, 0.02, 0.5, 0.728)
-    for x, renderer in ((-0.55, papers), (0.52, papers), (0.42, mug)):
+    for x, thing in ((-0.55, papers), (0.52, papers), (0.42, mug)):
         with a.at(x, 0.28 + rng.uniform(-0.1, 0.1), 0.728, turn=rng.normal(0, 15)):
-            renderer(a, rng)
+            thing(a, rng)
     if rng.random() < 0.5:
         with a.at(-0.6, 0.02, 0.728):
             desk_lamp(a, rng)

@@ -162,7 +162,7 @@ def test_redirects_are_followed(server: ShelfServer, tmp_path: Path) -> None:
 def test_redirects_to_elsewhere_are_refused(server: ShelfServer, tmp_path: Path, to: str) -> None:
     """Plain http of another server, files of this machine and FTP are not asked for."""
     server.answers["/a"] = redirect(to)
-    with pytest.raises(AssetError, match=r"/a: (leads to|answered 302 Found, which leads nowhere)"):
+    with pytest.raises(AssetError, match=r"/a: (redirects to|answered 302 Found, which leads nowhere)"):
         get(f"{server.url}/a", tmp_path)
     assert not list(tmp_path.iterdir())
 
@@ -205,7 +205,7 @@ def test_https_never_leads_to_http(
     monkeypatch.setenv("SSL_CERT_FILE", str(certificates.authority))
     with shelf_server(certificates) as safe:
         safe.answers["/a"] = redirect(server.put("/a", CONTENT))
-        with pytest.raises(AssetError, match=rf"/a: leads to {server.url}/a, where anybody may change"):
+        with pytest.raises(AssetError, match=rf"/a: redirects to {server.url}/a, which isn't https"):
             get(f"{safe.url}/a", tmp_path)
     assert not server.asked
 
@@ -213,7 +213,7 @@ def test_https_never_leads_to_http(
 def test_a_redirect_to_no_address(server: ShelfServer, tmp_path: Path) -> None:
     """What can't even be parsed."""
     server.answers["/a"] = redirect("http://[")
-    with pytest.raises(AssetError, match=r"/a: leads to what is no address"):
+    with pytest.raises(AssetError, match=r"/a: redirects to a malformed address"):
         get(f"{server.url}/a", tmp_path)
 
 
