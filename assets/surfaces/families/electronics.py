@@ -4,7 +4,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assets.surfaces.kit.cells import mask_distance
-from assets.surfaces.kit.circuit_layout import VIA_MM, Body, BodyKind, Pad, CircuitBoard, lay_out
+from assets.surfaces.kit.circuit_layout import VIA_MM, Body, BodyKind, CircuitBoard, Pad, lay_out
 from assets.surfaces.kit.colour import mix, plain, ramp, shade
 from assets.surfaces.kit.grid import Field, Grid
 from assets.surfaces.kit.lettering import stamp, text_patch
