@@ -1,4 +1,4 @@
-"""Cables that emit white, and all else black: a scene whose render is a mask, as the published method makes them."""
+"""Turn the open scene into one whose render is a mask, as in the published method: white cables on black."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,13 +12,14 @@ from worker.cable.piece import OCCLUDER
 
 @contextmanager
 def white_on_black() -> Iterator[Any]:
-    """Show the cables of the realized scene so inside `with`.
+    """Show the cables of the built scene white on black within the context.
 
-    The lens is the picture's, depth of field included. The floor, the lamps and the world are left out. Cables and
-    lamps stay as they are made here: realize the scene again before another picture. What hides cables is black.
+    The lens is the picture's, depth of field included. The floor, the lamps and the world are left out; things that
+    hide cables are black. Cables and lamps stay changed afterwards, so the scene must be built again before another
+    picture.
 
     Yields:
-        The picture's scene.
+        Blender's scene of the picture.
     """
     scene = bpy.data.scenes[names.PICTURE_SCENE]
     view = scene.view_settings

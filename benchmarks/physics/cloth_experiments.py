@@ -1,4 +1,4 @@
-"""What Blender's cloth makes of two textbook problems: a cantilever, and a cable over a ridge."""
+"""Two textbook problems played by Blender's cloth: a cantilever, and a cable over a ridge."""
 
 import time
 from dataclasses import dataclass
@@ -22,17 +22,20 @@ from worker.simulate.cloth.stage import modifier, read_vertices, set_frames, tem
 from worker.simulate.cloth.strip import centreline, zigzag, zigzag_faces
 
 VERTEX_MASS = 0.4
-"""The middle of the published range; a strip at rest does not depend on it."""
+"""Mass of a vertex in Blender's units: the middle of the published range. A strip at rest doesn't depend on it."""
 
 _FRAMES = 3000
+"""Most frames of an experiment, whether or not the strip has come to rest."""
 _REST = 2e-6
-"""Movement in a frame over the strip's length, below which it hangs still."""
+"""Largest movement of a strip at rest in a frame, as a share of its length."""
 _REST_FRAMES = 20
+"""Frames in succession that a strip must rest before the experiment ends."""
 _DRY_FRAMES = 30
-"""In the first frames nothing has gathered speed."""
+"""Frames at the start that don't count as rest, since nothing has gathered speed yet."""
 _AIR_DAMPING = 1.0
+"""Blender's own setting of the drag of the air, which makes a strip come to rest."""
 _HEIGHT = 200.0
-"""Of the cantilever over the origin, in units: no floor is near."""
+"""Height of the cantilever over the origin, in Blender's units: high enough to hang freely."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,11 +43,11 @@ class Deflection:
     """A settled cantilever.
 
     Attributes:
-        gamma: rho g A L^3 / (E I) as asked for.
-        gamma_set: what the settings say, which is more where the solver can't be so stiff.
-        droop: H/W as measured, from the clamp to the tip.
-        gamma_effective: at which the heavy elastica droops so.
-        seconds: of computing.
+        gamma: slenderness rho g A L^3 / (E I) that was asked for.
+        gamma_set: slenderness that the settings give, larger if the solver can't be stiff enough.
+        droop: measured H/W from the clamp to the tip.
+        gamma_effective: slenderness at which the heavy elastica has this droop.
+        seconds: computing time.
     """
 
     gamma: float
@@ -55,7 +58,7 @@ class Deflection:
 
     @property
     def error(self) -> float:
-        """Of H/W, relative to the heavy elastica of `gamma`."""
+        """Error of H/W, relative to the heavy elastica of `gamma`."""
         return self.droop / droop_ratio(self.gamma) - 1
 
 
@@ -65,10 +68,10 @@ class Crossing:
 
     Attributes:
         lift_off_m: half the length in the air, fitted to the whole shape.
-        theory_m: (72 EI d / w)^(1/4) for the lift d that was measured.
-        lift_m: d, of the centreline over the ridge.
-        misfit: of the fitted shape, root mean square over the lift.
-        seconds: of computing.
+        theory_m: (72 EI d / w)^(1/4) for the measured lift d.
+        lift_m: lift d of the centreline over the ridge.
+        misfit: root mean square distance from the fitted shape, as a share of the lift.
+        seconds: computing time.
     """
 
     lift_off_m: float
@@ -81,14 +84,16 @@ class Crossing:
 def cloth_cantilever(gamma: float, *, segments: int, settings: ClothFall, published: bool = False) -> Deflection:
     """Let a strip that is clamped at one end sag under its weight.
 
-    Args:
-        gamma: rho g A L^3 / (E I) to aim at.
-        segments: of the free length, >= 4; the stiffness that makes `gamma` of it grows with its third power.
-        settings: quality of the solver; frames and collisions do not matter here.
-        published: take the plane of quads of the published set-up and not the zigzag of the joined one. It has
-            Blender's own stretching, so soft sideways that it may turn on edge and sag more than asked for.
+    A vertex at the tip weighs as much as any other, so it stands for half a segment beyond the tip, and the free length
+    counts that half.
 
-    A vertex at the tip weighs as much as any other, so it stands for half a segment beyond it, which counts.
+    Args:
+        gamma: slenderness rho g A L^3 / (E I) to aim at.
+        segments: number of segments of the free length, at least 4; the stiffness for a given `gamma` grows with its
+            third power.
+        settings: quality of the solver; its frames and collisions don't matter here.
+        published: whether to use the published set-up's plane of quads instead of the joined set-up's zigzag. The plane
+            stretches as Blender sets it, so softly that it may turn on edge and sag more than asked for.
 
     Raises:
         SceneError: if the solver diverges.
@@ -116,9 +121,9 @@ def cloth_crossing(stiffness: float, *, segments: int, settings: ClothFall, radi
 
     Args:
         stiffness: EI / w in m^3; E r^2 / (4 rho g) for a round cable.
-        segments: of the strip.
+        segments: number of segments of the strip.
         settings: quality of the solver.
-        radius_m: of the cable.
+        radius_m: radius of the cable.
 
     Raises:
         SceneError: if the solver diverges.
@@ -160,9 +165,12 @@ def _fill(cable: Any, path: Points) -> None:
 
 
 def _pinned_zigzag(scene: Any, gamma: float, segments: int, settings: ClothFall) -> tuple[Any, float, float]:
-    """A level strip whose first triangle is held, the slenderness that it can have, and where along x the clamp is.
+    """Add a level strip whose first triangle is held.
 
     The first fold is half way along the second segment and stands for that whole segment, so the clamp is at its start.
+
+    Returns:
+        The strip, the slenderness that it can have, and the clamp's position along x.
     """
     length = (segments + 0.5) * SEGMENT_UNITS
     material = material_for([length**3 / gamma], VERTEX_MASS, settings)
@@ -178,10 +186,14 @@ def _pinned_zigzag(scene: Any, gamma: float, segments: int, settings: ClothFall)
 
 
 def _pinned_plane(scene: Any, gamma: float, segments: int) -> tuple[Any, float, float]:
-    """A level plane of quads whose first is held, its slenderness, and where along x the clamp is.
+    """Add a level plane of quads whose first quad is held.
 
-    Each fold across the plane pushes the rungs beside it by half of 0.1 b times the width times the angle, which makes
-    EI = b width length^2 / 20. The first fold is at the second rung and stands for half a segment on either side.
+    With bending stiffness b, each fold across the plane pushes the rungs beside it by half of 0.1 b times the width
+    times the angle, which makes EI = b width length^2 / 20. The first fold is at the second rung and stands for half a
+    segment on either side.
+
+    Returns:
+        The plane, its slenderness, and the clamp's position along x.
     """
     width = 2 * planes.RADIUS_UNITS
     segment = planes.SEGMENT_UNITS
@@ -200,7 +212,7 @@ def _pinned_plane(scene: Any, gamma: float, segments: int) -> tuple[Any, float, 
 
 
 def _add_ridge(scene: Any, height: float, outer: float) -> None:
-    """A straight edge across the cable that keeps the floor's distance, so that it lifts the cable by `height`."""
+    """Add a straight edge across the cable, with the floor's collision distance, so that it lifts it by `height`."""
     mesh = bpy.data.meshes.new("ridge")
     wide, foot = 5.0, 0.02
     mesh.from_pydata(
@@ -234,7 +246,7 @@ def _step_until_still(scene: Any, cable: Any) -> Points:
 
 
 def _slenderness(droop: float) -> float:
-    """The slenderness at which the heavy elastica droops by H/W, within the range of the reference; else its end."""
+    """The slenderness at which the heavy elastica droops by H/W, limited to the range of the reference."""
     low, high = LEAST_SLENDERNESS, MOST_SLENDERNESS
     if not droop_ratio(low) < droop < droop_ratio(high):
         return low if 0 <= droop <= droop_ratio(low) else high

@@ -1,4 +1,4 @@
-"""Playing scenes at a setting, and timing the fall alone."""
+"""Play scenes at a setting, and time the fall alone."""
 
 import time
 from collections.abc import Sequence
@@ -16,12 +16,12 @@ from worker.simulate.simulate import simulate
 
 
 def play(setting: Setting, scenes: Sequence[Scene]) -> tuple[Played, ...]:
-    """Let the scenes fall one after the other."""
+    """Let the cables of the scenes fall, one scene after the other."""
     return tuple(_play(setting, scene) for scene in scenes)
 
 
 def warm_up(settings: Sequence[Setting], scene: Scene) -> None:
-    """Let a scene fall by each simulator, so that none loads or compiles anything when it is timed."""
+    """Play a scene with each simulator, so that none loads or compiles anything while it is timed."""
     for simulator in dict.fromkeys(setting.simulator for setting in settings):
         if simulator is not Simulator.CLOTH_PUBLISHED:  # all of it is loaded by the other cloth
             _play(next(setting for setting in settings if setting.simulator is simulator), scene)

@@ -1,4 +1,4 @@
-"""Tables, lines and the JSON file of the comparison."""
+"""The tables, the conclusions and the JSON file of the comparison."""
 
 import itertools
 import json
@@ -22,7 +22,7 @@ _PACKAGES = ("bpy", "numba", "numpy", "scipy")
 
 
 def falls_table(rows: Sequence[Row], cables: int) -> Table:
-    """Time and gates 1 to 4 of every setting on so many cables."""
+    """A table of the time and gates 1 to 4 of every setting on scenes with `cables` cables."""
     times = ("scenes", "CPU s\nmean", "CPU s\nmax", "steps", "fall s", "CPU s\na s")
     gates = ("length\n%", "cables\n%", "floor\n%", "through", "mm/s\nrms", "mm/s\nmax")
     title = f"{cables} cables" if cables > 1 else "1 cable"
@@ -53,7 +53,7 @@ def falls_table(rows: Sequence[Row], cables: int) -> Table:
 
 
 def textbook_table(rows: Iterable[Row]) -> Table:
-    """Gates 5 and 6 of every setting."""
+    """A table of gates 5 and 6 of every setting."""
     problems = {row.setting: row for row in rows}
     first = next(iter(problems.values()))
     drops = [f"H/W at {each.slenderness:g}" for each in first.textbook.cantilevers]
@@ -69,7 +69,7 @@ def textbook_table(rows: Iterable[Row]) -> Table:
 
 
 def conclusions(rows: Sequence[Row]) -> Iterator[str]:
-    """Which setting is best for each simulator, how the rods compare with the cloth, and how their cost grows."""
+    """Sentences on the best setting of each simulator, the rods against the cloth, and the growth of the rods' cost."""
     yield (
         "error: the worst of gates 1, 2 and 5 over the rods' targets. off, never: scenes that miss a target of gates "
         "1 to 4, that break a bound. a s: for a simulated second. Bold: the defaults. The published cloth drops eight "
@@ -131,7 +131,7 @@ def _summary(row: Row) -> str:
 
 
 def write_json(path: Path, rows: Sequence[Row], *, seed: int, cpu_s: float) -> None:
-    """Every figure of every fall, and the machine."""
+    """Write every figure of every fall, and a description of the machine."""
     content = {
         "machine": machine(),
         "seed": seed,
@@ -143,7 +143,7 @@ def write_json(path: Path, rows: Sequence[Row], *, seed: int, cpu_s: float) -> N
 
 
 def machine() -> dict[str, object]:
-    """What decides how fast it is."""
+    """A description of the machine: everything that affects speed."""
     lines = _PROCESSORS.read_text().splitlines() if _PROCESSORS.exists() else []
     names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
     return {

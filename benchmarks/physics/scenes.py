@@ -1,4 +1,4 @@
-"""The scenes that all simulators play: drawn like those of a dataset, cut or extended to a number of cables."""
+"""The scenes that all simulators play: drawn like a dataset's, then cut or extended to a number of cables."""
 
 from importlib.metadata import version
 
@@ -13,28 +13,30 @@ from farm.spec.styles import merge_tables
 from worker.sample.scene import sample_scene
 
 CATEGORIES = (Category.FAR, Category.FAR_ALIGNED)
+"""Categories of the scenes: cables in any direction, and in a bundle."""
 DRAWN_CABLES = 8
-"""As many as a scene can be drawn with."""
+"""Largest number of cables that a scene can be drawn with."""
 
 MOST_CABLES = {"cable": {"count": [DRAWN_CABLES, DRAWN_CABLES]}}
-"""The ranges of a spec whose scenes all have so many."""
+"""Ranges of a description whose scenes all have `DRAWN_CABLES` cables."""
 
 SPACING_M = 0.004
-"""Height of each further cable above the one before, as in drawn scenes."""
+"""Height of each further cable above the one before, metres, as in drawn scenes."""
 
 _JOBS_APART = 100_000
-"""Between the numbers of a scene's own job and those from which its further cables come."""
+"""Difference between the indices of a scene's own job and of the jobs that lend it more cables, so that none is used
+twice."""
 
 
 def bench_scenes(count: int, cables: int, seed: int) -> tuple[Scene, ...]:
-    """Scenes of so many cables, the categories taking turns.
+    """Draw scenes with a number of cables; the categories take turns.
 
-    A scene of fewer cables is the start of the same scene with more.
+    A scene with fewer cables has the first cables of the same scene with more.
 
     Args:
-        count: of scenes.
-        cables: of each scene.
-        seed: of the dataset they are drawn as.
+        count: number of scenes.
+        cables: number of cables of each scene.
+        seed: seed of the dataset as which they are drawn.
     """
     header = _header(seed)
     kinds = len(CATEGORIES)
@@ -42,13 +44,13 @@ def bench_scenes(count: int, cables: int, seed: int) -> tuple[Scene, ...]:
 
 
 def crowd(header: DatasetHeader, category: Category, index: int, cables: int) -> Scene:
-    """The scene of a job's first attempt, with so many cables; see `bench_scenes`.
+    """The scene of a job's first attempt, cut or extended to a number of cables.
 
     Args:
-        header: one that draws `DRAWN_CABLES` cables.
-        category: of the scene.
-        index: of the scene.
-        cables: of the scene.
+        header: header of a dataset whose scenes all have `DRAWN_CABLES` cables.
+        category: category of the scene.
+        index: index of the scene's job.
+        cables: number of cables of the scene.
     """
     scene = sample_scene(header, Job(category=category, index=index), 0)
     drawn: list[Cable] = list(scene.cables)
@@ -65,7 +67,7 @@ def crowd(header: DatasetHeader, category: Category, index: int, cables: int) ->
 
 
 def _header(seed: int) -> DatasetHeader:
-    """One that names a surface and an HDRI which need not be there, since nothing is rendered."""
+    """A header whose surface and HDRI needn't exist, since nothing is rendered."""
     nothing = "0" * 64
     description = {**PUBLISHED, "images": DRAWN_CABLES, "seed": seed}
     return DatasetHeader(

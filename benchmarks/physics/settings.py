@@ -1,4 +1,4 @@
-"""Which settings of which simulator are compared, and on how many cables."""
+"""The settings of each simulator that are compared, and the numbers of cables."""
 
 from dataclasses import dataclass
 
@@ -11,13 +11,14 @@ COMPARED_COUNT = 8
 """The number of cables for which simulators are compared."""
 
 CROWDS = (16, 32)
-"""More cables than a picture shows, for the rod solver's default alone: how its cost grows."""
+"""Numbers of cables beyond those of a picture, played with the rod solver's default alone to see its cost grow."""
 
 PUBLISHED_COUNTS = (4, 8)
-"""The published set-up drops eight cables whatever it shows; below four they are near copies of each other, which
-tangle, and one fall takes up to 100 s."""
+"""Numbers of cables for the published set-up. It always drops eight; if fewer than four are shown, the rest are near
+copies of each other, which tangle, and one fall takes up to 100 s."""
 
 DEFAULT_SCENES = 6
+"""Most scenes for each setting unless the command line says otherwise."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,10 +26,12 @@ class Setting:
     """One row of the comparison.
 
     Attributes:
-        name: what is set, in a few characters; unique for its simulator.
-        is_default: whether the farm takes it unless told otherwise.
-        most_scenes: a slow one is played on the first so many scenes only.
-        counts: numbers of cables.
+        simulator: simulator that plays the scenes.
+        name: settings in a few characters, unique for its simulator.
+        fall: settings of the fall.
+        is_default: whether it is the farm's default.
+        most_scenes: largest number of scenes to play at this setting, smaller for a slow one.
+        counts: numbers of cables of the scenes.
     """
 
     simulator: Simulator
@@ -40,7 +43,7 @@ class Setting:
 
 
 def rod_settings() -> tuple[Setting, ...]:
-    """One thing varied at a time about the default, and the cheapest of both together."""
+    """The rod solver's settings: one thing varied at a time about the default, and the cheapest of both together."""
     default = RodFall()
     steps, radii = default.steps_per_s, default.segment_radii
     pairs = [(250, radii), (500, radii), (steps, radii), (2000, radii), (4000, radii)]
@@ -49,7 +52,7 @@ def rod_settings() -> tuple[Setting, ...]:
 
 
 def cloth_settings() -> tuple[Setting, ...]:
-    """Qualities of the joined cloth, then the published set-up at Blender's."""
+    """The cloth's settings: qualities of the joined set-up, then the published set-up at Blender's own quality."""
     pairs = [(5, 4), (5, 8), (10, 4), (10, 8), (20, 4), (20, 8), (40, 8)]
     published = Setting(
         simulator=Simulator.CLOTH_PUBLISHED,
@@ -63,7 +66,7 @@ def cloth_settings() -> tuple[Setting, ...]:
 
 
 def all_settings() -> tuple[Setting, ...]:
-    """Of all simulators."""
+    """The settings of all simulators."""
     return rod_settings() + cloth_settings()
 
 

@@ -1,7 +1,8 @@
-"""Gates 5 and 6 at a setting: the cantilever and the crossing, of one cable, in segments as long as in a scene.
+"""Measure gates 5 and 6 at a setting: a cantilever and a crossing of one cable, in segments as long as in a scene.
 
-The cable is 2 mm thick, of 10 MPa and 1500 kg/m3, amid what is drawn; its free length makes the slenderness. So a
-slenderness of 1 is 55 mm, a dozen segments, and 1000 is half a metre.
+The cable is 2 mm thick, with a modulus of 10 MPa and a density of 1500 kg/m3, in the middle of the ranges that scenes
+are drawn from. Its free length sets the slenderness: a slenderness of 1 is 55 mm, a dozen segments, and 1000 is half a
+metre.
 """
 
 import numpy as np
@@ -19,6 +20,7 @@ from worker.simulate.rod.model import Rod, Surroundings
 from worker.simulate.rod.simulation import DivergedError, RodSimulation
 
 SLENDERNESS = (1.0, 10.0, 100.0, 1000.0)
+"""Slenderness of the cantilevers, without unit: from stiff to nearly limp."""
 
 _RADIUS_M = 0.001
 _MODULUS_PA = 1e7
@@ -27,18 +29,23 @@ _GRAVITY_M_S2 = 9.81
 _STIFFNESS_OVER_WEIGHT_M3 = _MODULUS_PA * _RADIUS_M**2 / (4 * _DENSITY_KG_M3 * _GRAVITY_M_S2)
 
 _LEAST_SEGMENTS = 4
+"""Least number of segments of a cantilever, for settings with long segments."""
 
 _DAMPING_S = {1.0: 0.1, 10.0: 0.05, 100.0: 0.3, 1000.0: 3.0}
-"""By slenderness: internal damping with which a cantilever rests soon. Where it rests does not depend on it."""
+"""Internal damping with which a cantilever comes to rest soon, seconds, by slenderness. The shape at rest is the same
+with any damping."""
 _REST_RMS_M_S, _REST_FASTEST_M_S, _REST_S, _REST_BY_S = 5e-6, 2e-5, 0.05, 60.0
-"""At 4000 steps a second the most slender one trembles at 2e-6 m/s for ever."""
+"""Root mean square and largest speed of a cantilever at rest, m/s; time for which it must rest, and by which it must,
+seconds. The speeds are above the 2e-6 m/s at which the most slender one trembles for ever at 4000 steps a second."""
 
 _CROSSING_DAMPING_S = 0.05
+"""Internal damping of the cable over the ridge, seconds, with which it comes to rest soon."""
 _CROSSING_S = 3.0
+"""Simulated time of the crossing, seconds, in which the cable comes to rest."""
 _AVERAGED_S = 0.2
-"""Reactions tremble from step to step; what they carry is their mean."""
+"""Time over which the contact forces are averaged, seconds, since they tremble from step to step."""
 _HALF_LENGTHS = 2.2
-"""Of the cable over a ridge on either side, in lift-off lengths."""
+"""Length of the cable on either side of the ridge, in lift-off lengths: both ends lie flat on the floor."""
 _REFERENCE = RidgeCrossing(
     bending_stiffness_n_m2=_MODULUS_PA * np.pi * _RADIUS_M**4 / 4,
     weight_per_length_n_m=_DENSITY_KG_M3 * np.pi * _RADIUS_M**2 * _GRAVITY_M_S2,
@@ -47,7 +54,10 @@ _REFERENCE = RidgeCrossing(
 
 
 def textbook(setting: Setting) -> Textbook:
-    """Gates 5 and 6; of a cloth's crossing the reaction can't be read, and the published one has no crossing."""
+    """Measure gates 5 and 6.
+
+    The force on the ridge can't be read from a cloth, and the published cloth has no crossing at all.
+    """
     match setting.simulator:
         case Simulator.ROD:
             return _of_rods(setting.fall.rod)
@@ -71,9 +81,10 @@ def _free_length_m(slenderness: float) -> float:
 
 
 def _rod_cantilever(slenderness: float, fall: RodFall) -> CantileverError:
-    """Clamped by its first two nodes, hence free from the middle of the first segment on.
+    """Measure gate 5 on a rod that is clamped at its first two nodes.
 
-    The modulus makes up for a number of segments that is rounded.
+    It is free from the middle of the first segment on. The number of segments is rounded, and the modulus is adjusted
+    to make up for it.
     """
     segment = fall.segment_radii * _RADIUS_M
     segments = max(round(_free_length_m(slenderness) / segment + 0.5), _LEAST_SEGMENTS)
@@ -102,12 +113,15 @@ def _rod_cantilever(slenderness: float, fall: RodFall) -> CantileverError:
         bending_stiffness_n_m2=rod.bending_stiffness_n_m2,
         weight_per_length_n_m=rod.mass_per_length_kg_m * _GRAVITY_M_S2,
     )
-    # The slenderness as measured differs in its last digits, which may be those that choose the gate.
+    # The measured slenderness differs in its last digits, and those could choose the wrong gate.
     return CantileverError(slenderness, found.error)
 
 
 def _rod_crossing(fall: RodFall) -> CrossingError:
-    """A cable just above a ridge that stands between two of its nodes; nothing rubs, as the reference knows no pull."""
+    """Measure gate 6 on a cable released just above a ridge that stands between two of its nodes.
+
+    There is no friction, since the reference has no tension.
+    """
     segment = fall.segment_radii * _RADIUS_M
     half = _HALF_LENGTHS * _REFERENCE.lift_off_m
     nodes = np.zeros((round(2 * half / segment) + 1, 3))
@@ -131,7 +145,10 @@ def _rod_crossing(fall: RodFall) -> CrossingError:
 
 
 def _of_cloth(fall: ClothFall, *, is_published: bool) -> tuple[CantileverError, ...]:
-    """The published falls do not follow a cable's modulus at all; here its planes are given the stiffness asked for."""
+    """Measure gate 5 on a cloth.
+
+    The published falls ignore a cable's modulus; here their planes get the stiffness that the slenderness asks for.
+    """
     joined = material.SEGMENT_UNITS / scale.RADIUS_UNITS
     segment = (published.SEGMENT_UNITS / published.RADIUS_UNITS if is_published else joined) * _RADIUS_M
     errors = []
@@ -146,7 +163,7 @@ def _of_cloth(fall: ClothFall, *, is_published: bool) -> tuple[CantileverError, 
 
 
 def _cloth_lift_off(fall: ClothFall) -> float:
-    """Against the stiffness that was asked for, not the one that the cloth can have."""
+    """Error of a cloth's lift-off length, relative to the stiffness asked for and not to the one that it can have."""
     segment = material.SEGMENT_UNITS / scale.RADIUS_UNITS * _RADIUS_M
     segments = round(2 * _HALF_LENGTHS * _REFERENCE.lift_off_m / segment)
     try:

@@ -1,7 +1,7 @@
-"""How much of a picture cables cover, over more scenes than are rendered: labels need no render.
+"""The share of a picture that cables cover, over more scenes than are rendered, since labels need no render.
 
-Pictures of a category differ by five points in a hundred, so that the mean of the thirty that a small dataset has of it
-is known to a point; what the published examples show is a range of two.
+The coverage of a category's pictures has a standard deviation of five percentage points. A small dataset has thirty of
+them, so its mean is known only to one point, while the published examples span two.
 """
 
 from collections.abc import Iterator
@@ -18,12 +18,12 @@ from worker.simulate.rod.fall import drop_cables
 
 
 def drawn_coverage(header: DatasetHeader, category: Category, scenes: int) -> Iterator[float]:
-    """The share of each of a category's first scenes that shows a cable, as rods settle in it.
+    """The share of pixels that show a cable, for each of a category's first scenes, settled by the rod solver.
 
     Args:
-        header: of the dataset.
-        category: one of its own.
-        scenes: how many; more than the dataset has images of it, if that is wanted.
+        header: header of the dataset.
+        category: a category of the dataset.
+        scenes: number of scenes, which may exceed the dataset's images.
 
     Raises:
         SceneError: if a fall diverges.

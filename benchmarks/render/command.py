@@ -17,25 +17,26 @@ from farm.errors import VerificationError
 from farm.spec.category import Category
 
 DEFAULT_SCENES = 4
-"""Of each category."""
+"""Scenes of each category unless the command line says otherwise."""
 
 DEFAULT_TURN_SCENES = 1
-"""Of each category, of which single settings are turned."""
+"""Scenes of each category, among those, on which single settings are changed."""
 
 RESOLUTION = 512
+"""Edge of a picture, pixels: the default of a dataset."""
 
 
 def run(out: Path, *, seed: int, scenes: int | None, turn_scenes: int | None) -> int:
     """Measure, print, write `render.json`, `render.png` and `calibration.json` into `out`.
 
     Args:
-        out: a folder that is there.
-        seed: of the scenes.
-        scenes: of each category, for the ladder of samples.
-        turn_scenes: of them, for the settings turned one at a time.
+        out: an existing folder.
+        seed: seed of the scenes.
+        scenes: number of scenes of each category, for the ladder of samples.
+        turn_scenes: number of these scenes on which single settings are changed.
 
     Raises:
-        VerificationError: if a setting changed a picture that may not.
+        VerificationError: if a setting changed a picture that it must not change.
         FarmError: if a scene can't be made.
     """
     console = bench_console()
@@ -83,4 +84,4 @@ def run(out: Path, *, seed: int, scenes: int | None, turn_scenes: int | None) ->
 
 
 _BASE_FIRST = Variant("base first", Group.SAMPLES, BASE)
-"""Rendered before the turns and not counted, so that each of them follows the same."""
+"""Variant that is rendered first and not counted, so that each changed setting follows another render."""

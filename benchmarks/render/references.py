@@ -1,4 +1,4 @@
-"""Pictures almost free of noise, with nothing left out, that others are compared with; rendered once and kept."""
+"""References: pictures almost free of noise, with nothing left out, that are rendered once and kept."""
 
 import hashlib
 from pathlib import Path
@@ -18,25 +18,33 @@ from farm.spec.quality import REFERENCE
 from worker.service.upload import encode_png
 
 VERSION = 1
-"""To be raised when references must be rendered anew, since the farm shows the same scene otherwise."""
+"""Version of the references. A change to how the farm shows a scene must raise it, so that they are rendered again."""
 
 SHARE = 0.5
-"""Of a picture's edge that its reference covers, about the middle, where the cables are: a quarter of the time."""
+"""Share of a picture's edge that its reference covers, around the middle, where the cables are. It takes a quarter of
+the time of a whole picture."""
 
 SEED = 0x5EED
-"""Of the references' sampling, so that they share no noise with what is compared."""
+"""Seed of the references' sampling, unlike any scene's, so that they share no noise with the pictures."""
 
 
 class References:
-    """A folder of reference pictures, each named by all that decides it."""
+    """A folder of references; each file's name holds a checksum of everything that the picture depends on."""
 
     def __init__(self, header: DatasetHeader, stage: Stage, resolution: int, folder: Path | None = None) -> None:
-        """Look up nothing yet; `folder` is the farm's cache if not given."""
+        """Prepare; nothing is read or rendered yet.
+
+        Args:
+            header: header of the scenes' dataset.
+            stage: the open template.
+            resolution: edge of a whole picture, pixels.
+            folder: folder of the references; None for the farm's cache.
+        """
         self._header, self._stage, self._resolution = header, stage, resolution
         self._folder = folder or cache_folder() / "references"
 
     def path(self, settled: SettledScene) -> Path:
-        """Where a scene's reference is, or will be."""
+        """The path of a scene's reference, whether or not it exists."""
         digest = hashlib.sha256()
         floor, world = settled.scene.floor, settled.scene.hdri_world
         content = {
@@ -56,10 +64,10 @@ class References:
         return self._folder / f"{settled.job.id}-{digest.hexdigest()[:16]}.png"
 
     def picture(self, settled: SettledScene) -> NDArray[np.uint8]:
-        """The middle of a scene's reference (H, W, 3), rendered now if it is not there yet.
+        """The middle of a scene's reference, (H, W, 3), rendered now if it doesn't exist yet.
 
         Raises:
-            AssetError: if the file there is no picture.
+            AssetError: if the file isn't a picture.
         """
         path = self.path(settled)
         if not path.exists():

@@ -46,7 +46,12 @@ class Stage:
     """The farm's template, open, with the assets that a header names."""
 
     def __init__(self, header: DatasetHeader, resolution: int) -> None:
-        """Open it in this process."""
+        """Open the template in this process.
+
+        Args:
+            header: header that names the assets.
+            resolution: edge of a picture, pixels, unless `set` says otherwise.
+        """
         open_template(TEMPLATE)
         self._library = AssetLibrary(header, None)
         self._image_cache = ImageCache()
@@ -64,15 +69,15 @@ class Stage:
         resolution: int | None = None,
         share: float = 1.0,
     ) -> None:
-        """Realize a scene and set how it renders, on the CPU.
+        """Build a scene and configure its render on the CPU.
 
         Args:
             settled: the scene.
-            settings: of the picture.
-            threads: 0 takes all cores.
-            seed: of the sampling, instead of the scene's.
-            resolution: instead of the stage's.
-            share: of the picture's edge that is rendered, about its middle.
+            settings: settings of the picture.
+            threads: number of threads; 0 for all cores.
+            seed: seed of the sampling; None for the scene's own.
+            resolution: edge of the picture, pixels; None for the stage's own.
+            share: share of the picture's edge to render, around its middle.
         """
         resolution = resolution or self._resolution
         self._scene = settled.scene
@@ -94,7 +99,11 @@ class Stage:
         render.border_max_x = render.border_max_y = 0.5 + share / 2
 
     def render(self) -> NDArray[np.uint8]:
-        """The picture (H, W, 3) as set."""
+        """Render the scene that was set, and return the picture, (H, W, 3).
+
+        Raises:
+            RenderError: if no scene was set.
+        """
         if self._scene is None:
             raise RenderError("nothing is set to be rendered")
         return render_scene(self._scene, self._behind)

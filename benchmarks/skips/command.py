@@ -1,4 +1,4 @@
-"""`python -m benchmarks skips`: what is left out of a picture, and the seconds that saves."""
+"""`python -m benchmarks skips`: the things left out of a picture, and the seconds that each saves."""
 
 import json
 import time
@@ -25,12 +25,13 @@ mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first
 
 DEFAULT_SCENES = 2
-"""Of each category."""
+"""Scenes of each category unless the command line says otherwise."""
 
 RESOLUTION = 512
+"""Edge of a picture, pixels: the default of a dataset."""
 
 _REPEATS = 2
-"""Of each way, in turns; the faster counts, as nothing but other work on the machine makes one slower."""
+"""Times that each way is timed, in turns; the fastest counts, since other work on the machine only slows it down."""
 
 
 def run(
@@ -44,14 +45,14 @@ def run(
     """Measure, print the table, write `skips.json` and `skips.png` into `out`.
 
     Args:
-        out: a folder that is there.
-        seed: of the scenes.
-        scenes: of each category.
-        resolution: pixels along an edge.
-        categories: of the scenes.
+        out: an existing folder.
+        seed: seed of the scenes.
+        scenes: number of scenes of each category; `DEFAULT_SCENES` if None.
+        resolution: edge of a picture, pixels.
+        categories: categories of the scenes.
 
     Raises:
-        VerificationError: if leaving something out changed a picture that it may not change.
+        VerificationError: if leaving something out changed a picture that it must not change.
         FarmError: if a scene can't be made.
     """
     console, log_file = bench_console(), out / "skips.log"
@@ -77,7 +78,7 @@ def run(
 
 
 def _try(skip: Skip, scene: SettledScene) -> Trial:
-    """Make a scene both ways in turns, after a first time that reads what is kept and does not count."""
+    """Make a scene both ways in turns; a first time, which loads what is kept, doesn't count."""
     skip.prepare(scene, True)()
     seconds: dict[bool, list[float]] = {True: [], False: []}
     pictures = {}

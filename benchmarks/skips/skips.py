@@ -1,4 +1,4 @@
-"""What the farm leaves out, each with the two ways of making a picture: without it, and with it all the same."""
+"""The things that the farm leaves out, each with two ways to make a picture: without it, and with it after all."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -26,15 +26,16 @@ from worker.simulate.rod.simulation import RodSimulation
 from worker.simulate.simulate import simulate
 
 Action = Callable[[], NDArray[np.uint8] | None]
-"""What is timed; it returns the picture, where it makes one."""
+"""The work that is timed; it returns the picture if it makes one."""
 
 PUBLISHED_S = 4.0
-"""What the published 100 frames last."""
+"""Duration of the 100 published frames, seconds."""
 
 BLENDER_COMPRESSION = 15
-"""Of PNG files, in percent, where Blender is told nothing."""
+"""Blender's default compression of PNG files, percent."""
 
 _BREATH_M_S = 1e-9
+"""Speed of a wind too faint to move a cable, m/s, at which the solver still computes it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,10 +43,11 @@ class Skip:
     """Something that is left out.
 
     Attributes:
-        stages: of the picture, that are timed.
-        categories: whose pictures do without it.
-        same_picture: whether a picture must be the same to the byte with it.
-        prepare: given a settled scene and whether it is left out, what is to be timed.
+        name: name of the thing.
+        stages: stages of the picture that are timed, in words.
+        categories: categories whose pictures do without the thing.
+        same_picture: whether the picture must be the same to the byte with and without the thing.
+        prepare: function of a settled scene, and of whether the thing is left out, that returns the work to time.
     """
 
     name: str
@@ -70,12 +72,12 @@ _ECONOMIES = {
 
 
 class Skips:
-    """All that is left out of the benchmark's scenes.
+    """All things that are left out of the benchmark's scenes.
 
     Args:
         stage: the open template.
-        header: of the scenes.
-        crowded: the same with as many cables in each scene as can be drawn.
+        header: header of the scenes' dataset.
+        crowded: the same header, but with the largest number of cables in each scene.
     """
 
     def __init__(self, stage: Stage, header: DatasetHeader, crowded: DatasetHeader) -> None:
@@ -83,7 +85,7 @@ class Skips:
         self._library, self._image_cache = AssetLibrary(header, None), ImageCache()
 
     def all(self) -> Iterator[Skip]:
-        """Them, in the order of a picture's stages."""
+        """All skips, in the order of a picture's stages."""
         yield Skip("cables that are not shown", "simulate", ALL, False, self._unshown_cables)
         yield Skip("the fall after the cables rest", "simulate", ALL, False, self._rest)
         yield Skip("wind where it is still", "simulate", ALL, False, self._wind)
@@ -162,7 +164,7 @@ class Skips:
     def _world(self, settled: SettledScene, skipped: bool) -> Action:
         settings = self._settings(settled)
         if not skipped:
-            # A finer HDRI needs Cycles' own map of its bright parts, or small suns come back as white specks.
+            # A finer HDRI needs Cycles' own importance map, or small bright suns show as white specks in the picture.
             cycles = settings.cycles.model_copy(update={"world_map_px": 0})
             economy = settings.economy.model_copy(update={"upper_world": False})
             settings = settings.model_copy(update={"cycles": cycles, "economy": economy})

@@ -1,4 +1,4 @@
-"""What the measured process notes of its pictures."""
+"""The measured process's notes on its pictures."""
 
 import hashlib
 import json
@@ -20,28 +20,32 @@ Seconds = dict[str, float]
 
 
 def read_task(text: str) -> tuple[DatasetHeader, Job]:
-    """The header and the job that stdin holds, a line each."""
+    """Parse the header and the job's identifier, a line each."""
     header, job_id = text.splitlines()
     return DatasetHeader.model_validate_json(header), Job.from_id(job_id)
 
 
 @contextmanager
 def asset_checks() -> Iterator[Seconds]:
-    """Seconds that a studio opened inside has spent so far on finding and checking asset files, under `assets`."""
+    """Time the finding and checking of asset files by a renderer that is opened within the context.
+
+    Yields:
+        Seconds so far, under the key `assets`.
+    """
     seconds = {"assets": 0.0}
 
     class TimedLibrary(AssetLibrary):
-        """A library that notes its time."""
+        """A library that adds up its time."""
 
         def surface(self, name: str) -> SurfaceFiles:
-            """Files of a surface."""
+            """The files of a surface."""
             start = time.perf_counter()
             files = super().surface(name)
             seconds["assets"] += time.perf_counter() - start
             return files
 
         def hdri(self, name: str) -> Path:
-            """File of an HDRI."""
+            """The file of an HDRI."""
             start = time.perf_counter()
             path = super().hdri(name)
             seconds["assets"] += time.perf_counter() - start
@@ -52,7 +56,7 @@ def asset_checks() -> Iterator[Seconds]:
 
 
 def make(renderer: Renderer, job: Job, header: DatasetHeader, assets: Seconds) -> Mapping[str, object]:
-    """Make a picture; its seconds by stage, `all` of them together, and a checksum of what was made."""
+    """Make a picture and return its seconds by stage, a checksum of the picture and mask, and the device."""
     assets["assets"] = 0.0
     start = time.perf_counter()
     made = renderer.make(job, header)
@@ -69,10 +73,11 @@ def write(result: str, marks: Sequence[float], pause_s: float, pictures: Sequenc
     """Write what was measured.
 
     Args:
-        result: the JSON file.
-        marks: the clock at spawning, at the first line, after both imports, and when the template was open.
-        pause_s: of the time between the last two, what the measurement itself took.
-        pictures: as made.
+        result: path of the JSON file.
+        marks: clock at the request for the process, at its first line, after each of both imports, and when the
+            template was open.
+        pause_s: time between the last two marks that the measurement itself took.
+        pictures: notes that `make` returned.
     """
     spawned, begun, farm, renderer, opened = marks
     content = {
@@ -85,9 +90,9 @@ def write(result: str, marks: Sequence[float], pause_s: float, pictures: Sequenc
 
 
 def _compiled_now() -> dict[str, int]:
-    """How many compiled functions that Python called were read from disk, and how many had to be compiled."""
+    """Numbers of the compiled functions called by Python that were read from disk, and that were compiled now."""
     ours = [vars(module).values() for name, module in sys.modules.items() if name.startswith("worker.")]
-    # A function has its name in every module that imports it.
+    # A function appears in every module that imports it, so it is counted by identity.
     functions = {id(member): member for members in ours for member in members if isinstance(member, Dispatcher)}
     statistics = [function.stats for function in functions.values()]
     return {

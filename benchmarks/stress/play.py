@@ -1,4 +1,4 @@
-"""One run of the stress test, followed step by step."""
+"""Play one run of the stress test, and follow it step by step."""
 
 import time
 from collections.abc import Mapping
@@ -17,28 +17,30 @@ from worker.simulate.rod.simulation import DivergedError, RodSimulation
 from worker.simulate.shapes import CableShapes
 
 LOOK_RADII = 0.25
-"""Passages are looked for each time that some node may have come so far, in the least radius, or after every step."""
+"""Movement of the fastest node, in least radii, after which cables are searched for passages, but at most once a
+step."""
 
 STRIDE = 8
-"""Steps made at once where the cables are so slow that none could come that far."""
+"""Steps made at once while the cables are too slow to move by `LOOK_RADII` in them."""
 
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """What came of a run.
+    """The result of a run.
 
     Attributes:
-        fault: None if it is sound.
-        detail: the fault's figure.
-        figures: of gates 1 to 4; None if the end is not finite or far away.
-        passes: passages of a cable through another or itself, away from all ends, that stand.
-        end_slips: the same close to an end.
-        undone: passages that were led back.
-        sunk_nodes: how often a node's middle went below the floor's surface.
+        case: the scene.
+        fault: reason why the run failed; None if it didn't.
+        detail: figure of the fault, in words.
+        figures: figures of gates 1 to 4; None if the end isn't finite or is far away.
+        passes: number of passages of a cable through another or itself, away from all ends, that weren't undone.
+        end_slips: number of such passages close to an end.
+        undone: number of passages that a later one undid.
+        sunk_nodes: number of times that a node's middle went below the floor's surface.
         fall_s: simulated time.
-        max_time_s: by which the cables had to rest.
-        steps: made.
-        wall_s: what it took; decides nothing.
+        max_time_s: simulated time by which the cables had to rest.
+        steps: number of steps of the solver.
+        wall_s: computing time, for information alone.
     """
 
     case: Case
@@ -56,14 +58,14 @@ class Result:
 
     @property
     def gates(self) -> Mapping[Gate, float]:
-        """Gates 1 to 4, passages counted as they were seen and not from the order of the start; none if unmeasured."""
+        """Gates 1 to 4, with passages counted during the fall and not from the start's order; empty if unmeasured."""
         if self.figures is None:
             return {}
         return {**settled_figures(self.figures), Gate.CABLE_PASS_THROUGH: self.passes}
 
 
 def play(case: Case) -> Result:
-    """Let one scene fall until it rests, or its time is over, or it can't go on."""
+    """Let one scene fall until it rests, its time is over, or the solver breaks down."""
     began = time.perf_counter()
     setting = set_up(case)
     radii = np.array([rod.radius_m for rod in setting.rods])
@@ -73,7 +75,7 @@ def play(case: Case) -> Result:
     watch = PassWatch(tuple(rod.nodes_m for rod in setting.rods), radii)
     broke = ""
     try:
-        # What has flown apart may overflow; that is what is to be found out.
+        # Cables that have flown apart may overflow; finding that out is the purpose of the test.
         with np.errstate(over="ignore", invalid="ignore"):
             _follow(simulation, setting, watch)
     except (DivergedError, ArithmeticError, ValueError, MemoryError) as error:
@@ -99,7 +101,7 @@ def play(case: Case) -> Result:
 
 
 def _follow(simulation: RodSimulation, setting: Setting, watch: PassWatch) -> None:
-    """A step or a few after the other, with the same rule of rest as drawn scenes; what escapes is not followed."""
+    """Advance by one step or a few at a time, with drawn scenes' rule of rest; stop when a cable escapes."""
     rods = range(len(setting.rods))
     look_m = LOOK_RADII * min(rod.radius_m for rod in setting.rods)
     quiet_steps = max(1, round(REST_S / simulation.step_s))
@@ -107,7 +109,7 @@ def _follow(simulation: RodSimulation, setting: Setting, watch: PassWatch) -> No
     moved = fastest = 0.0
     step_s = simulation.step_s
     while simulation.time_s < setting.max_time_s and quiet < quiet_steps:
-        # In so short a while nothing but gravity makes slow cables much faster, and nothing passes unseen.
+        # Over so few steps only gravity speeds slow cables up noticeably, so no passage is missed.
         while_s = STRIDE * step_s
         stride = STRIDE if (fastest + GRAVITY_M_S2 * while_s) * while_s < look_m else 1
         before_s = simulation.time_s
@@ -143,7 +145,7 @@ def _shapes(simulation: RodSimulation, setting: Setting) -> CableShapes:
 
 
 def _detail(fault: StressFault | None, figures: SettleFigures | None, watch: PassWatch, setting: Setting) -> str:
-    """The figure that made a run fail, in words."""
+    """The figure that made a run fail, in words; empty without one."""
     if fault is StressFault.ESCAPED:
         return f"farther than {setting.reach_m:.3g} m"
     if fault is None or figures is None:

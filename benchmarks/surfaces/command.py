@@ -1,4 +1,4 @@
-"""`python -m benchmarks surfaces`: CPU seconds of rendering each floor surface, beside a plain one."""
+"""`python -m benchmarks surfaces`: CPU seconds of rendering each floor surface, relative to a plain one."""
 
 import json
 import tempfile
@@ -30,11 +30,13 @@ mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first
 
 RESOLUTION = 512
+"""Edge of a picture, pixels: the default of a dataset."""
 
 CATEGORY = Category.CLOSE_CONCENTRATED
+"""Category of the scenes: a floor close up, under a lamp."""
 
 DEFAULT_SCENES = 1
-"""Each is measured twice: as new, and with wear."""
+"""Scenes unless the command line says otherwise; each is measured twice, with a new floor and a worn one."""
 
 _WEAR = Wear(
     brightness=1.0,
@@ -48,27 +50,29 @@ _WEAR = Wear(
     pattern_seed=0,
     joints=JointFill(albedo=(0.2, 0.18, 0.15), cover=0.8, spread_m=0.0003),
 )
-"""The middle of the wide style's ranges, all of it at once."""
+"""Wear of the worn floor: every kind at once, in the middle of the wide style's ranges."""
 
 _REPEATS = 2
-"""Of each render, the plain one in turns with it; the cheapest counts."""
+"""Times that a surface and the plain one are rendered, in turns; the cheapest render of each counts."""
 
 _MORE_REPEATS = 6
-"""Of one that seems too costly: other work on the machine makes a render dearer, never cheaper."""
+"""Times that a surface which seems too costly is rendered again, since other work on the machine makes a render dearer
+and never cheaper."""
 
 _PLAIN_LEVEL = 150
+"""Grey level of the plain surface, 0 to 255."""
 
 
 def run(out: Path, *, seed: int, scenes: int | None, only: Sequence[str] = ()) -> int:
-    """Measure, print the table, write `surfaces.json`, after each surface, and `surfaces.png` into `out`.
+    """Measure, print the table, write `surfaces.json` after each surface, and `surfaces.png` into `out`.
 
-    Processor time is measured, not the clock's, as other work on the machine touches it less.
+    CPU time is measured and not wall time, since other work on the machine affects it less.
 
     Args:
-        out: a folder that is there.
-        seed: of the scenes.
-        scenes: on which each surface is tried.
-        only: surfaces to try; all if empty.
+        out: an existing folder.
+        seed: seed of the scenes.
+        scenes: number of scenes on which each surface is measured; `DEFAULT_SCENES` if None.
+        only: names of the surfaces to measure; all if empty.
 
     Raises:
         FarmError: if a scene can't be made.
@@ -101,7 +105,7 @@ def run(out: Path, *, seed: int, scenes: int | None, only: Sequence[str] = ()) -
 
 
 def _header_with_plain(header: DatasetHeader, folder: Path) -> DatasetHeader:
-    """With all of our surfaces, and one more, the last one, of one grey."""
+    """The header with all built-in surfaces, and a plain grey one as the last."""
     cv2.imwrite(str(folder / "plain_colour.png"), np.full((64, 64, 3), _PLAIN_LEVEL, np.uint8))
     assets = InstalledAssets()
     surfaces = (*assets.builtin_surfaces(Style.WIDE), *assets.surfaces_in(folder))
@@ -129,7 +133,7 @@ def _measure(stage: Stage, settled: Sequence[SettledScene], name: str, plain: st
 
 
 def _with_floor(settled: SettledScene, **changed: object) -> SettledScene:
-    """The same scene over a floor that differs."""
+    """The same scene with some fields of its floor changed."""
     floor = settled.scene.floor
     assert floor is not None, "the category has floors"  # noqa: S101
     return replace(settled, scene=settled.scene.model_copy(update={"floor": floor.model_copy(update=changed)}))

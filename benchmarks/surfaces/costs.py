@@ -1,4 +1,4 @@
-"""The cost of surfaces over a plain one, as figures."""
+"""The cost of surfaces relative to a plain one."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 MOST = 1.10
-"""A surface may cost so many times what a plain one does at render time."""
+"""Largest CPU time that rendering a surface may take, relative to a plain one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,8 +14,11 @@ class SurfaceCost:
     """CPU seconds of one surface and of a plain one, in the same scenes.
 
     Attributes:
-        render_s: of rendering, for each scene; the same for `plain_render_s`.
-        realize_s: of setting the scene.
+        name: name of the surface.
+        render_s: time to render each scene with the surface.
+        plain_render_s: time to render each scene with the plain one.
+        realize_s: time to build each scene with the surface.
+        plain_realize_s: time to build each scene with the plain one.
     """
 
     name: str
@@ -26,16 +29,16 @@ class SurfaceCost:
 
     @property
     def ratio(self) -> float:
-        """Rendering over rendering the plain one."""
+        """Time of rendering, relative to the plain surface's."""
         return float(np.sum(self.render_s) / np.sum(self.plain_render_s))
 
     @property
     def whole_ratio(self) -> float:
-        """Setting the scene and rendering, likewise."""
+        """Time of building and rendering, relative to the plain surface's."""
         plain = np.sum(self.plain_render_s) + np.sum(self.plain_realize_s)
         return float((np.sum(self.render_s) + np.sum(self.realize_s)) / plain)
 
 
 def too_costly(costs: Sequence[SurfaceCost]) -> list[SurfaceCost]:
-    """Those above `MOST`, the costliest first."""
+    """The surfaces above `MOST`, the costliest first."""
     return sorted((cost for cost in costs if cost.ratio > MOST), key=lambda cost: -cost.ratio)

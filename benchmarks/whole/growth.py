@@ -1,4 +1,4 @@
-"""How the standard picture's cost grows with its resolution and with the number of its cables."""
+"""The growth of the standard picture's cost with its resolution and with the number of its cables."""
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -25,7 +25,7 @@ from worker.simulate.simulate import simulate
 
 
 class Axis(StrEnum):
-    """What is made larger."""
+    """The quantity that grows."""
 
     RESOLUTION = "resolution"
     CABLES = "cables"
@@ -36,7 +36,10 @@ class Point:
     """The mean picture of some scenes of a category.
 
     Attributes:
-        value: pixels along an edge, or cables.
+        axis: quantity that grows.
+        category: category of the scenes.
+        value: value of the quantity: pixels along an edge, or number of cables.
+        scenes: number of scenes.
         stages_s: mean seconds of each stage.
     """
 
@@ -48,27 +51,27 @@ class Point:
 
     @property
     def seconds(self) -> float:
-        """Of all stages."""
+        """Mean seconds of all stages together."""
         return sum(self.stages_s.values())
 
 
 def power(few: Point, many: Point) -> float:
-    """The exponent with which seconds grow from one point to the other."""
+    """The exponent with which the seconds grow from one point to the other."""
     return float(np.log(many.seconds / few.seconds) / np.log(many.value / few.value))
 
 
 def measure_growth(
     plan: Plan, stage: Stage, folder: Path, on_picture: Callable[[], None] = lambda: None
 ) -> tuple[Point, ...]:
-    """Make the same scenes at every resolution with the cables drawn, and with every number of cables.
+    """Make the same scenes at every resolution with the drawn number of cables, and with every number of cables.
 
-    Textures are read before a scene's clock runs. Scenes are not checked, as one with many cables might fail.
+    Textures are loaded before a scene is timed. No scene is rejected, since one with many cables might fail the checks.
 
     Args:
-        plan: which points, and how many scenes for each.
+        plan: the plan, which holds the points and the number of scenes for each.
         stage: the open template, with the assets of any header of the benchmark.
-        folder: takes the pictures.
-        on_picture: told after each.
+        folder: folder that receives the pictures.
+        on_picture: function called after each picture.
 
     Raises:
         FarmError: if a picture can't be made.
@@ -94,7 +97,7 @@ def _means(timings: Sequence[Mapping[str, float]]) -> Mapping[str, float]:
 
 
 def points(plan: Plan) -> Iterator[tuple[Axis, int]]:
-    """The points of a category."""
+    """The axis and the value of each point of a category."""
     yield from ((Axis.RESOLUTION, value) for value in plan.resolutions)
     yield from ((Axis.CABLES, value) for value in plan.counts)
 

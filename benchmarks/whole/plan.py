@@ -1,4 +1,4 @@
-"""How much the whole-image benchmark does."""
+"""The plan of a run of the whole-image benchmark."""
 
 from dataclasses import dataclass
 
@@ -10,16 +10,16 @@ class Plan:
     """What is measured.
 
     Attributes:
-        seed: of the scenes.
-        images: standard pictures of each category.
-        slow_images: of them, those whose scenes are made in the slow ways, too; at most `images`.
-        growth_images: scenes a point of the growth with resolution and with cables; 0 leaves it out.
-        resolution: pixels along an edge, but for the growth with it.
-        errors: whether pictures are compared with references, which take minutes each where they are not kept.
-        categories: of the standard and the slow pictures.
-        growth_categories: one far and one close.
-        resolutions: of the growth, pixels along an edge.
-        counts: of the growth, cables.
+        seed: seed of the scenes.
+        images: number of standard pictures of each category.
+        slow_images: number of these pictures whose scenes are made in the slow ways, too; at most `images`.
+        growth_images: number of scenes for each point of the growth; 0 leaves the growth out.
+        resolution: edge of a picture, pixels, except in the growth with resolution.
+        errors: whether pictures are compared with references, which take minutes each unless they are kept.
+        categories: categories of the standard and the slow pictures.
+        growth_categories: categories of the growth: one far and one close.
+        resolutions: edges of the growth's pictures, pixels.
+        counts: numbers of cables of the growth's scenes.
     """
 
     seed: int = 0

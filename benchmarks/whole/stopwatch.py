@@ -1,4 +1,4 @@
-"""Seconds by stage."""
+"""A stopwatch that adds up seconds by stage."""
 
 import time
 from collections.abc import Iterator
@@ -9,7 +9,7 @@ class Stopwatch:
     """Adds up the seconds of each stage.
 
     Attributes:
-        stages_s: by stage, in the order in which they began.
+        stages_s: seconds by stage, in the order in which the stages began.
     """
 
     def __init__(self) -> None:
@@ -17,7 +17,7 @@ class Stopwatch:
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
-        """Count what is done inside `with`."""
+        """Add the time within the context to a stage."""
         start = time.perf_counter()
         try:
             yield
