@@ -37,7 +37,7 @@ def test_means_are_by_category_and_of_the_stages_asked_for() -> None:
     row = Row(
         Way.STANDARD,
         (
-            shot(Category.FAR, 0, render=2.0, build_scene=1.0),
+            shot(Category.FAR, 0, render=2.0, realize=1.0),
             shot(Category.FAR, 1, render=4.0),
             shot(Category.CLOSE_DISTRIBUTED, 0, render=9.0),
         ),
@@ -97,7 +97,7 @@ def test_the_report_has_ratios_first_and_errors_where_there_are_references(tmp_p
     )
     assert power(few, many) == pytest.approx(1.0)
     standard = Row(Way.STANDARD, (whole(Category.FAR, 0, 1.0, Errors(0.02, 40.0)), whole(Category.FAR, 1)))
-    slow = Row(Way.BLENDER, (shot(Category.FAR, build_scene=0.0, render=30.0),))
+    slow = Row(Way.BLENDER, (shot(Category.FAR, realize=0.0, render=30.0),))
     found = Findings(Plan(), standard, (slow,), (few, many), 1.0, 0.01, 500.0)
     titles = [str(table.title) for table in tables(found)]
     assert "over those of standard" in titles[0]
