@@ -13,12 +13,12 @@ pytestmark = pytest.mark.blender
 
 
 def test_the_command_line_offers_what_the_worker_knows() -> None:
-    """The two lists agree, though the command line does not import the worker."""
+    """The command line's list of devices equals the worker's, which it doesn't import."""
     assert {str(choice) for choice in DeviceChoice} == set(CHOICES)
 
 
 def test_the_cpu_can_always_be_chosen() -> None:
-    """Whatever the machine has."""
+    """The CPU can be chosen on every machine."""
     assert choose_device("cpu") == "cpu"
 
 
@@ -26,5 +26,5 @@ def test_the_cpu_can_always_be_chosen() -> None:
     any([*Path("/dev").glob("nvidia[0-9]"), *Path("/dev").glob("kfd")]), reason="needs a machine without a GPU"
 )
 def test_auto_falls_back_to_the_cpu() -> None:
-    """On a machine without a GPU."""
+    """On a machine without a GPU, auto chooses the CPU."""
     assert choose_device("auto") == "cpu"

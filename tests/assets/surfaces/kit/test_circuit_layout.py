@@ -12,7 +12,7 @@ CELLS = round(SIZE_MM / CELL_MM)
 
 @pytest.fixture(scope="module")
 def board() -> CircuitBoard:
-    """One board."""
+    """A circuit board."""
     return lay_out(np.random.default_rng(0), SIZE_MM)
 
 
@@ -41,7 +41,7 @@ def test_no_two_traces_meet(board: CircuitBoard) -> None:
 
 
 def test_components_do_not_overlap(board: CircuitBoard) -> None:
-    """The middles of two bodies lie further apart than half their sizes, across the tile's edges too."""
+    """The middles of two bodies lie farther apart than half their sizes, across the tile's edges too."""
     centres = np.array([(body.x, body.y) for body in board.bodies])
     halves = np.array([(body.width, body.height) for body in board.bodies]) / 2
     gap = np.abs(centres[:, None] - centres[None])
