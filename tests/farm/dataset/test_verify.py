@@ -1,4 +1,4 @@
-"""What a check of a dataset finds."""
+"""The findings of a check of a dataset."""
 
 import hashlib
 import os
@@ -33,12 +33,12 @@ def made(dataset: Dataset) -> Dataset:
 
 
 def found(dataset: Dataset) -> list[tuple[Fault, str]]:
-    """What is wrong, and where."""
+    """Each finding's kind and path."""
     return [(finding.fault, finding.path) for finding in verify(dataset).findings]
 
 
 def replace_file(dataset: Dataset, role: FileRole, content: bytes) -> None:
-    """Put another file in place, and have the manifest vouch for it."""
+    """Replace a file, and change the manifest so that it vouches for the new one."""
     path = manifest_path(JOB)
     manifest = Manifest.model_validate_json(dataset.storage.read(path))
     record = FileRecord(path=file_path(JOB, role), bytes=len(content), sha256=hashlib.sha256(content).hexdigest())
@@ -48,14 +48,14 @@ def replace_file(dataset: Dataset, role: FileRole, content: bytes) -> None:
 
 
 def test_clean(made: Dataset) -> None:
-    """A finished dataset has nothing wrong."""
+    """A finished dataset has no findings."""
     verdict = verify(made)
     assert verdict.clean
     assert verdict.images == verdict.quota == 4
 
 
 def test_unmade(dataset: Dataset) -> None:
-    """Of a job that was not made, the manifest is missed."""
+    """The manifest of a job that wasn't made is missing."""
     assert [fault for fault, _ in found(dataset)] == [Fault.MISSING] * 4
 
 
@@ -69,14 +69,14 @@ def test_missing(made: Dataset, path: str) -> None:
 @pytest.mark.parametrize("path", [IMAGE, MASK, INSTANCES])
 @pytest.mark.parametrize("size", [0, 20])
 def test_truncated(made: Dataset, path: str, size: int) -> None:
-    """A file that is shorter than its manifest tells is truncated."""
+    """A file that is shorter than its manifest says is truncated."""
     os.truncate(Path(made.storage.location) / path, size)
     assert found(made) == [(Fault.TRUNCATED, path)]
 
 
 @pytest.mark.parametrize("path", [IMAGE, MASK, INSTANCES])
 def test_altered(made: Dataset, path: str) -> None:
-    """A file of the right size with one other bit is altered."""
+    """A file of the right size with one changed bit is altered."""
     content = bytearray(made.storage.read(path))
     content[-20] ^= 1
     made.storage.write(path, bytes(content))
@@ -103,7 +103,7 @@ def test_anywhere(any_store: Callable[[str], str], header: DatasetHeader) -> Non
 
 @pytest.mark.swift
 def test_unfinished_upload_to_a_bucket(bucket: str, object_store: ObjectStore, header: DatasetHeader) -> None:
-    """Parts of an object that its killed writer never completed count for nothing."""
+    """Parts of an object that its killed writer never completed are no findings."""
     dataset = create_dataset(Destination(bucket, "cables"), header)
     for job in header.spec.jobs():
         upload(StandInRenderer().make(job, header), job, dataset)
@@ -117,7 +117,7 @@ def test_unfinished_upload_to_a_bucket(bucket: str, object_store: ObjectStore, h
 
 
 class GrowingStorage(LocalStorage):
-    """Another process acts at the first look at one file."""
+    """A storage in which another process acts at the first look at one file."""
 
     def __init__(self, root: Path, watched: str, act: Callable[[], None]) -> None:
         super().__init__(root)
@@ -125,7 +125,7 @@ class GrowingStorage(LocalStorage):
         self._act: Callable[[], None] | None = act
 
     def read(self, path: str) -> bytes:
-        """See `Storage.read`."""
+        """Implement `Storage.read`."""
         if path == self._watched and self._act is not None:
             act, self._act = self._act, None
             act()
@@ -147,7 +147,7 @@ def test_job_that_is_made_meanwhile(dataset: Dataset, made: Dataset) -> None:
 
 
 def test_job_that_is_made_anew_meanwhile(made: Dataset) -> None:
-    """A file that vanishes during the look is looked for again, and then reported, not raised."""
+    """A file that vanishes during the check is looked for again and then reported, not raised as an error."""
     content = made.storage.read(IMAGE)
     made.storage.remove(IMAGE)
     back = GrowingStorage(Path(made.storage.location), MASK, lambda: made.storage.write(IMAGE, content))
@@ -183,13 +183,13 @@ def test_extra(made: Dataset, path: str) -> None:
 
 
 def test_young_temporary_file(made: Dataset) -> None:
-    """A file still being written is nobody's fault."""
+    """A file that may still be being written is no finding."""
     made.storage.write("far/images/.tmp-far-000001.png.host.1", b"")
     assert found(made) == []
 
 
 def test_old_temporary_file(made: Dataset) -> None:
-    """One that no living writer can own is extra."""
+    """A temporary file that no living writer can own is extra."""
     path = "far/images/.tmp-far-000001.png.host.1"
     made.storage.write(path, b"")
     os.utime(Path(made.storage.location) / path, (0, 0))
@@ -197,20 +197,20 @@ def test_old_temporary_file(made: Dataset) -> None:
 
 
 def test_no_png(made: Dataset) -> None:
-    """What is no PNG is found even where the manifest vouches for it."""
+    """A file that isn't a PNG is found, even if the manifest vouches for it."""
     replace_file(made, FileRole.IMAGE, b"no picture")
     assert found(made) == [(Fault.ALTERED, IMAGE)]
 
 
 @pytest.mark.parametrize("shape", [(16, 16), (32, 32, 3)])
 def test_wrong_shape(made: Dataset, shape: tuple[int, ...]) -> None:
-    """A mask of another size or with colours is found."""
+    """A mask with another size or with colours is found."""
     replace_file(made, FileRole.MASK, encode_png(np.zeros(shape, np.uint8)))
     assert found(made) == [(Fault.ALTERED, MASK)]
 
 
 def test_grey_mask(made: Dataset) -> None:
-    """A mask with values between is found."""
+    """A mask with values between 0 and 255 is found."""
     replace_file(made, FileRole.MASK, encode_png(np.full((32, 32), 7, np.uint8)))
     assert found(made) == [(Fault.ALTERED, MASK)]
 
@@ -222,7 +222,7 @@ def test_instances_that_do_not_agree(made: Dataset) -> None:
 
 
 def test_tells_how_far_it_is(made: Dataset) -> None:
-    """Each job is counted as it is checked."""
+    """Each checked job is counted."""
     counts: list[int] = []
     verify(made, counts.append)
     assert counts == [1, 2, 3, 4]
