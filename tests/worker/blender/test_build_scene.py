@@ -1,4 +1,4 @@
-"""What is left out of a scene does not show."""
+"""Leaving things out of a scene doesn't change its picture."""
 
 from pathlib import Path
 
@@ -48,7 +48,7 @@ TILTED = Camera(
 
 @pytest.fixture(scope="module")
 def header() -> DatasetHeader:
-    """Of pictures over two surfaces."""
+    """The surfaces, small, and a fresh template open."""
     spec = parse_spec({"seed": 0, "style": "published", "images": 600}, source="test")
     made = make_header(spec, Inputs(environments=False), InstalledAssets())
     return made.model_copy(update={"surfaces": tuple(s for s in made.surfaces if s.name in SURFACES)})
@@ -70,7 +70,7 @@ def set_up(
     economy: Economy,
     camera: Camera | None = None,
 ) -> Backdrop | None:
-    """Make a job's scene ready to render, as seen by another camera if one is given."""
+    """Build a job's scene ready to render, as seen by another camera if one is given."""
     scene = sample_scene(header, job, 0)
     scene = scene.model_copy(update={"camera": camera or scene.camera})
     shapes = simulate(scene, header.spec.simulator, header.spec.fall)
@@ -103,7 +103,7 @@ def picture(
 
 
 def psnr_db(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
-    """Peak signal over noise."""
+    """Peak signal-to-noise ratio, dB."""
     return float(10 * np.log10(255.0**2 / max(np.mean((a - b) ** 2), 1e-9)))
 
 
@@ -112,7 +112,7 @@ def psnr_db(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
 def test_what_is_out_of_view_is_not_missed(
     header: DatasetHeader, library: AssetLibrary, field: str, camera: Camera | None
 ) -> None:
-    """With the same samples, a lamp's picture is the same to 45 dB, which is a level and a half."""
+    """With the same samples, a lamp's picture stays the same to 45 dB, which is a level and a half."""
     whole = REFERENCE.economy
     without = whole.model_copy(update={field: True})
     less, more = (picture(header, library, Category.CLOSE_CONCENTRATED, 8, each, camera) for each in (without, whole))
@@ -123,7 +123,7 @@ def test_what_is_out_of_view_is_not_missed(
 def test_what_is_behind_is_what_paths_would_find(
     header: DatasetHeader, library: AssetLibrary, camera: Camera | None
 ) -> None:
-    """A far picture with the HDRI looked up is that of 256 samples to 35 dB, which leaves their noise."""
+    """A far picture with the HDRI looked up equals that of 256 samples to 35 dB, which is their noise."""
     looked_up = picture(header, library, Category.FAR, 64, Economy(), camera)
     sampled = picture(header, library, Category.FAR, 256, REFERENCE.economy, camera)
     assert psnr_db(looked_up, sampled) > 35
@@ -131,7 +131,7 @@ def test_what_is_behind_is_what_paths_would_find(
 
 
 def test_the_upper_world_lights_as_the_whole_does(header: DatasetHeader, library: AssetLibrary) -> None:
-    """A floor under an HDRI is as bright, within 2 %, and alike to 30 dB at samples that leave noise."""
+    """A floor under an HDRI keeps its brightness within 2 %, and its picture to 30 dB at samples that leave noise."""
     upper = picture(header, library, Category.CLOSE_DISTRIBUTED, 64, Economy())
     whole = picture(header, library, Category.CLOSE_DISTRIBUTED, 256, REFERENCE.economy)
     assert upper.mean() == pytest.approx(whole.mean(), rel=0.02)
@@ -139,7 +139,7 @@ def test_the_upper_world_lights_as_the_whole_does(header: DatasetHeader, library
 
 
 def test_a_world_that_an_artist_changed_is_sampled(header: DatasetHeader, library: AssetLibrary) -> None:
-    """With a node of theirs between HDRI and background, nothing is looked up in the HDRI alone."""
+    """With an artist's node between HDRI and background, nothing is looked up in the HDRI alone."""
     tree = bpy.data.worlds[names.WORLD].node_tree
     assert is_as_built(bpy.data.worlds[names.WORLD])
     tint = tree.nodes.new("ShaderNodeGamma")
@@ -150,6 +150,6 @@ def test_a_world_that_an_artist_changed_is_sampled(header: DatasetHeader, librar
 
 
 def test_a_lens_that_an_artist_changed_is_sampled(header: DatasetHeader, library: AssetLibrary) -> None:
-    """Six blades blur to hexagons, which the disc does not."""
+    """Six blades blur to hexagons, which the analytic disc doesn't."""
     bpy.data.objects[names.CAMERA].data.dof.aperture_blades = 6
     assert set_up(header, library, Job(category=Category.FAR, index=0), 1, Economy()) is None

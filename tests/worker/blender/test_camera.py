@@ -1,4 +1,4 @@
-"""Blender's camera sees what the masks say, however it stands and whatever its lens."""
+"""Blender's camera agrees with the masks, for any direction and lens."""
 
 import numpy as np
 import pytest
@@ -57,7 +57,7 @@ CAMERAS = {
 
 @pytest.fixture(scope="module")
 def settled() -> tuple[Scene, CableShapes]:
-    """A far scene, and its cables at rest."""
+    """A far scene with its cables at rest."""
     thin = {"cable": {"count_draws": 1, "diameter_m": 0.002}}
     scene, header = make_scene(Category.CLOSE_CONCENTRATED, index=3, ranges=thin), make_header()
     return scene, simulate(scene, header.spec.simulator, header.spec.fall)
@@ -65,12 +65,12 @@ def settled() -> tuple[Scene, CableShapes]:
 
 @pytest.fixture(autouse=True)
 def template() -> None:
-    """A fresh one."""
+    """A fresh template."""
     open_template(TEMPLATE)
 
 
 def render_white(scene: Scene, shapes: CableShapes) -> NDArray[np.float64]:
-    """Coverage by the scene's cables as Cycles finds it."""
+    """The coverage by the scene's cables as Cycles finds it."""
     settings = PictureSettings(cycles=CyclesSettings(samples=64, denoiser=Denoiser.NONE))
     build_scene(
         scene,
@@ -88,7 +88,7 @@ def render_white(scene: Scene, shapes: CableShapes) -> NDArray[np.float64]:
 
 @pytest.mark.parametrize("name", CAMERAS)
 def test_a_mask_agrees_with_a_render_through_any_lens(settled: tuple[Scene, CableShapes], name: str) -> None:
-    """White cables on black, tilted, rolled, distorted: edges within a fifth of a pixel, area within a hundredth."""
+    """Tilted, rolled and distorted: edges agree within a fifth of a pixel, areas within a hundredth."""
     drawn, shapes = settled
     scene = drawn.model_copy(update={"camera": CAMERAS[name], "floor": None})
     coverage = render_white(scene, shapes)
@@ -100,7 +100,7 @@ def test_a_mask_agrees_with_a_render_through_any_lens(settled: tuple[Scene, Cabl
 
 
 def test_what_is_out_of_focus_covers_as_it_does_in_a_render(settled: tuple[Scene, CableShapes]) -> None:
-    """A wide open lens, tilted and in focus above the floor: its coverage is Cycles' within a few samples' noise."""
+    """With a wide open lens, tilted and in focus above the floor, coverage is Cycles' within a few samples' noise."""
     drawn, shapes = settled
     camera = CAMERAS["long"].model_copy(update={"f_number": 4.0, "focus_offset_m": 0.02, "distortion": 0.0})
     scene = drawn.model_copy(update={"camera": camera, "floor": None})

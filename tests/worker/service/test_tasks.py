@@ -36,7 +36,7 @@ def queue(redis_url: str, redis_client: "redis.Redis") -> CeleryQueue:
 
 @pytest.fixture
 def run(redis_client: "redis.Redis", dataset: Dataset) -> Run:
-    """The dataset's run, which is on the board."""
+    """The dataset's run, which is registered."""
     return RedisRegistry(redis_client).register(run_of(dataset))
 
 
@@ -50,8 +50,8 @@ def ledger(redis_client: "redis.Redis", dataset: Dataset) -> RedisLedger:
 def worker(
     worker_command: list[str], redis_url: str, tmp_path: Path, queue: CeleryQueue
 ) -> Iterator["subprocess.Popen[bytes]"]:
-    """A worker with the stand-in maker, on the store of the `dataset` fixture."""
-    del queue  # emptied before the worker listens
+    """A worker with the stand-in renderer, on the store of the `dataset` fixture."""
+    del queue  # this fixture empties Redis before the worker listens
     command = [*worker_command, "serve", "--store", str(tmp_path / "store"), "--name", "test", "--min-free-mib", "0"]
     process = subprocess.Popen(
         [*command, "--logs", str(tmp_path / "logs")],
@@ -68,11 +68,11 @@ def worker(
     try:
         process.wait(PATIENCE_S)
     finally:
-        process.kill()  # its renderer ends with it
+        process.kill()  # the worker's renderer ends with it
 
 
 def wait_until_done(dataset: Dataset, count: int) -> None:
-    """Wait for so many images."""
+    """Wait for this many images."""
     completion = Completion(dataset)
     give_up_s = time.monotonic() + PATIENCE_S
     while len(completion.look()) < count:
@@ -117,7 +117,7 @@ def test_bad_message_does_not_stop_the_worker(
 def test_passing_failure_is_put_off(
     queue: CeleryQueue, run: Run, worker: "subprocess.Popen[bytes]", dataset: Dataset, ledger: RedisLedger
 ) -> None:
-    """A job that fails in a way that may pass is held for its next try, and not counted as failed."""
+    """A job with a failure that may pass is held for its next attempt, and doesn't count as failed."""
     del worker
     queue.submit(run, [dataset.message(Job.from_id("far-000001")), dataset.message(JOB)])
     wait_until_done(dataset, 1)
@@ -154,7 +154,7 @@ def test_unfit_worker_takes_itself_out(
     dataset: Dataset,
     ledger: RedisLedger,
 ) -> None:
-    """A worker that can't open its maker gives its job back and ends, with the reason and its code."""
+    """A worker that can't open its renderer gives its job back and ends, with the reason and its exit code."""
     queue.submit(run, [dataset.message(JOB)])
     result = serve(worker_command, tmp_path / "store", redis_url, STAND_IN_UNFIT="--device optix: no such device")
     assert result.returncode == MachineError.exit_code

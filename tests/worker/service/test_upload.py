@@ -1,4 +1,4 @@
-"""Writing a made picture."""
+"""Writing a picture to the dataset."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -41,7 +41,7 @@ def test_png_keeps_every_value(shape_and_type: tuple[tuple[int, ...], Any]) -> N
 
 
 def test_writes_the_layout(dataset: Dataset, made: Picture) -> None:
-    """Three pictures and a manifest, where the layout says."""
+    """Three pictures and a manifest lie where the layout says."""
     upload(made, JOB, dataset)
     expected = {file_path(JOB, role) for role in FileRole} | {manifest_path(JOB), "dataset.json"}
     assert set(dataset.storage.files()) == expected
@@ -49,7 +49,7 @@ def test_writes_the_layout(dataset: Dataset, made: Picture) -> None:
 
 
 def test_manifest_is_last(dataset: Dataset, made: Picture, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nothing is written after the manifest, so that it never vouches for a file still to come."""
+    """Nothing is written after the manifest, so that it never vouches for a missing file."""
     written: list[str] = []
     write = type(dataset.storage).write
 
@@ -63,7 +63,7 @@ def test_manifest_is_last(dataset: Dataset, made: Picture, monkeypatch: pytest.M
 
 
 def test_interrupted_upload_is_not_done(dataset: Dataset, made: Picture, monkeypatch: pytest.MonkeyPatch) -> None:
-    """When a write fails, the job is not done, whatever was written before."""
+    """If a write fails, the job isn't done, whatever was written before."""
     write = type(dataset.storage).write
 
     def failing(storage: object, path: str, content: bytes) -> None:
@@ -88,7 +88,7 @@ def test_interrupted_upload_is_not_done(dataset: Dataset, made: Picture, monkeyp
     ],
 )
 def test_labels_that_do_not_fit(dataset: Dataset, made: Picture, damage: dict[str, Any]) -> None:
-    """A picture and labels that contradict each other are not written."""
+    """A picture and labels that contradict each other aren't written."""
     before = dataset.storage.files()
     with pytest.raises(RenderError):
         upload(replace(made, **damage), JOB, dataset)
@@ -96,7 +96,7 @@ def test_labels_that_do_not_fit(dataset: Dataset, made: Picture, damage: dict[st
 
 
 class Clock:
-    """Goes on when told to."""
+    """A clock that the test moves."""
 
     now_s = 1000.0
 
@@ -106,11 +106,11 @@ class Clock:
 
 
 class Elsewhere:
-    """Another machine, which takes a job over whose worker is silent for a minute, and makes it.
+    """Another machine, which takes over the job of a worker that was silent for a minute, and makes it.
 
     Args:
-        dataset: where it writes.
-        seed: of its pixels; another than the dataset's stands for another machine's rounding.
+        dataset: dataset that the other machine writes to.
+        seed: seed of its pixels; a seed other than the dataset's stands for another machine's rounding.
     """
 
     def __init__(self, dataset: Dataset, seed: int) -> None:
@@ -130,7 +130,7 @@ class Elsewhere:
 
 
 class StoppedStorage(LocalStorage):
-    """The process is stopped after it has decided to write one file, and before it does."""
+    """A storage whose process is stopped after it has decided to write one file, and before it does."""
 
     def __init__(self, root: Path, watched: str, meanwhile: Callable[[], None]) -> None:
         super().__init__(root)
@@ -138,7 +138,7 @@ class StoppedStorage(LocalStorage):
         self._meanwhile = meanwhile
 
     def write(self, path: str, content: bytes) -> None:
-        """See `Storage.write`."""
+        """Implement `Storage.write`."""
         if path == self._watched:
             self._meanwhile()
         super().write(path, content)
@@ -148,7 +148,7 @@ ALL_PATHS = [*(file_path(JOB, role) for role in FileRole), manifest_path(JOB)]
 
 
 def test_worker_that_was_stopped_writes_nothing(dataset: Dataset, made: Picture) -> None:
-    """A worker that was stopped past its lease leaves what another has made to the last bit."""
+    """A worker that was stopped past its lease changes no bit of another worker's files."""
     other = Elsewhere(dataset, seed=5)
     other.take_over()
     before = {path: dataset.storage.read(path) for path in dataset.storage.files()}
@@ -158,7 +158,7 @@ def test_worker_that_was_stopped_writes_nothing(dataset: Dataset, made: Picture)
 
 
 def test_worker_that_was_stopped_and_not_missed(dataset: Dataset, made: Picture) -> None:
-    """Past its lease a worker asks, and writes what it made if nobody has taken the job yet."""
+    """Past its lease a worker asks, and writes if no other worker has taken the job."""
     other = Elsewhere(dataset, seed=5)
     other.clock.now_s += 61.0
     upload(made, JOB, dataset, other.claim)
@@ -167,7 +167,7 @@ def test_worker_that_was_stopped_and_not_missed(dataset: Dataset, made: Picture)
 
 @pytest.mark.parametrize("path", ALL_PATHS)
 def test_stop_between_check_and_write(dataset: Dataset, made: Picture, path: str) -> None:
-    """A late write among another machine's files, whose bytes differ, leaves no job that seems done and is mixed."""
+    """A late write among another machine's files, whose bytes differ, leaves no mixed job that seems done."""
     other = Elsewhere(dataset, seed=5)
     theirs: dict[str, bytes] = {}
 
@@ -187,7 +187,7 @@ def test_stop_between_check_and_write(dataset: Dataset, made: Picture, path: str
 
 @pytest.mark.parametrize("path", ALL_PATHS)
 def test_stop_between_check_and_write_of_the_same(dataset: Dataset, made: Picture, path: str) -> None:
-    """A late write of the very bytes that another has written does no harm, and what is done stays so."""
+    """A late write of the same bytes does no harm, and the job stays done."""
     other = Elsewhere(dataset, seed=0)
     storage = StoppedStorage(Path(dataset.storage.location), path, other.take_over)
     with pytest.raises(LeaseLostError):
@@ -196,7 +196,7 @@ def test_stop_between_check_and_write_of_the_same(dataset: Dataset, made: Pictur
 
 
 def test_stop_before_a_redis_that_is_away(dataset: Dataset, made: Picture, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whoever can't ask after a late write leaves no mixed job either."""
+    """A late write leaves no mixed job, even if Redis can't be asked after it."""
     other = Elsewhere(dataset, seed=5)
 
     def take_over_and_go_away() -> None:
@@ -213,7 +213,7 @@ def test_stop_before_a_redis_that_is_away(dataset: Dataset, made: Picture, monke
 
 
 def test_claim_that_another_got_early(dataset: Dataset, made: Picture) -> None:
-    """A claim that is another's though its time is not over, as after the loss of Redis, is noticed before a write."""
+    """A claim that another worker has early, as after the loss of Redis, is noticed before a write."""
     other = Elsewhere(dataset, seed=5)
     other.ledger.release(JOB.id, "here:1")
     other.ledger.claim(JOB.id, "elsewhere:1", 60.0)
@@ -224,6 +224,6 @@ def test_claim_that_another_got_early(dataset: Dataset, made: Picture) -> None:
 
 
 def test_claim_that_is_held_writes(dataset: Dataset, made: Picture) -> None:
-    """A worker that holds its claim writes as one that has the dataset to itself."""
+    """A worker that holds its claim writes as if it were alone."""
     upload(made, JOB, dataset, Elsewhere(dataset, seed=5).claim)
     assert is_done(dataset, JOB)

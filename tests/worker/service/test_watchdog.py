@@ -12,14 +12,14 @@ WELL = Signs(ticked_s=0.0, busy=False, stopping=False, jobs_wait=False)
 
 
 class Scene:
-    """A judge that looks now and then, and when the worker last ticked."""
+    """A judge that looks now and then, and the worker's last tick."""
 
     def __init__(self) -> None:
         self.now_s = 1000.0
         self.judge = Judge(lambda: self.now_s)
 
     def looks(self, count: int, signs: Signs, *, ticks: bool) -> list[str]:
-        """So many looks at the usual pace."""
+        """Look this many times at the usual pace."""
         told = []
         last_s = self.now_s
         for _ in range(count):
@@ -30,19 +30,19 @@ class Scene:
 
 @pytest.fixture
 def scene() -> Scene:
-    """Nothing seen yet."""
+    """A judge that has seen nothing yet."""
     return Scene()
 
 
 @pytest.mark.parametrize("signs", [WELL, replace(WELL, busy=True), replace(WELL, busy=True, jobs_wait=True)])
 def test_worker_that_works(scene: Scene, signs: Signs) -> None:
-    """One whose loop comes by, and that is busy where jobs wait, is left alone for ever."""
+    """A worker whose loop ticks, and that is busy while jobs wait, is never ended."""
     assert set(scene.looks(10 * IDLE_LOOKS, signs, ticks=True)) == {""}
 
 
 @pytest.mark.parametrize("busy", [False, True])
 def test_hanging_loop(scene: Scene, busy: bool) -> None:
-    """A loop that does not come by for long is found, but not before as many looks."""
+    """A loop that hasn't ticked for long is noticed, but not before the number of looks."""
     told = scene.looks(3 * LOOKS, replace(WELL, busy=busy), ticks=False)
     first = next(number for number, word in enumerate(told) if word)
     assert told[first] == "its event loop hangs"
@@ -50,7 +50,7 @@ def test_hanging_loop(scene: Scene, busy: bool) -> None:
 
 
 def test_process_that_was_stopped(scene: Scene) -> None:
-    """One that slept for hours, and goes on, is not judged by the one look that it took on waking."""
+    """A process that slept for hours isn't judged by its single look on waking."""
     scene.looks(5, WELL, ticks=True)
     scene.now_s += 10_000
     stale = replace(WELL, ticked_s=scene.now_s - 10_000)
@@ -59,13 +59,13 @@ def test_process_that_was_stopped(scene: Scene) -> None:
 
 
 def test_worker_that_takes_nothing(scene: Scene) -> None:
-    """One that idles while jobs wait is found after as many looks in a row."""
+    """A worker that idles while jobs wait is noticed after the number of looks in succession."""
     told = scene.looks(IDLE_LOOKS, replace(WELL, jobs_wait=True), ticks=True)
     assert told == [""] * (IDLE_LOOKS - 1) + ["it takes no jobs though some wait"]
 
 
 def test_one_job_in_between(scene: Scene) -> None:
-    """A job in between, or a queue that was empty, starts the count anew."""
+    """A job in between, or an empty queue, resets the count."""
     waiting = replace(WELL, jobs_wait=True)
     for signs in (replace(waiting, busy=True), WELL):
         scene.looks(IDLE_LOOKS - 1, waiting, ticks=True)
@@ -75,26 +75,26 @@ def test_one_job_in_between(scene: Scene) -> None:
 
 
 def test_stopping_worker_may_wait_for_its_job(scene: Scene) -> None:
-    """One that was told to stop need not come by while its job runs, nor take others."""
+    """A worker that was told to stop needn't tick while its job runs, nor take others."""
     stopping = replace(WELL, stopping=True, busy=True, jobs_wait=True)
     assert set(scene.looks(10 * IDLE_LOOKS, stopping, ticks=False)) == {""}
 
 
 def test_shutdown_that_never_ends(scene: Scene) -> None:
-    """One that was told to stop, has no job and is still there is found."""
+    """A worker that was told to stop, has no job and is still there is noticed."""
     told = scene.looks(3 * LOOKS, replace(WELL, stopping=True), ticks=False)
     assert "its event loop hangs" in told
 
 
 def test_redis_that_is_away(scene: Scene) -> None:
-    """While Redis is away nothing is held against a worker."""
+    """While Redis is away, no look counts against a worker."""
     scene.looks(IDLE_LOOKS - 1, replace(WELL, jobs_wait=True), ticks=True)
     scene.judge.forget()
     assert set(scene.looks(IDLE_LOOKS - 1, replace(WELL, jobs_wait=True), ticks=True)) == {""}
 
 
 def test_watched_process_ends() -> None:
-    """A process that hangs is ended by its own watchdog, with the code that has it started again, children first."""
+    """A process that hangs is ended by its own watchdog, children first, with the code that restarts it."""
     program = (
         "import time, worker.service.watchdog as w; w.LOOK_S = 0.01; w.LOOKS = 3; "
         "w.watch(lambda: w.Signs(time.monotonic() - 9, False, False, False), lambda: print('children', flush=True)); "
@@ -107,7 +107,7 @@ def test_watched_process_ends() -> None:
 
 
 def test_error_of_redis_does_not_end_the_watch() -> None:
-    """A look that finds no Redis is passed over, and the next one counts."""
+    """A look that finds no Redis is ignored, and the next one counts."""
     program = (
         "import time, worker.service.watchdog as w\n"
         "from farm.errors import BrokerError\n"

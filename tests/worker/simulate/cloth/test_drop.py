@@ -31,7 +31,7 @@ def short_cables(count: int) -> Scene:
 
 
 def contents() -> Mapping[str, list[str]]:
-    """Names of what is in the open file."""
+    """Names of everything in the open file."""
     return {kind: sorted(block.name for block in getattr(bpy.data, kind)) for kind in KINDS}
 
 
@@ -45,7 +45,7 @@ def test_the_joined_cloth_repeats_bitwise() -> None:
 
 
 def test_the_published_set_up_returns_the_shown_cables_and_leaves_nothing_behind() -> None:
-    """Two cables of eight come back, finite and lower than they started, and the file holds what it held before."""
+    """Two cables of eight come back, finite and lower than they started, and the file is as before."""
     scene, before = short_cables(2), contents()
     shapes = simulate(scene, Simulator.CLOTH_PUBLISHED, Fall(cloth=ClothFall(quality=1)))
     assert len(shapes.nodes_m) == len(shapes.speeds_m_s) == 2
