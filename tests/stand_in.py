@@ -1,4 +1,4 @@
-"""A maker without Blender: draws noise from the job's own seed, so the queue can be tested in seconds.
+"""A renderer without Blender: draws noise from the job's own seed, so the queue can be tested in seconds.
 
 As a program it is a worker with this maker: `python -P tests/stand_in.py serve ...`. Environment variables make it
 slow or failing: `STAND_IN_DELAY_S`; `STAND_IN_UNFIT` with a reason why it can't be opened; and `STAND_IN_FAILS` with
@@ -40,14 +40,14 @@ SHA = "0" * 64
 
 _FAILED_ONCE: set[str] = set()
 
-# Every figure zero: nothing was simulated. Strict models take no integer for a float.
+# All figures are zero, as nothing was simulated. Strict models accept no integer for a float.
 SETTLED = SettleFigures.model_validate(
     {name: 0 if field.annotation is int else 0.0 for name, field in SettleFigures.model_fields.items()}
 )
 
 
 def stand_in_header(*, seed: int = 0, resolution: int = 32, **quotas: int) -> DatasetHeader:
-    """A header that asks for so many images of the categories named."""
+    """A header that asks for this many images of each named category."""
     wanted = quotas or {"far": 2, "close_concentrated_light": 2}
     data = {"seed": seed, "style": "published", "resolution": resolution, "quotas": wanted}
     return DatasetHeader(
@@ -102,7 +102,7 @@ def stand_in_scene(job: Job) -> Scene:
 
 
 def stand_in_pixels(job: Job, header: DatasetHeader) -> tuple[NDArray[np.uint8], NDArray[np.uint16]]:
-    """The image and the instances of a job, which no other job has."""
+    """The image and the instances of a job, which differ from those of every other job."""
     size = header.spec.resolution
     draw = generator(header.spec.seed, job.category, job.index, 0, Stage.CABLES)
     instances = np.zeros((size, size), np.uint16)
@@ -137,7 +137,7 @@ class StandInRenderer:
 
 def _note_start(job: Job) -> None:
     if journal := os.environ.get("STAND_IN_STARTS"):
-        # Opened to append, and one write a line: lines of several processes don't mix.
+        # The file is opened to append, and each line is one write, so lines of several processes don't mix.
         with Path(journal).open("a") as file:
             file.write(f"{job.id} {os.getpid()}\n")
 
@@ -155,7 +155,7 @@ def _fail_if_told(job: Job) -> None:
     if kind == "asset":
         raise AssetError("the surface 'oak' is not baked here")
     if kind == "hang":
-        signal.signal(signal.SIGUSR1, signal.SIG_IGN)  # Celery's soft limit does not reach into Blender's C code
+        signal.signal(signal.SIGUSR1, signal.SIG_IGN)  # Celery's soft limit doesn't reach into Blender's C code
         time.sleep(3600)
     if kind == "segfault":
         ctypes.string_at(0)
@@ -168,10 +168,10 @@ def _fail_if_told(job: Job) -> None:
 
 
 def open_stand_in(header: DatasetHeader, *, device: str, threads: int, assets: Path | None) -> Renderer:
-    """Takes what the real one takes, and needs none of it.
+    """Open the stand-in with the real renderer's arguments, of which it needs none.
 
     Raises:
-        MachineError: if told to.
+        MachineError: if the variable `STAND_IN_UNFIT` holds a reason.
     """
     del header, device, threads, assets
     if reason := os.environ.get("STAND_IN_UNFIT"):

@@ -1,4 +1,4 @@
-"""The bytes that each job's files must have, whatever befell the farm."""
+"""The bytes that each job's files must have, whatever happened to the farm."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -15,7 +15,7 @@ Expected = Callable[[Job], Mapping[FileRole, bytes]]
 
 
 def drawn_by_stand_in(header: DatasetHeader) -> Expected:
-    """What a stand-in draws: noise from the job's own seed, so that no two jobs have the same."""
+    """The files of a stand-in renderer: noise from the job's own seed, so that no two jobs have the same."""
 
     def expected(job: Job) -> Mapping[FileRole, bytes]:
         image, instances = stand_in_pixels(job, header)
@@ -30,5 +30,5 @@ def drawn_by_stand_in(header: DatasetHeader) -> Expected:
 
 
 def made_before(folder: Path) -> Expected:
-    """What lies in the folder of a dataset of the same description."""
+    """The files in the folder of a finished dataset with the same description."""
     return lambda job: {role: (folder / file_path(job, role)).read_bytes() for role in FileRole}
