@@ -1,1 +1,1 @@
-"""Benchmarks: commands that print a table, write JSON, and fail on wrong results, never on slow ones."""
+"""Benchmarks: each prints a table, writes JSON, and fails if a result is wrong, never because it is slow."""

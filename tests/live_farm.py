@@ -25,7 +25,7 @@ PATIENCE_S = 120.0
 
 
 def wait_for(condition: Callable[[], object]) -> None:
-    """Wait until something is so; failing that is a failure of the test."""
+    """Wait until a condition holds, and fail the test if it doesn't."""
     give_up_s = time.monotonic() + PATIENCE_S
     while not condition():
         assert time.monotonic() < give_up_s
@@ -33,10 +33,10 @@ def wait_for(condition: Callable[[], object]) -> None:
 
 
 def processes_with(text: str) -> dict[int, int]:
-    """Living processes, zombies aside, whose arguments hold a text: id to parent's id."""
+    """Living processes without zombies whose arguments hold a text: process id to the parent's."""
     found = {}
     for folder in Path("/proc").iterdir():
-        # A process may end while it is looked at.
+        # A process may end while its folder is being read.
         with suppress(OSError, ValueError):
             arguments = (folder / "cmdline").read_bytes()
             if text.encode() in arguments:
@@ -45,7 +45,7 @@ def processes_with(text: str) -> dict[int, int]:
 
 
 class LiveFarm:
-    """Workers and what they share.
+    """Workers, and the store and logs that they share.
 
     Args:
         folder: takes store and logs.
@@ -95,22 +95,22 @@ class LiveFarm:
         return create_dataset(Destination(str(self.store), name), stand_in_header(**quotas))
 
     def handle(self, dataset: Dataset, priority: Priority = Priority.NORMAL) -> RunHandle:
-        """A dataset's run."""
+        """The handle of a dataset's run."""
         return open_handle(dataset, self.url, self.client, priority)
 
     def workers(self, state: WorkerState) -> list[WorkerReport]:
-        """The reports of the workers that are in a state."""
+        """The reports of the workers in a state."""
         return [report for report in RedisRegistry(self.client).workers() if report.state is state]
 
     def submit(self, dataset: Dataset, priority: Priority = Priority.NORMAL) -> RunHandle:
-        """Put a dataset's run on the board, and what is missing into its queue."""
+        """Register a dataset's run, and queue its missing jobs."""
         handle = self.handle(dataset, priority)
         handle.registry.replace(handle.run)
         Coordinator(dataset, handle).submit_missing()
         return handle
 
     def submit_without_look(self, dataset: Dataset) -> RunHandle:
-        """The same of a dataset whose folder can't be looked at."""
+        """Queue the jobs of a dataset whose folder can't be read."""
         handle = self.handle(dataset)
         handle.registry.replace(handle.run)
         handle.queue.submit(handle.run, [dataset.message(job) for job in dataset.header.spec.jobs()])
@@ -118,21 +118,21 @@ class LiveFarm:
 
     @staticmethod
     def want(handle: RunHandle, state: RunState) -> None:
-        """Say what a person wants of a run."""
+        """Set a person's wish for a run."""
         handle.registry.replace(handle.run.model_copy(update={"state": state}))
 
     def cancel(self, handle: RunHandle) -> None:
-        """Cancel a run, and wait until nobody works for it."""
+        """Cancel a run, and wait until no worker works for it."""
         self.want(handle, RunState.CANCELLED)
         handle.queue.clear(handle.run)
         wait_for(lambda: not handle.ledger.claims())
 
     def starts(self, since: int = 0) -> list[str]:
-        """Every start of a job so far, in order, but for the first ones."""
+        """Every start of a job so far, in order, after skipping the first ones."""
         return [line.split()[0] for line in self._lines()[since:]]
 
     def by_renderer(self, since: int = 0) -> dict[str, list[str]]:
-        """The same by the process that has begun them."""
+        """The starts, by the process that began them."""
         found: dict[str, list[str]] = defaultdict(list)
         for line in self._lines()[since:]:
             job_id, process = line.split()
@@ -144,7 +144,7 @@ class LiveFarm:
 
 
 def done(dataset: Dataset) -> int:
-    """How many images are done."""
+    """Number of finished images."""
     return len(Completion(dataset).audit())
 
 
@@ -161,7 +161,7 @@ def is_once_each(starts: Sequence[str], dataset: Dataset) -> bool:
 
 @contextmanager
 def live_farm(folder: Path, redis_url: str, command: Sequence[str]) -> Iterator[LiveFarm]:
-    """One that ends with its test, and leaves no process."""
+    """A farm that ends with its test, and leaves no process."""
     farm = LiveFarm(folder, redis_url, command)
     try:
         yield farm

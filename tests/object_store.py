@@ -27,7 +27,7 @@ _START_S = 60.0
 _STORES = ("account", "container", "object")
 _DEBIAN_PYTHON = "/usr/bin/python3"
 
-# One replica on one device; at 2 ** 4 partitions a folder each.
+# One replica on one device, with 2 ** 4 partitions, each of which is a folder.
 _RINGS = """
 import sys
 from swift.common.ring import RingBuilder
@@ -39,8 +39,8 @@ for pair in sys.argv[2:]:
     builder.get_ring().save("%s/%s.ring.gz" % (sys.argv[1], kind))
 """
 
-# Eventlet, below Swift, ends an answer to HEAD that has no length as if it had a body, against the rules of HTTP. In
-# front of a real Swift stands a proxy that puts up with it; aiohttp does not.
+# Eventlet, on which Swift runs, ends an answer to HEAD without a length as if it had a body, against the rules of
+# HTTP. The proxy in front of a real Swift tolerates that; aiohttp doesn't.
 _HEAD_FILTER = """
 def make_filter(global_conf, **local_conf):
     def wrap(app):
@@ -55,9 +55,9 @@ def make_filter(global_conf, **local_conf):
     return wrap
 """
 
-# Listings come in short pages, so that tests see more than one. They are to hold an object as
-# soon as its put has ended, however busy the machine: the object's server waits for the container's. A cache would make
-# them lag: the one that the proxy insists on has nobody behind its address.
+# Listings come in short pages, so that tests see more than one. They must hold an object as soon as its put has ended,
+# however busy the machine is, so the object's server waits for the container's. A cache would make them lag; the proxy
+# insists on one, so it is given an address at which nothing listens.
 _STORE_CONFIG = """
 [DEFAULT]
 bind_ip = 127.0.0.1
@@ -138,10 +138,10 @@ class ObjectStore:
     """A running server.
 
     Attributes:
-        endpoint: its URL.
-        key: the access key's id.
+        endpoint: URL of the server.
+        key: id of the access key.
         secret: the secret access key.
-        port: of the server that clients talk to.
+        port: port of the proxy, the server that clients talk to.
     """
 
     key = "farm:tester"
@@ -158,7 +158,7 @@ class ObjectStore:
         """Write rings and configurations, start all servers, and wait until they answer.
 
         Raises:
-            RuntimeError: if one does not.
+            RuntimeError: if one doesn't answer.
         """
         (self._folder / "devices/disk").mkdir(parents=True)
         (self._folder / "recon").mkdir()
@@ -175,7 +175,7 @@ class ObjectStore:
             self._wait(kind)
 
     def environment(self) -> dict[str, str]:
-        """The variables by which S3 clients find it, and no other account of this machine."""
+        """The environment variables with which S3 clients find this server, and no other account of this machine."""
         return {
             "AWS_ENDPOINT_URL": self.endpoint,
             "AWS_ACCESS_KEY_ID": self.key,
@@ -186,7 +186,7 @@ class ObjectStore:
         }
 
     def client(self) -> Any:
-        """A client of its own, for what the farm never does, such as making a bucket."""
+        """A client for actions that the farm never takes, such as making a bucket."""
         return s3fs.S3FileSystem(
             endpoint_url=self.endpoint,
             key=self.key,
@@ -196,7 +196,7 @@ class ObjectStore:
         )
 
     def kill(self, kind: str = "proxy") -> None:
-        """End one of the servers by SIGKILL, whatever it is about: `object`, or `proxy`, which clients talk to."""
+        """Kill one of the servers with SIGKILL: `object`, or `proxy`, to which clients talk."""
         process = self._processes.pop(kind)
         process.kill()
         process.wait()
@@ -205,7 +205,7 @@ class ObjectStore:
         """Start a killed server again, on the same port.
 
         Raises:
-            RuntimeError: if it does not answer.
+            RuntimeError: if it doesn't answer.
         """
         self._start_server(kind)
         self._wait(kind)
@@ -227,7 +227,7 @@ class ObjectStore:
             )
 
     def _wait(self, kind: str) -> None:
-        # A store's own server has no other page to look at; that it refuses is answer enough.
+        # A store's own server has no page to look at, so a refusal is answer enough.
         url = f"http://127.0.0.1:{self._ports[kind]}/healthcheck"
         give_up_s = time.monotonic() + _START_S
         while True:
@@ -251,10 +251,10 @@ def has_object_store() -> bool:
 
 @contextmanager
 def private_object_store() -> Iterator[ObjectStore]:
-    """Run a server inside `with`.
+    """Run a server within the context.
 
     Raises:
-        RuntimeError: if it does not start.
+        RuntimeError: if it doesn't start.
     """
     with tempfile.TemporaryDirectory(prefix="farm-s3-") as folder:
         store = ObjectStore(Path(folder))

@@ -1,4 +1,4 @@
-"""A relay between a client and a server on this machine, by which tests cut connections and act in the middle."""
+"""A relay between a client and a server on this machine, with which tests cut connections and act in the middle."""
 
 import socket
 import threading
@@ -9,11 +9,11 @@ _CHUNK_BYTES = 64 * 1024
 
 
 class Relay:
-    """Passes on what comes, until told otherwise.
+    """A relay that passes bytes on until it is cut.
 
     Attributes:
-        port: that it listens on.
-        sent_bytes: that clients sent through it so far, over all connections.
+        port: port that the relay listens on.
+        sent_bytes: number of bytes that clients have sent through it so far, over all connections.
     """
 
     def __init__(
@@ -22,12 +22,12 @@ class Relay:
         on_sent: Callable[["Relay"], None] = lambda _: None,
         on_answer: Callable[[bytes], object] = lambda _: None,
     ) -> None:
-        """Listen.
+        """Start to listen.
 
         Args:
-            server_port: where to pass on.
-            on_sent: called whenever a client has sent something, before that is passed on.
-            on_answer: called with each piece of an answer, before that is passed on.
+            server_port: port of the server that receives the bytes.
+            on_sent: function that is called with the relay whenever a client has sent bytes, before they are passed on.
+            on_answer: function that is called with each piece of an answer, before that is passed on.
         """
         self._server_port = server_port
         self._on_sent = on_sent
@@ -40,7 +40,7 @@ class Relay:
         threading.Thread(target=self._accept, daemon=True).start()
 
     def cut(self) -> None:
-        """Close every connection and take no other."""
+        """Close every connection and accept no other."""
         with self._lock:
             for each in [self._listener, *self._open]:
                 with suppress(OSError):
@@ -82,7 +82,7 @@ def relay(
     on_sent: Callable[[Relay], None] = lambda _: None,
     on_answer: Callable[[bytes], object] = lambda _: None,
 ) -> Iterator[Relay]:
-    """A relay inside `with`; see `Relay`."""
+    """Run a relay within the context."""
     made = Relay(server_port, on_sent, on_answer)
     try:
         yield made

@@ -43,7 +43,7 @@ SHA = "0" * 64
 
 _FAILED_ONCE: set[str] = set()
 
-# Every figure zero: nothing was simulated. Strict models take no integer for a float.
+# All figures are zero, as nothing was simulated. Strict models accept no integer for a float.
 SETTLED = SettleFigures.model_validate(
     {name: 0 if field.annotation is int else 0.0 for name, field in SettleFigures.model_fields.items()}
 )
@@ -166,7 +166,7 @@ class StandInRenderer:
 
 def _note_start(job: Job) -> None:
     if journal := os.environ.get("STAND_IN_STARTS"):
-        # Opened to append, and one write a line: lines of several processes don't mix.
+        # The file is opened to append, and each line is one write, so lines of several processes don't mix.
         with Path(journal).open("a") as file:
             file.write(f"{job.id} {os.getpid()}\n")
 
@@ -184,7 +184,7 @@ def _fail_if_told(job: Job) -> None:
     if kind == "asset":
         raise AssetError("the surface 'oak' is not baked here")
     if kind == "hang":
-        signal.signal(signal.SIGUSR1, signal.SIG_IGN)  # Celery's soft limit does not reach into Blender's C code
+        signal.signal(signal.SIGUSR1, signal.SIG_IGN)  # Celery's soft limit doesn't reach into Blender's C code
         time.sleep(3600)
     if kind == "segfault":
         ctypes.string_at(0)
@@ -200,7 +200,7 @@ def open_stand_in(header: DatasetHeader, settings: RendererSettings) -> Renderer
     """Takes what the real one takes, and needs none of it.
 
     Raises:
-        MachineError: if told to.
+        MachineError: if the variable `STAND_IN_UNFIT` holds a reason.
     """
     del header, settings
     if reason := os.environ.get("STAND_IN_UNFIT"):

@@ -1,4 +1,4 @@
-"""`make audit`: no answer is never taken for a good one. A program in pip-audit's place gives its answers."""
+"""`make audit`: a missing answer never counts as a good one. A program in pip-audit's place gives its answers."""
 
 import json
 import os
@@ -15,7 +15,7 @@ UNKNOWN = {"name": "c", "skip_reason": "Dependency not found on PyPI and could n
 
 
 def audit(folder: Path, answer: str) -> "subprocess.CompletedProcess[str]":
-    """Run the audit with such an answer of pip-audit's, which always ends well."""
+    """Run the audit with this answer of pip-audit, which always exits with 0."""
     (folder / "pip_audit.py").write_text(f"print({answer!r})")
     (folder / "pins.txt").write_text("a==1\n")
     environment = {**os.environ, "PYTHONPATH": str(folder)}
@@ -24,14 +24,14 @@ def audit(folder: Path, answer: str) -> "subprocess.CompletedProcess[str]":
 
 
 def test_nothing_known_is_code_0(tmp_path: Path) -> None:
-    """Every package was looked up."""
+    """If every package was looked up and nothing is known, the code is 0."""
     done = audit(tmp_path, json.dumps({"dependencies": [CLEAN]}))
     assert done.returncode == 0
     assert "0 known vulnerabilities, by pypi" in done.stdout
 
 
 def test_a_vulnerability_is_code_1(tmp_path: Path) -> None:
-    """Named, with the version that mends it."""
+    """A vulnerability is named with the version that fixes it."""
     done = audit(tmp_path, json.dumps({"dependencies": [CLEAN, FAULTY]}))
     assert done.returncode == 1
     assert "b 2: CVE-1, mended in 3" in done.stdout
@@ -41,7 +41,7 @@ def test_a_vulnerability_is_code_1(tmp_path: Path) -> None:
     "answer", [json.dumps({"dependencies": [CLEAN, UNKNOWN]}), json.dumps({"dependencies": []}), "", "no JSON", "[]"]
 )
 def test_what_could_not_be_told_is_code_2(tmp_path: Path, answer: str) -> None:
-    """One package that no service knows, or no answer at all: it says so."""
+    """If a service doesn't know a package, or doesn't answer at all, the audit says so."""
     done = audit(tmp_path, answer)
     assert done.returncode == 2
     assert "NOT DONE" in done.stderr

@@ -1,4 +1,4 @@
-"""No clock, uuid or global generator decides anything in a picture: none is even named where pictures are made."""
+"""No clock, uuid or global generator decides anything in a picture: modules that make pictures don't even name one."""
 
 import ast
 from collections.abc import Iterator
@@ -8,7 +8,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 MAKE_NO_PICTURE = ("worker/service/", "worker/cli.py", "worker/__main__.py", "assets/fetch/")
-"""What brings jobs, results and downloads: it may look at the clock."""
+"""Modules that handle jobs, results and downloads; they may look at the clock."""
 FILES = [
     file
     for top in ("worker", "blend", "assets")
@@ -20,7 +20,7 @@ SEEDED = ("numpy.random.Generator", "numpy.random.SeedSequence", "numpy.random.P
 
 
 def dotted(node: ast.expr, names: dict[str, str]) -> str:
-    """The full name of an expression such as `np.random.rand`; empty if it is none."""
+    """The full name of an expression such as `np.random.rand`; empty if it isn't a name."""
     if isinstance(node, ast.Name):
         return names.get(node.id, "")
     if isinstance(node, ast.Attribute) and (base := dotted(node.value, names)):
@@ -29,7 +29,7 @@ def dotted(node: ast.expr, names: dict[str, str]) -> str:
 
 
 def offences(source: str) -> Iterator[str]:
-    """Every use of what differs from run to run."""
+    """Every use of something that differs from run to run."""
     tree = ast.parse(source)
     names: dict[str, str] = {}
     for node in ast.walk(tree):
@@ -74,7 +74,7 @@ def test_nothing_differs_from_run_to_run(file: Path) -> None:
     ],
 )
 def test_scan_finds(source: str) -> None:
-    """The scan knows what it looks for, under every name."""
+    """The scan finds each offence, under every name."""
     assert list(offences(source))
 
 
@@ -87,5 +87,5 @@ def test_scan_finds(source: str) -> None:
     ],
 )
 def test_scan_passes(source: str) -> None:
-    """Timings and seeded generators are welcome."""
+    """The scan accepts timings and seeded generators."""
     assert list(offences(source)) == []

@@ -52,10 +52,10 @@ def finish(run: "subprocess.Popen[str]") -> None:
 
 
 def descendants(pid: int) -> list[int]:
-    """Living processes below one, parents first."""
+    """The living descendants of a process, parents first."""
     children: dict[int, list[int]] = {}
     for folder in Path("/proc").iterdir():
-        # A process may end while it is looked at.
+        # A process may end while its folder is being read.
         with suppress(OSError, ValueError):
             state, parent = (folder / "stat").read_text().rpartition(")")[2].split()[:2]
             if state != "Z":
@@ -67,14 +67,14 @@ def descendants(pid: int) -> list[int]:
 
 
 def is_a_worker(pid: int) -> bool:
-    """Whether a process is a worker of the farm, main process or child."""
+    """Whether a process is a worker of the farm, a main process or a child."""
     with suppress(OSError):
         return b"-m\0worker" in Path(f"/proc/{pid}/cmdline").read_bytes()
     return False
 
 
 def kill_a_worker_in_the_middle(run: "subprocess.Popen[str]", out: Path) -> None:
-    """SIGKILL the last started worker process, once a picture is done and others are not."""
+    """Kill the last started worker process with SIGKILL, once a picture is done and others aren't."""
     give_up_s = time.monotonic() + PATIENCE_S
     while not list(out.glob("*/manifests/*.json")):
         assert time.monotonic() < give_up_s
@@ -98,20 +98,20 @@ def datasets(tmp_path_factory: pytest.TempPathFactory, textures: Path) -> tuple[
 
 
 def test_a_run_fills_the_quota_of_every_category(datasets: tuple[Path, Path]) -> None:
-    """12 images split 2:2:1:1:2:2, each with mask, instances and manifest."""
+    """12 images are split 2:2:1:1:2:2, each with mask, instances and manifest."""
     for place in datasets:
         published = [category for category in Category if category.traits.weight]
         assert [len(list((place / category / "images").iterdir())) for category in published] == [3, 3, 1, 1, 2, 2]
 
 
 def test_a_killed_worker_loses_and_doubles_nothing(datasets: tuple[Path, Path]) -> None:
-    """After SIGKILL of a worker process in the middle every file is right, and there is no other."""
+    """After SIGKILL of a worker process every file is right, and there is no other."""
     for place in datasets:
         assert verify(open_dataset(parse_destination(str(place)))).findings == ()
 
 
 def test_two_runs_give_the_same_bytes(datasets: tuple[Path, Path]) -> None:
-    """Every image, mask and instance map, with one worker or two, whatever died on the way."""
+    """Every image, mask and instance map is the same with one worker or two, even if one is killed."""
     calm, stormy = datasets
     for job in open_dataset(parse_destination(str(calm))).header.spec.jobs():
         for output in OUTPUTS:

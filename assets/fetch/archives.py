@@ -1,4 +1,4 @@
-"""One file out of a tar or zip archive. The archive's names choose what is read, never where anything is written."""
+"""Read one file out of a tar or zip archive. A name in the archive never decides where a file is written."""
 
 import lzma
 import tarfile
@@ -14,15 +14,15 @@ def read_member(archive: Path, shown: str, member: str, size: int) -> bytes:
 
     Args:
         archive: A zip file, or a tar file of any compression.
-        shown: What to call it in errors; its ending, .zip or .whl, tells zip from tar.
-        member: The file's full name in it.
-        size: Its bytes; no more are read.
+        shown: Name of the archive in error messages; an ending of .zip or .whl means zip, any other tar.
+        member: Full name of the file inside the archive.
+        size: Size of the file in bytes; no more are read.
 
     Returns:
-        Its content, exactly so long.
+        The file's content, exactly `size` bytes.
 
     Raises:
-        AssetError: The archive is damaged, or has no such file: it is missing, a link, a folder or of another size.
+        AssetError: The archive is damaged, or `member` is missing from it, a link, a folder or of another size.
     """
     reader = _from_zip if shown.endswith((".zip", ".whl")) else _from_tar
     try:
@@ -55,6 +55,6 @@ def _from_zip(archive: Path, member: str, size: int) -> bytes | None:
         if entry.is_dir() or entry.file_size != size:
             return None
         with packed.open(entry) as file:
-            # The size told above is the archive's own word; read one byte past it to see whether it holds.
+            # The size checked above is only what the archive claims, so read one byte more to notice a longer file.
             data = file.read(size + 1)
     return data if len(data) == size else None

@@ -1,4 +1,4 @@
-"""One file over HTTP, of a size and checksum known beforehand."""
+"""Download one file whose size and checksum are known beforehand."""
 
 import hashlib
 import http.client
@@ -17,18 +17,21 @@ from urllib.parse import urlsplit
 from farm.errors import AssetError
 
 _PIECE = 2**16
+"""Most bytes to read from the connection at once: 64 KiB, so that memory stays small whatever the file's size."""
+
 _PASSING = frozenset({408, 425, 429, 500, 502, 503, 504})
-"""Statuses that another try may not see."""
+"""HTTP statuses of failures that may pass: the download is tried again."""
 
 
 @dataclass(frozen=True, slots=True)
 class Patience:
-    """How long to wait for whom.
+    """How long to wait for a server.
 
     Attributes:
-        silence_s: For a connection, or the next piece.
-        pauses_s: Before each further try after a failure that may pass.
-        slowest: Bytes a second below which a file, less its first minute, takes too long.
+        silence_s: Longest wait for a connection or for the next piece of the file, seconds.
+        pauses_s: Pause before each further try after a failure that may pass, seconds; their number is that of the
+            further tries.
+        slowest: Lowest acceptable rate, bytes a second; every file has another 60 s.
     """
 
     silence_s: float = 30.0
@@ -36,30 +39,30 @@ class Patience:
     slowest: float = 2.0**14
 
     def limit_s(self, size: int) -> float:
-        """How long a file may take in all."""
+        """Longest time that a file of `size` bytes may take, seconds."""
         return 60.0 + size / self.slowest
 
 
 class PassingError(AssetError):
-    """A server couldn't be reached, or broke off: it may answer another time."""
+    """A server couldn't be reached or broke off, and may answer another time."""
 
 
 def download(url: str, target: Path, size: int, checksum: str, patience: Patience) -> None:
-    """Get a file, whole and as registered.
+    """Download a file and check that it is whole and the one that is registered.
 
-    Redirects are followed to https alone, or on the same host where the address itself is http. The proxy is that of
-    the environment.
+    A redirect may lead to https, or from an http address to http on the same host and port. The proxy comes from the
+    environment variables, as `urllib` reads them.
 
     Args:
-        url: https or http.
-        target: Where to; what a failure leaves there must be removed by the caller.
-        size: Its bytes; no more are read.
-        checksum: SHA-256, hexadecimal.
-        patience: How long to wait.
+        url: Address of the file, https or http.
+        target: Path to write the file to; after a failure the caller removes what lies there.
+        size: Registered size in bytes; no more are read.
+        checksum: Registered SHA-256, hexadecimal.
+        patience: Limits on waiting for the server.
 
     Raises:
-        PassingError: It can't be reached, stalls or breaks off, however often it is tried.
-        AssetError: It is not there, is another file, or can't be written.
+        PassingError: Every try failed, since the server couldn't be reached, stalled or broke off.
+        AssetError: The server has no such file or another one, or the target can't be written.
     """
     for pause in patience.pauses_s:
         try:
@@ -80,13 +83,13 @@ def _try(url: str, target: Path, size: int, checksum: str, patience: Patience) -
         if error.code in _PASSING:
             raise PassingError(f"{told}; {again}") from error
         if 300 <= error.code < 400:
-            raise AssetError(f"{told}, which leads nowhere; look for a newer farm, or name a --mirror") from error
-        raise AssetError(f"{told}; the file may have moved: look for a newer farm, or name a --mirror") from error
+            raise AssetError(f"{told}, which leads nowhere; install a newer farm, or name a --mirror") from error
+        raise AssetError(f"{told}; the file may have moved: install a newer farm, or name a --mirror") from error
     except urllib.error.URLError as error:
         if isinstance(error.reason, ssl.SSLCertVerificationError):
             raise AssetError(
-                f"{url}: its certificate isn't trusted ({error.reason.verify_message}); if a proxy of yours "
-                "stands between, name its certificates in SSL_CERT_FILE"
+                f"{url}: its certificate isn't trusted ({error.reason.verify_message}); behind a proxy of your own, "
+                "name the proxy's certificates in SSL_CERT_FILE"
             ) from error
         raise PassingError(
             f"{url}: can't be reached ({_shown(error.reason)}); check the connection, or {again}"
@@ -96,8 +99,8 @@ def _try(url: str, target: Path, size: int, checksum: str, patience: Patience) -
     except (OSError, http.client.HTTPException) as error:
         reason = _shown(error) or type(error).__name__
         raise PassingError(f"{url}: the connection broke ({reason}); {again}") from error
-    except ValueError as error:  # from urllib's parsing of where a redirect leads
-        raise AssetError(f"{url}: leads to what is no address ({_shown(error)}); name a --mirror") from error
+    except ValueError as error:  # urllib couldn't parse the address that a redirect names
+        raise AssetError(f"{url}: redirects to a malformed address ({_shown(error)}); name a --mirror") from error
     if found != checksum:
         raise AssetError(
             f"{url}: has checksum {found}, not {checksum} as registered; it is another file and was not kept"
@@ -105,17 +108,20 @@ def _try(url: str, target: Path, size: int, checksum: str, patience: Patience) -
 
 
 def _shown(said: object) -> str:
-    """What a server said, without what would steer a terminal."""
+    """A server's words for an error message, at most 200 characters, without control characters for the terminal."""
     return "".join(sign if sign.isprintable() else "?" for sign in str(said))[:200]
 
 
 def _phrase(status: int) -> str:
-    """The standard's, not the server's own."""
+    """The standard phrase of an HTTP status; the server's own could hold anything."""
     return HTTPStatus(status).phrase if status in set(HTTPStatus) else "with no known status"
 
 
 def _writable(target: Path) -> FileIO:
-    """Without a buffer, whose rest would be written at the end, where a full disk looks like a broken connection."""
+    """Open the target without a buffer.
+
+    A buffer is written out when the file closes; there, the error of a full disk would pass for a broken connection.
+    """
     try:
         return target.open("wb", buffering=0)
     except OSError as error:
@@ -123,14 +129,14 @@ def _writable(target: Path) -> FileIO:
 
 
 def _copy(url: str, response: HTTPResponse, file: FileIO, target: Path, size: int, patience: Patience) -> str:
-    """Returns the checksum of what came."""
+    """Write the response to the file and return the SHA-256 of what arrived, hexadecimal."""
     told = response.headers.get("Content-Length")
     if told is not None and told != str(size):
         raise AssetError(
             f"{url}: is {_shown(told)} bytes, not {size} as registered; it is another file and was not kept"
         )
     digest, done, end = hashlib.sha256(), 0, time.monotonic() + patience.limit_s(size)
-    # read() would wait for a whole piece, however slowly it comes; read1() returns what is there.
+    # read() waits for a whole piece, however slowly it arrives; read1() returns what has arrived.
     while piece := response.read1(_PIECE):
         done += len(piece)
         if done > size:
@@ -150,14 +156,19 @@ def _copy(url: str, response: HTTPResponse, file: FileIO, target: Path, size: in
 
 
 def no_room(target: Path, error: OSError) -> AssetError:
-    """What to tell of a file that can't be written."""
+    """The error for a file that can't be written.
+
+    Args:
+        target: Path of the file; the message names its folder.
+        error: Error that the operating system gave.
+    """
     return AssetError(
         f"{target.parent}: can't be written ({error.strerror}); make room there, or name another folder with --to"
     )
 
 
 class _SafeRedirects(urllib.request.HTTPRedirectHandler):
-    """Follows to https, or where the first address is http, to http of the same host and port."""
+    """Follows redirects to https, and from a first address of http also to http on the same host and port."""
 
     def __init__(self, first: str) -> None:
         self._first = urlsplit(first)
@@ -165,20 +176,24 @@ class _SafeRedirects(urllib.request.HTTPRedirectHandler):
     def redirect_request(
         self, req: urllib.request.Request, fp: IO[bytes], code: int, msg: str, headers: HTTPMessage, newurl: str
     ) -> urllib.request.Request | None:
-        """Refuses the rest."""
+        """Return the request to follow.
+
+        Raises:
+            AssetError: The redirect leads to another address without https.
+        """
         to = urlsplit(newurl)
         same = (to.scheme, to.netloc) == (self._first.scheme, self._first.netloc)
         if to.scheme != "https" and not same:
             fp.close()
             raise AssetError(
-                f"{self._first.geturl()}: leads to {_shown(newurl)}, where anybody may change what comes; "
-                "name a --mirror"
+                f"{self._first.geturl()}: redirects to {_shown(newurl)}, which isn't https, so anybody could change "
+                "the file on its way; name a --mirror"
             )
         return super().redirect_request(req, fp, code, msg, headers, newurl)
 
 
 def _opener(url: str) -> urllib.request.OpenerDirector:
-    """One that knows http and https alone, neither files nor FTP."""
+    """An opener of http and https addresses alone; urllib's own also opens local files and FTP."""
     opener = urllib.request.OpenerDirector()
     for handler in (
         urllib.request.ProxyHandler(),

@@ -20,32 +20,35 @@ from assets.scan.textures import read_map
 from farm.errors import AssetError
 
 _PREFIX = ".fetching-"
-"""Of folders for what is not whole yet; scans of HDRIs and textures pass them over."""
+"""Prefix of the folders that hold unfinished downloads; scans of HDRIs and textures skip folders so named."""
 
 
 class Outcome(StrEnum):
-    """What became of an asset."""
+    """What `Fetcher.fetch` did with an asset."""
 
     FETCHED = "fetched"
     PRESENT = "there already"
 
 
 class Fetcher:
-    """Fetches assets of one registry. A context manager: archives are kept until its end, as several may need them."""
+    """Fetches assets of one registry.
+
+    A context manager: it keeps downloaded archives until it exits, since several assets may need the same one.
+    """
 
     def __init__(
         self, registry: Registry, root: Path, mirror: str | None = None, patience: Patience | None = None
     ) -> None:
-        """Fetch nothing yet.
+        """Prepare to fetch; nothing is downloaded yet.
 
         Args:
-            registry: Where archives are.
-            root: Gets `hdris` and `textures`.
-            mirror: Address asked in place of every server; the paths stay.
-            patience: How long to wait.
+            registry: Registry that says where the archives are.
+            root: Folder that receives the folders `hdris` and `textures`.
+            mirror: Address that replaces the scheme and host of every address; the paths stay. None for no mirror.
+            patience: Limits on waiting for a server; the defaults of `Patience` if None.
 
         Raises:
-            AssetError: The mirror is no http or https address.
+            AssetError: The mirror isn't an http or https address.
         """
         self._archives = {archive.name: archive for archive in registry.archive}
         self._root = root
@@ -56,22 +59,24 @@ class Fetcher:
         self._temporary = ExitStack()
 
     def __enter__(self) -> Self:
-        """Nothing happens."""
+        """Return the fetcher itself."""
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Remove the archives."""
+        """Remove the downloaded archives."""
         self._temporary.close()
 
     def fetch(self, asset: Asset) -> Outcome:
-        """Put an asset in its folder. One that is there and whole is left; one that differs is replaced.
+        """Put an asset's files in its folder.
 
-        All files are checked before the first is moved there, each by an atomic rename.
+        A file that is there already, with the registered size and checksum, stays; one that differs is replaced. All
+        files are checked in a temporary folder before an atomic rename moves the first of them to its place.
 
         Raises:
-            AssetError: A file can't be got or written, differs from the registry, or isn't the image it should be.
+            AssetError: A file can't be downloaded or written, differs from the registry, or isn't an image that the
+                farm can use.
         """
         folder = self._root / asset.kind.folder
         missing = [entry for entry in asset.file if not is_whole(folder / entry.file, entry)]
@@ -107,7 +112,7 @@ class Fetcher:
         if entry.archive is None:
             download(url, target, entry.bytes, entry.sha256, self._patience)
             return
-        # With the archive to fall back on, a server that was silent once isn't waited for again.
+        # The archive is the fallback, so a server that couldn't be reached once isn't asked a second time.
         server = urlsplit(url).netloc
         if server in self._silent:
             raise AssetError(f"{url}: can't be reached")
@@ -146,7 +151,7 @@ class Fetcher:
 
 
 def is_whole(path: Path, entry: AssetFile) -> bool:
-    """Whether a file is there, of the registered size and checksum."""
+    """Whether a file exists and has the registered size and checksum."""
     try:
         if path.stat().st_size != entry.bytes:
             return False
@@ -158,7 +163,10 @@ def is_whole(path: Path, entry: AssetFile) -> bool:
 
 @contextmanager
 def _temporary_folder(within: Path) -> Iterator[Path]:
-    """A folder beside where things go, so that a rename moves them; gone at the end with all that is in it."""
+    """A temporary folder inside `within`, removed with its content at the end.
+
+    It lies on the same file system as `within`, so an atomic rename can move a file from one to the other.
+    """
     try:
         within.mkdir(parents=True, exist_ok=True)
         temporary = TemporaryDirectory(prefix=_PREFIX, dir=within, ignore_cleanup_errors=True)
@@ -169,7 +177,7 @@ def _temporary_folder(within: Path) -> Iterator[Path]:
 
 
 def _check_image(kind: Kind, entry: AssetFile, path: Path) -> None:
-    """Refuse what the farm couldn't use, though it be what was registered."""
+    """Refuse a file that the farm can't read as an HDRI or as a texture's map, even if its checksum is right."""
     try:
         if kind is Kind.HDRI:
             read_hdri(path)

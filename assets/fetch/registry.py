@@ -1,4 +1,7 @@
-"""What can be fetched from public libraries: a registry of files, each by its content. See `registry.toml`."""
+"""The registry of assets that can be fetched from public libraries; `registry.toml` holds the farm's own.
+
+It names every file's address, size and checksum, so that a fetched file is exactly the one that was registered.
+"""
 
 import tomllib
 from enum import StrEnum
@@ -17,17 +20,20 @@ from farm.errors import AssetError
 OWN_REGISTRY = Path(__file__).with_name("registry.toml")
 
 LARGEST_ARCHIVE = 4 * 2**30
-"""Bytes above which an archive can't be registered."""
+"""Largest archive that can be registered, bytes: 4 GiB, so that a wrong entry can't fill a disk."""
 
 ARCHIVE_ENDINGS = (".tgz", ".tar.gz", ".whl", ".zip")
+"""Endings of an archive's address that the farm can unpack."""
+
 LOCAL_HOSTS = frozenset({"localhost", "127.0.0.1", "::1"})
+"""Hosts whose addresses may be http, since their traffic never leaves the machine."""
 
 
 def check_url(url: str) -> str:
-    """An address that a registry may name: https, or http on this machine, without a password.
+    """Return the address if a registry may name it: https, or http on this machine, without a password.
 
     Raises:
-        ValueError: It is another.
+        ValueError: The registry may not name this address.
     """
     parts = urlsplit(url)
     if parts.scheme != "https" and not (parts.scheme == "http" and parts.hostname in LOCAL_HOSTS):
@@ -40,7 +46,7 @@ def check_url(url: str) -> str:
         or not url.isascii()
         or not url.isprintable()
     ):
-        raise ValueError(f"{url}: isn't a plain address of a file")
+        raise ValueError(f"{url}: isn't the plain address of a file")
     return url
 
 
@@ -48,14 +54,14 @@ Url = Annotated[str, AfterValidator(check_url)]
 
 
 class Kind(StrEnum):
-    """What an asset is."""
+    """The kinds of assets that can be fetched."""
 
     HDRI = "hdri"
     TEXTURE = "texture"
 
     @property
     def folder(self) -> str:
-        """Where such assets are put, below the folder for all; also the name of the flag that takes it."""
+        """Name of the folder for assets of this kind, and of the command's flag that takes such a folder."""
         return {Kind.HDRI: "hdris", Kind.TEXTURE: "textures"}[self]
 
 
@@ -64,13 +70,13 @@ class _Entry(BaseModel):
 
 
 class Archive(_Entry):
-    """A published package that holds assets' files.
+    """A published package that holds files of assets.
 
     Attributes:
-        name: How files refer to it.
-        url: Where it is; its ending tells tar from zip.
-        sha256: Its checksum.
-        bytes: Its size.
+        name: Name by which `AssetFile.archive` refers to the package.
+        url: Address of the package; its ending tells tar from zip.
+        sha256: SHA-256 of the package, hexadecimal.
+        bytes: Size of the package in bytes.
     """
 
     name: str = Field(min_length=1)
@@ -86,15 +92,15 @@ class Archive(_Entry):
 
 
 class AssetFile(_Entry):
-    """One file of an asset. Where both are given, the address is tried first, then the archive.
+    """One file of an asset. With both an address and an archive, the address is tried first.
 
     Attributes:
-        file: What it is called here; never what an archive calls it.
-        sha256: Its checksum.
-        bytes: Its size.
-        url: Where it is by itself.
-        archive: Which archive holds it.
-        member: What it is called in there.
+        file: Name of the file in the user's folder, whatever an archive calls it.
+        sha256: SHA-256 of the file, hexadecimal.
+        bytes: Size of the file in bytes.
+        url: Address of the file by itself; None if only an archive holds it.
+        archive: Name of the archive that holds the file; None if none does.
+        member: Full name of the file inside that archive.
     """
 
     file: str = Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,99}$")
@@ -117,12 +123,13 @@ class Asset(_Entry):
     """An HDRI, or the maps of a texture.
 
     Attributes:
-        name: What users call it.
+        name: Name by which users ask for the asset.
         kind: HDRI or texture.
-        licence: SPDX identifier.
-        author: Who made it.
-        source: Page that shows it and states its licence.
-        file: One for an HDRI; for a texture one a map, named as `assets.scan.texture_names` reads them.
+        licence: SPDX identifier of the licence.
+        author: Name of the author.
+        source: Address of the page that shows the asset and states its licence.
+        file: Files of the asset: one for an HDRI, one per map for a texture, with names that
+            `assets.scan.texture_names` can tell apart.
     """
 
     name: str = Field(pattern=r"^[a-z0-9][a-z0-9_-]{0,79}$")
@@ -148,16 +155,16 @@ class Asset(_Entry):
 
 
 def role_of(entry: AssetFile) -> TextureRole | None:
-    """Which map of a texture a file is, by its name here."""
+    """The map of a texture that a file holds, told by its name; None if the name tells none."""
     return parse_texture_name(PurePosixPath(entry.file).stem).role
 
 
 class Registry(_Entry):
-    """All that can be fetched.
+    """All assets that can be fetched.
 
     Attributes:
-        archive: Packages that hold files.
-        asset: What users can name.
+        archive: Packages that hold files of assets.
+        asset: Assets that users can ask for.
     """
 
     archive: tuple[Archive, ...] = ()
@@ -169,7 +176,7 @@ class Registry(_Entry):
         _refuse_twice("archive", archives)
         _refuse_twice("asset", [asset.name for asset in self.asset])
         files = [entry for asset in self.asset for entry in asset.file]
-        # Some file systems don't tell Oak from oak.
+        # On some file systems Oak.png and oak.png are the same file.
         _refuse_twice(
             "file", [f"{asset.kind.folder}/{entry.file.lower()}" for asset in self.asset for entry in asset.file]
         )
@@ -179,10 +186,10 @@ class Registry(_Entry):
         return self
 
     def find(self, names: list[str]) -> tuple[Asset, ...]:
-        """The assets of these names, in the registry's order; all of them if none is named.
+        """The assets with these names, in the registry's order; every asset if `names` is empty.
 
         Raises:
-            AssetError: There is no asset of a name.
+            AssetError: No asset has one of the names.
         """
         known = {asset.name: asset for asset in self.asset}
         for name in names:
@@ -195,13 +202,13 @@ def read_registry(path: Path) -> Registry:
     """Read a registry.
 
     Args:
-        path: TOML, in the form of `registry.toml`.
+        path: Path of a TOML file in the form of `registry.toml`.
 
     Returns:
-        What it holds.
+        The registry in the file.
 
     Raises:
-        AssetError: It can't be read, or a key is missing, unknown or wrong.
+        AssetError: The file can't be read, or a key is missing, unknown or wrong.
     """
     try:
         return Registry.model_validate(tomllib.loads(path.read_text("utf-8")))
@@ -214,16 +221,16 @@ def read_registry(path: Path) -> Registry:
         raise AssetError(
             f"{path}: {f'{where}: ' if where else ''}{problem}; see the farm's own, {OWN_REGISTRY}"
         ) from error
-    except (ValueError, RecursionError) as error:  # of the TOML; besides its own error, for numbers of 5,000 digits
+    except (ValueError, RecursionError) as error:  # tomllib also raises these, for numbers of 5,000 digits, say
         raise AssetError(f"{path}: isn't TOML ({error}); see the farm's own, {OWN_REGISTRY}") from error
 
 
 @cache
 def own_registry() -> Registry:
-    """The one that comes with the farm.
+    """The registry that comes with the farm.
 
     Raises:
-        AssetError: It is missing or wrong: the installation is damaged.
+        AssetError: The registry is missing or wrong, so the installation is damaged.
     """
     return read_registry(OWN_REGISTRY)
 

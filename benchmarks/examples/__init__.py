@@ -1,1 +1,1 @@
-"""Pictures to look at: a few of every surface, environment and kind of cable."""
+"""Example pictures: a few of every surface, environment and kind of cable."""

@@ -15,22 +15,23 @@ from farm.spec.job import Job
 from worker.blender.renderer import open_renderer
 
 DEFAULT_EACH = 4
+"""Pictures of each example unless the command line says otherwise."""
 
 RESOLUTION = 320
-"""Pixels along an edge of a picture; a sheet shows it smaller."""
+"""Pixels along an edge of a rendered picture; a sheet shows it smaller."""
 
 _PAGE = 12
-"""Rows of a sheet."""
+"""Rows of pictures on a sheet."""
 
 
 def run(out: Path, *, seed: int, each: int | None, groups: Sequence[str], only: Sequence[str]) -> int:
     """Render the examples and write `examples-<group>-<page>.jpg` into `out`.
 
     Args:
-        out: a folder that is there.
-        seed: of the scenes.
-        each: pictures of an example.
-        groups: some of `GROUPS`; all if empty.
+        out: an existing folder.
+        seed: seed of the scenes.
+        each: number of pictures of each example; `DEFAULT_EACH` if None or 0.
+        groups: names of the groups in `GROUPS` to make; all if empty.
         only: labels of the examples to make; all if empty.
 
     Raises:

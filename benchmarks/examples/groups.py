@@ -1,4 +1,4 @@
-"""What there are examples of: each a dataset of its own, with one thing chosen and the rest drawn as ever."""
+"""The groups of examples; each example is a dataset of its own in which one thing is fixed and the rest is drawn."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -11,12 +11,16 @@ from farm.spec.parse import parse_spec
 from farm.spec.styles import Style
 
 _CLOSE = {"camera": {"heights_m": [0.12, 0.15, 0.2]}}
+"""Camera heights, metres, close enough to show a cable's surface."""
 
 _NO_CLUTTER = {"clutter": {"share": 0.0}}
+"""Ranges without clutter, so that nothing hides the example."""
 
 _WELL_EXPOSED = {"development": {"exposure_ev": [0.0, 0.0]}}
+"""Ranges without any error of exposure, stops."""
 
 _ONE_CABLE = {"count": [1, 3], "diameter_m": [0.002, 0.006]}
+"""Number of cables and their diameters, metres, unless a kind of cable says otherwise: few and clearly visible."""
 
 _PLAIN_SKIN: Mapping[str, float] = {
     "share": 1.0,
@@ -26,8 +30,10 @@ _PLAIN_SKIN: Mapping[str, float] = {
     "marking_share": 0.0,
     "clean_share": 1.0,
 }
+"""Shares of a cable's surface without stripes, braid, print or dirt, over which each kind lays its own."""
 
 _ENDS_IN_VIEW = {"length_m": [0.07, 0.11]}
+"""Lengths, metres, short enough that a cable's ends are in view."""
 
 
 def _cable(
@@ -66,7 +72,7 @@ CABLE_KINDS: Mapping[str, Mapping[str, object]] = {
     "loop": _cable({}, {"count": [1, 2]}, {"loop_share": 1.0}),
     "coil": _cable({}, {"count": [1, 2], "length_m": [0.4, 0.55]}, {"coil_share": 1.0}),
 }
-"""Ranges that show one kind of cable."""
+"""Ranges of the description that show one kind of cable, by the kind's label."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,9 +80,9 @@ class Example:
     """A thing to show, and the pictures that show it.
 
     Attributes:
-        label: beneath its pictures.
-        header: of a dataset in which it is always drawn.
-        category: of the pictures.
+        label: name printed beneath the pictures.
+        header: header of a dataset in which every scene has the thing.
+        category: category of the pictures.
     """
 
     label: str
@@ -85,7 +91,7 @@ class Example:
 
 
 def surfaces(seed: int) -> Iterator[Example]:
-    """Every floor surface of our own, under lamps and under HDRIs by turns."""
+    """Every built-in floor surface, alternately under lamps and under HDRIs."""
     categories = (Category.CLOSE_CONCENTRATED, Category.CLOSE_DISTRIBUTED)
     for number, surface in enumerate(_header(seed, {}).surfaces):
         header = _header(seed + number, {**_NO_CLUTTER, **_WELL_EXPOSED})
@@ -93,7 +99,7 @@ def surfaces(seed: int) -> Iterator[Example]:
 
 
 def environments(seed: int) -> Iterator[Example]:
-    """Every HDRI that can be seen behind cables."""
+    """Every HDRI that may be the backdrop of a picture."""
     for number, hdri in enumerate(_header(seed, {}).hdris):
         if hdri.backdrop:
             header = _header(seed + number, _WELL_EXPOSED)
@@ -107,7 +113,7 @@ def cables(seed: int) -> Iterator[Example]:
 
 
 GROUPS = {"surfaces": surfaces, "environments": environments, "cables": cables}
-"""Each example has scenes of its own, exposed as they should be."""
+"""Functions that make the examples of each group from a seed; each example has scenes of its own, well exposed."""
 
 
 def _header(seed: int, ranges: Mapping[str, object]) -> DatasetHeader:

@@ -1,1 +1,1 @@
-"""Images an hour of a whole farm on this machine, by how its cores are shared out."""
+"""Images per hour of a whole farm on this machine, for several ways to split its cores between workers."""

@@ -1,4 +1,4 @@
-"""`python -m benchmarks farm`: images an hour of `farm run`, for each way of sharing out the cores."""
+"""`python -m benchmarks farm`: images per hour of `farm run`, for each split of the cores between workers."""
 
 import tempfile
 from collections.abc import Sequence
@@ -15,15 +15,15 @@ def run(out: Path, *, seed: int, images: int, splits: Sequence[Split]) -> int:
     """Measure, print the table, write `farm.json` and `farm.png` into `out`.
 
     Args:
-        out: a folder that is there.
-        seed: of the dataset, the same for all splits.
-        images: of each run.
-        splits: one run each.
+        out: an existing folder.
+        seed: seed of the dataset, the same for all splits.
+        images: number of images of each run.
+        splits: splits to measure, each by a run of its own.
 
     Raises:
-        SpecError: if there is no image to make.
-        VerificationError: if a dataset is not complete and as its manifests tell.
-        FarmError: that with which a run ended.
+        SpecError: if `images` is below 1.
+        VerificationError: if a dataset is incomplete or differs from its manifests.
+        FarmError: the error with which a run ended.
     """
     if images < 1:
         raise SpecError("give at least 1 of --images")

@@ -1,4 +1,4 @@
-"""Memory of a process and all that it started, as Linux tells it."""
+"""Memory of a process and all its descendants, from Linux's /proc."""
 
 from collections import defaultdict
 from contextlib import suppress
@@ -8,10 +8,14 @@ _PROCESSES = Path("/proc")
 
 
 def memory_mib(process: int, processes: Path = _PROCESSES) -> float | None:
-    """Proportional resident memory of a process and its descendants in MiB: a page that several share counts once.
+    """Proportional resident memory of a process and its descendants, in which a page that several share counts once.
+
+    Args:
+        process: identifier of the process.
+        processes: folder in which the system describes its processes.
 
     Returns:
-        None where the system does not tell.
+        MiB; None on a system without `smaps_rollup`.
     """
     if not (processes / "self" / "smaps_rollup").exists():
         return None
@@ -21,7 +25,7 @@ def memory_mib(process: int, processes: Path = _PROCESSES) -> float | None:
 def _family(processes: Path, process: int) -> set[int]:
     children: dict[int, list[int]] = defaultdict(list)
     for folder in processes.iterdir():
-        # A process may end while it is looked at.
+        # A process may end while its folder is being read.
         with suppress(OSError, ValueError, IndexError):
             parent = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
             children[parent].append(int(folder.name))

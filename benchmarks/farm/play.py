@@ -1,4 +1,4 @@
-"""Running `farm run` as a user does, and reading from its dataset when each picture was finished."""
+"""Run `farm run` as a user does, and read from its dataset when each picture was finished."""
 
 import subprocess
 import sys
@@ -17,22 +17,22 @@ from farm.local.processes import stop
 from farm.local.tied import tied
 
 _LOOK_S = 20.0
-"""Between two looks at the memory, which take a tenth of a second of a core: the kernel counts pages."""
+"""Seconds between two measurements of the memory: each costs 0.1 s of a core, in which the kernel counts pages."""
 
 
 def play(split: Split, images: int, seed: int, folder: Path, log_file: Path) -> Throughput:
     """Make a dataset in the published mix, and verify it.
 
     Args:
-        split: workers and threads.
-        images: in all.
-        seed: of the dataset.
-        folder: an empty one for it and the workers' logs.
-        log_file: takes what the command prints.
+        split: numbers of workers and threads.
+        images: number of images in all.
+        seed: seed of the dataset.
+        folder: an empty folder for the dataset and the workers' logs.
+        log_file: file that receives the command's output.
 
     Raises:
-        VerificationError: if a file is not as it must be, or one is missing.
-        FarmError: that with which the command ended.
+        VerificationError: if a file is missing or damaged.
+        FarmError: the error with which the command ended.
     """
     place = folder / "data"
     started_s, start = time.time(), time.perf_counter()
@@ -47,11 +47,11 @@ def play(split: Split, images: int, seed: int, folder: Path, log_file: Path) -> 
 
 
 def finished(dataset: Dataset, started_s: float) -> tuple[Finished, ...]:
-    """When each picture's manifest was written, the earliest first.
+    """The moments at which the pictures' manifests were written, the earliest first.
 
     Args:
-        dataset: a complete one.
-        started_s: when its run began, seconds of the Unix epoch.
+        dataset: a complete dataset.
+        started_s: start of the run, seconds of the Unix epoch.
     """
     found = []
     for path, stored in dataset.storage.files().items():
@@ -74,13 +74,13 @@ def run_to_end(command: list[str], log_file: Path) -> float | None:
 
     Args:
         command: the program and its arguments.
-        log_file: takes what it prints.
+        log_file: file that receives the command's output.
 
     Returns:
-        Peak memory of all its processes in MiB; None where the system does not tell.
+        Peak memory of all its processes in MiB; None on a system that doesn't measure it.
 
     Raises:
-        FarmError: that with which it ended.
+        FarmError: the error with which the command ended.
     """
     peak_mib: float | None = None
     with log_file.open("wb") as log:

@@ -1,4 +1,4 @@
-"""Images an hour from when each picture was finished; the start of each process is told apart from the rest."""
+"""Images per hour, from the moments at which pictures were finished; start-up is kept apart from the steady rate."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from benchmarks.farm.splits import Split
 
 PUBLISHED_IMAGES = 25_000
+"""Images of the published dataset."""
 PUBLISHED_HOURS = 101.0
-"""What these took with the published method, on a PC with an RTX 3070."""
+"""Hours that the published method took for the published dataset, on a PC with an RTX 3070."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,8 +16,8 @@ class Finished:
     """One picture of a run.
 
     Attributes:
-        after_s: seconds from the run's start until its manifest was written.
-        opened: whether its process opened the template for it, so that it was its first.
+        after_s: seconds from the run's start until the picture's manifest was written.
+        opened: whether it was the first picture of its process, which opened the template for it.
     """
 
     after_s: float
@@ -28,9 +29,11 @@ class Throughput:
     """One whole run of the farm.
 
     Attributes:
-        finished: its pictures, in their order.
-        wall_s: seconds of the command, from its start to its end.
-        peak_mib: most memory of all its processes together, shared pages counted once; None where it can't be told.
+        split: numbers of workers and threads.
+        finished: the pictures, the earliest first.
+        wall_s: seconds from the command's start to its end.
+        peak_mib: peak memory of all processes together, with shared pages counted once; None if the system doesn't
+            measure it.
     """
 
     split: Split
@@ -45,7 +48,10 @@ class Throughput:
 
     @property
     def images_per_hour(self) -> float:
-        """While all workers work: of the pictures after every worker's first. All of them, if there are none after."""
+        """Images per hour while all workers work, from the pictures after every worker's first.
+
+        If there are no such pictures, the rate of the whole run.
+        """
         start_s = max(self.first_s, default=0.0)
         later = [each.after_s for each in self.finished if each.after_s > start_s]
         if later and self.first_s:
@@ -54,20 +60,20 @@ class Throughput:
 
     @property
     def overall_images_per_hour(self) -> float:
-        """Of the whole run, its start and its end included."""
+        """Images per hour of the whole run, its start and its end included."""
         return 3600.0 * len(self.finished) / self.wall_s
 
     def hours(self, images: int = PUBLISHED_IMAGES) -> float:
-        """For so many images, the start-up included."""
+        """Hours that a number of images would take, start-up included."""
         return max(self.first_s, default=0.0) / 3600.0 + images / self.images_per_hour
 
 
 def best(runs: Sequence[Throughput]) -> Throughput:
-    """The one with most images an hour."""
+    """The run with the most images per hour."""
     return max(runs, key=lambda run: run.images_per_hour)
 
 
 def factors(runs: Sequence[Throughput]) -> Mapping[Split, float]:
-    """Images an hour over those of one worker with one thread; empty without that run."""
+    """Images per hour of each run, relative to one worker with one thread; empty without that run."""
     base = next((run for run in runs if run.split == Split(1, 1)), None)
     return {run.split: run.images_per_hour / base.images_per_hour for run in runs} if base else {}

@@ -1,4 +1,4 @@
-"""The table, the lines, the JSON file and the picture of the throughput benchmark."""
+"""The table, the conclusions, the JSON file and the plot of the throughput benchmark."""
 
 import json
 from collections.abc import Iterator, Sequence
@@ -16,7 +16,7 @@ from matplotlib import pyplot as plt  # the backend must be chosen first
 
 
 def throughput_table(runs: Sequence[Throughput]) -> Table:
-    """A row a split."""
+    """A table with one row per split."""
     names = ("workers x threads", "images", "first image s", "images/h", "s an image", "with start and end", "peak MiB")
     table = Table(title="`farm run`, published mix", title_justify="left")
     for number, name in enumerate((*names, "times 1x1", f"h for {PUBLISHED_IMAGES:,}")):
@@ -38,7 +38,11 @@ def throughput_table(runs: Sequence[Throughput]) -> Table:
 
 
 def conclusions(runs: Sequence[Throughput]) -> Iterator[str]:
-    """What a second process brings, which split is best, and how long the published dataset takes with it."""
+    """Sentences on what a second process gains, which split is best, and how long the published dataset takes with it.
+
+    Yields:
+        One sentence at a time.
+    """
     over = factors(runs)
     if Split(2, 1) in over:
         yield f"2 processes of one thread make {over[Split(2, 1)]:.2f} times as many images an hour as 1"
@@ -52,7 +56,7 @@ def conclusions(runs: Sequence[Throughput]) -> Iterator[str]:
 
 
 def write_json(path: Path, runs: Sequence[Throughput], seed: int) -> None:
-    """Every figure, and the machine."""
+    """Write every figure, and a description of the machine."""
     over = factors(runs)
     content = {
         "machine": machine(),
@@ -80,7 +84,7 @@ def write_json(path: Path, runs: Sequence[Throughput], seed: int) -> None:
 
 
 def write_plot(path: Path, runs: Sequence[Throughput]) -> None:
-    """Images finished over time, and images an hour by split."""
+    """Draw the images finished over time, and the images per hour of each split."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(12, 4.2), layout="constrained", width_ratios=(1.5, 1))
     for run in runs:
         done = range(1, len(run.finished) + 1)

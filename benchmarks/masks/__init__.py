@@ -1,1 +1,1 @@
-"""Masks against white-on-black Cycles renders of many samples."""
+"""Compare masks with white-on-black Cycles renders of many samples."""

@@ -1,4 +1,4 @@
-"""How a mask agrees with a reference's coverage."""
+"""The agreement of a mask with a reference's coverage."""
 
 from dataclasses import dataclass
 
@@ -7,22 +7,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 PLAIN_ERROR_PX = 0.5
-"""A pixel that differs and is farther than this from the reference's half-way line does so by more than rounding."""
+"""Distance, pixels, from the reference's half-way line beyond which a differing pixel is no mere rounding."""
 
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
-    """How a mask agrees with a reference.
+    """The agreement of a mask with a reference.
 
     Attributes:
-        iou: intersection over union with the reference, thresholded at a half.
-        edge_error_px: how far the mask's edge lies from the reference's half-way line where it is farthest, near one
-            cable alone.
-        gap_error_px: the same between two cables, in whole pixels: the edge of the largest square of pixels that
-            differ. A gap of about a pixel that one of mask and reference closes counts 1.
-        gap_pixels: pixels between two cables, the gap between which is a pixel or two wide, that are farther off than
-            `PLAIN_ERROR_PX`: one of mask and reference closes the gap there.
-        area_ratio: area of the mask over the reference's coverage.
+        iou: intersection over union of the mask and the reference thresholded at a half.
+        edge_error_px: largest distance of the mask's edge from the reference's half-way line, where only one cable
+            is near.
+        gap_error_px: error between two cables, in whole pixels: the edge of the largest square of differing pixels.
+            A gap about one pixel wide that is closed in only one of mask and reference counts 1.
+        gap_pixels: number of differing pixels between two cables that are farther than `PLAIN_ERROR_PX` from the
+            half-way line: in narrow gaps that are closed in only one of mask and reference.
+        area_ratio: area of the mask, relative to the reference's coverage.
     """
 
     iou: float
@@ -33,10 +33,14 @@ class Agreement:
 
 
 def compare(instances: NDArray[np.uint16], coverage: NDArray[np.float64]) -> Agreement:
-    """Compare instances (H, W), whose mask is what is not 0, with a reference's coverage (H, W), 0 to 1.
+    """Compare a mask with a reference.
 
     A pixel's middle lies |c - 1/2| / |grad c| from the reference's half-way line. Where mask and reference differ, the
-    mask's edge is at least that far off. In a gap the gradient vanishes and says nothing, so pixels are counted there.
+    mask's edge is at least that far off. In a gap the gradient vanishes, so the differing pixels are counted instead.
+
+    Args:
+        instances: the mask's instance map, (H, W); the mask is where it isn't 0.
+        coverage: the reference's coverage c by cables, (H, W), 0 to 1.
     """
     ours, theirs = instances > 0, coverage >= 0.5
     union = np.count_nonzero(ours | theirs)
@@ -55,7 +59,7 @@ def compare(instances: NDArray[np.uint16], coverage: NDArray[np.float64]) -> Agr
 
 
 def _cables_nearby(instances: NDArray[np.uint16]) -> NDArray[np.int64]:
-    """How many cables are within two pixels of each pixel."""
+    """Number of cables within two pixels of each pixel."""
     reach = np.ones((5, 5), np.uint8)
     nearby = [cv2.dilate((instances == number).astype(np.uint8), reach) for number in np.unique(instances) if number]
     return np.sum(nearby, axis=0, dtype=np.int64) if nearby else np.zeros(instances.shape, np.int64)
@@ -66,6 +70,6 @@ def _largest_square(pixels: NDArray[np.bool_]) -> int:
     left, edge = pixels.astype(np.uint8), 0
     while left.any():
         edge += 1
-        # A square is one larger than those around its three neighbours, so each round takes one off every square.
+        # Four squares of edge n at a pixel and its three neighbours make one of edge n + 1, so each round shrinks by 1.
         left = left[1:, 1:] & left[:-1, 1:] & left[1:, :-1] & left[:-1, :-1]
     return edge

@@ -25,14 +25,21 @@ from worker.service.picture import Picture
 from worker.simulate.simulate import simulate
 
 DEFAULT_IMAGES = 2
+"""Images of each category unless the command line says otherwise."""
 REPEATS = 5
+"""Times that a scene's labelling is timed; the fastest counts, since other processes only ever slow it down."""
 
 
 def run(out: Path, *, images: int | None, seed: int) -> int:
     """Compare, print the table, write `masks.json` into `out`.
 
+    Args:
+        out: an existing folder.
+        images: number of images of each category; `DEFAULT_IMAGES` if None.
+        seed: seed of the dataset.
+
     Raises:
-        VerificationError: if a mask is not of its picture.
+        VerificationError: if a mask doesn't fit its picture.
         FarmError: if an image can't be made.
     """
     count = images or DEFAULT_IMAGES
@@ -61,7 +68,7 @@ def _label_again(made: Picture, category: Category, header: DatasetHeader) -> fl
     """Label a picture's scene again: milliseconds of CPU, the least of `REPEATS`, since other processes only ever add.
 
     Raises:
-        VerificationError: if the labels are not the same.
+        VerificationError: if the labels differ from the picture's own.
     """
     shapes = simulate(made.scene, header.spec.simulator, header.spec.fall)
     detail = header.rendering[category].settings.detail

@@ -1,4 +1,4 @@
-"""The mask as the published method makes it: cables emit white, all else is black, rendered by Cycles."""
+"""The mask that the published method makes: a Cycles render in which cables emit white and all else is black."""
 
 import cv2
 import numpy as np
@@ -9,9 +9,10 @@ from farm.scene.camera import Camera
 from worker.blender.render import render_picture
 
 SAMPLES = 1024
+"""Samples per pixel of a reference: its noise is then far below the half level at which masks are compared."""
 
 _SAME_SO_FAR = 128
-"""Samples after which Cycles leaves a pixel that is all black or all white, with all around it: most of the picture."""
+"""Samples per pixel after which Cycles stops where all samples agree, as they do in most of the picture."""
 
 
 def render_coverage(camera: Camera, samples: int = SAMPLES) -> NDArray[np.float64]:
@@ -25,10 +26,10 @@ def render_coverage(camera: Camera, samples: int = SAMPLES) -> NDArray[np.float6
         samples: Cycles samples a pixel.
 
     Returns:
-        (H, W) coverage by cables, 0 to 1, as filtered by Cycles' pixel filter.
+        Coverage by cables, (H, W), 0 to 1, as Cycles' pixel filter gives it.
 
     Raises:
-        RenderError: if Blender gives no picture.
+        RenderError: if Blender makes no picture.
     """
     with white_on_black() as scene:
         scene.cycles.samples = samples

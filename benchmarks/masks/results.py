@@ -1,4 +1,4 @@
-"""What the comparison of masks with renders found: the bounds, what they say, and the table."""
+"""Results of the comparison of masks with renders: their bounds, the check against them, and the table."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -11,24 +11,28 @@ from farm.errors import VerificationError
 from farm.spec.category import Category
 
 WIDE_PX = 6.0
+"""Width of the thinnest cable, pixels, from which a picture must meet the stricter bound on IoU."""
 MAX_BOUNDARY_ERROR_PX = 1.0
+"""Largest distance, pixels, between the edges of mask and reference."""
 AIM_MS = 20.0
-"""What labelling may take. It is told, and fails nothing: time depends on the machine."""
+"""Aim for the CPU time of labelling, milliseconds. The report states it; nothing fails, as time depends on the
+machine."""
 
 
 class Width(StrEnum):
-    """Width of the cables in the picture: an edge's error counts the more, the narrower the cable."""
+    """Class of the cables' width in the picture: the same error at the edge weighs more on a narrower cable."""
 
     NARROW = "4 px"
     WIDE = "≥ 6 px"
 
 
 MIN_IOU = {Width.NARROW: 0.985, Width.WIDE: 0.995}
+"""Least intersection over union with the reference, by width of the cables."""
 
 
 @dataclass(frozen=True, slots=True)
 class LabelledImage:
-    """One picture's result.
+    """The result for one picture.
 
     Attributes:
         category: the picture's category.
@@ -49,7 +53,7 @@ class LabelledImage:
 
     @property
     def passes(self) -> bool:
-        """Whether the mask is right."""
+        """Whether the mask is within both bounds."""
         error_px = max(self.agreement.edge_error_px, self.agreement.gap_error_px)
         return self.agreement.iou >= MIN_IOU[self.width] and error_px <= MAX_BOUNDARY_ERROR_PX
 
@@ -58,10 +62,10 @@ _COLUMNS = ("category", "width", "images", "IoU mean", "least", "edge px", "gap 
 
 
 def check(found: list[LabelledImage]) -> None:
-    """Look at every mask.
+    """Check every mask.
 
     Raises:
-        VerificationError: if one is wrong.
+        VerificationError: if a mask is out of bounds.
     """
     wrong = [image for image in found if not image.passes]
     if wrong:
@@ -74,7 +78,7 @@ def check(found: list[LabelledImage]) -> None:
 
 
 def table(found: list[LabelledImage], title: str) -> Table:
-    """A row for each category and class of width."""
+    """A table with a row for each category and class of width."""
     lines = Table(
         title=title,
         caption=f"pass: no boundary off by over {MAX_BOUNDARY_ERROR_PX:.0f} px, IoU at least "
@@ -110,7 +114,7 @@ def _cells(row: list[LabelledImage]) -> list[str]:
 
 
 def times(found: list[LabelledImage]) -> str:
-    """What labelling took, in words."""
+    """A sentence on the time that labelling took."""
     times_ms = [image.label_ms for image in found]
     verdict = "within" if max(times_ms) <= AIM_MS else "over"
     return (

@@ -1,4 +1,4 @@
-"""Cables that emit white, and all else black: a scene whose render is a mask, as the published method makes them."""
+"""Turn the open scene into one whose render is a mask, as in the published method: white cables on black."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -18,7 +18,7 @@ def white_on_black() -> Iterator[Any]:
     lamps stay changed: build the scene again before another picture. What hides cables is black.
 
     Yields:
-        The picture's scene.
+        Blender's scene of the picture.
     """
     scene = bpy.data.scenes[names.PICTURE_SCENE]
     view = scene.view_settings

@@ -1,1 +1,1 @@
-"""Time against error of all simulators over their settings, on the same drawn scenes."""
+"""Time against error of all simulators and their settings, on the same drawn scenes."""

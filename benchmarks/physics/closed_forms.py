@@ -8,16 +8,17 @@ from scipy.optimize import brentq
 from scipy.special import jn_zeros
 
 STANDARD_GRAVITY_M_S2 = 9.80665
+"""Standard acceleration of free fall, m/s^2."""
 
 
 @dataclass(frozen=True, slots=True)
 class Catenary:
     """A perfectly flexible cable hung between two points of one height: z = c cosh(x / c).
 
-    A real cable comes near to it where its slenderness rho g A L^3 / (E I) is above 1e4.
+    A real cable approaches it where the slenderness rho g A L^3 / (E I) is above 1e4.
 
     Attributes:
-        parameter_m: c, horizontal tension over weight per length.
+        parameter_m: c, the horizontal tension divided by the weight per length.
         sag_m: depth of the lowest point below the ends.
     """
 
@@ -29,7 +30,7 @@ def catenary(span_m: float, length_m: float) -> Catenary:
     """The catenary of given span D and length L: L = 2 c sinh(D / 2c), sag = c (cosh(D / 2c) - 1).
 
     Raises:
-        ValueError: if the span is not positive, or the length not longer than the span by at least 1e-9 of it.
+        ValueError: if the span isn't positive, or the length doesn't exceed it by at least a share of 1e-9.
     """
     if not (span_m > 0 and length_m >= span_m * (1 + 1e-9)):
         raise ValueError(f"no cable of {length_m:g} m hangs over a span of {span_m:g} m")
@@ -38,7 +39,7 @@ def catenary(span_m: float, length_m: float) -> Catenary:
     most = min(np.sqrt(6 * (ratio - 1)), 2 + 2 * np.log(2 * ratio))
     half = float(brentq(lambda u: np.sinh(u) / u - ratio, 0.1 * most, 1.001 * most, xtol=1e-15, rtol=1e-14))
     parameter = span_m / (2 * half)
-    # cosh(u) - 1 without the loss of digits at small u.
+    # 2 sinh(u / 2)^2 is cosh(u) - 1 without the loss of digits at small u.
     return Catenary(parameter_m=parameter, sag_m=parameter * 2 * float(np.sinh(half / 2)) ** 2)
 
 
@@ -62,13 +63,14 @@ def cantilever_frequency_rad_s(bending_stiffness_n_m2: float, mass_per_length_kg
 
 
 def incline_acceleration_m_s2(slope_rad: float, friction: float, gravity_m_s2: float = STANDARD_GRAVITY_M_S2) -> float:
-    """How fast a straight cable let go on a slope speeds up: g (sin a - mu cos a), or 0 where tan a <= mu (Coulomb)."""
+    """Acceleration of a straight cable released on a slope: g (sin a - mu cos a), or 0 where tan a <= mu (Coulomb)."""
     return max(0.0, gravity_m_s2 * float(np.sin(slope_rad) - friction * np.cos(slope_rad)))
 
 
 def euler_fall_m(time_s: float, step_s: float, gravity_m_s2: float = STANDARD_GRAVITY_M_S2) -> float:
-    """Drop in free fall from rest as semi-implicit Euler gives it, exactly: g t^2 (1 + h / t) / 2.
+    """Drop in free fall from rest, exactly as semi-implicit Euler computes it: g t^2 (1 + h / t) / 2.
 
-    Velocity first, then position: g h^2 (1 + 2 + ... + n) with t = n h, so the error is of first order, +g t h / 2.
+    The method updates the velocity first, then the position, which gives g h^2 (1 + 2 + ... + n) with t = n h. So the
+    error is of first order, +g t h / 2.
     """
     return gravity_m_s2 * time_s * (time_s + step_s) / 2

@@ -1,4 +1,4 @@
-"""What Blender's cloth makes of two textbook problems: a cantilever, and a cable over a ridge."""
+"""Two textbook problems played by Blender's cloth: a cantilever, and a cable over a ridge."""
 
 import time
 from dataclasses import dataclass
@@ -97,7 +97,13 @@ def cloth_cantilever(gamma: float, *, segments: int, settings: ClothFall, publis
         published: take the plane of quads of the published set-up and not the zigzag of the joined one. It has
             Blender's own stretching, so soft sideways that it may turn on edge and sag more than asked for.
 
-    A vertex at the tip weighs as much as any other, so it stands for half a segment beyond it, which counts.
+    Args:
+        gamma: slenderness rho g A L^3 / (E I) to aim at.
+        segments: number of segments of the free length, at least 4; the stiffness for a given `gamma` grows with its
+            third power.
+        settings: quality of the solver; its frames and collisions don't matter here.
+        published: whether to use the published set-up's plane of quads instead of the joined set-up's zigzag. The plane
+            stretches as Blender sets it, so softly that it may turn on edge and sag more than asked for.
 
     Raises:
         SceneError: if the solver diverges.
@@ -169,9 +175,12 @@ def _fill(cable: Any, path: Points) -> None:
 
 
 def _pinned_zigzag(scene: Any, gamma: float, segments: int, settings: ClothFall) -> tuple[Any, float, float]:
-    """A level strip whose first triangle is held, the slenderness that it can have, and where along x the clamp is.
+    """Add a level strip whose first triangle is held.
 
     The first fold is half way along the second segment and stands for that whole segment, so the clamp is at its start.
+
+    Returns:
+        The strip, the slenderness that it can have, and the clamp's position along x.
     """
     length = (segments + 0.5) * SEGMENT_UNITS
     material = material_for([length**3 / gamma], VERTEX_MASS, settings)
@@ -187,10 +196,14 @@ def _pinned_zigzag(scene: Any, gamma: float, segments: int, settings: ClothFall)
 
 
 def _pinned_plane(scene: Any, gamma: float, segments: int) -> tuple[Any, float, float]:
-    """A level plane of quads whose first is held, its slenderness, and where along x the clamp is.
+    """Add a level plane of quads whose first quad is held.
 
-    Each fold across the plane pushes the rungs beside it by half of 0.1 b times the width times the angle, which makes
-    EI = b width length^2 / 20. The first fold is at the second rung and stands for half a segment on either side.
+    With bending stiffness b, each fold across the plane pushes the rungs beside it by half of 0.1 b times the width
+    times the angle, which makes EI = b width length^2 / 20. The first fold is at the second rung and stands for half a
+    segment on either side.
+
+    Returns:
+        The plane, its slenderness, and the clamp's position along x.
     """
     width = 2 * planes.RADIUS_UNITS
     segment = planes.SEGMENT_UNITS
@@ -209,7 +222,7 @@ def _pinned_plane(scene: Any, gamma: float, segments: int) -> tuple[Any, float, 
 
 
 def _add_ridge(scene: Any, height: float, outer: float) -> None:
-    """A straight edge across the cable that keeps the floor's distance, so that it lifts the cable by `height`."""
+    """Add a straight edge across the cable, with the floor's collision distance, so that it lifts it by `height`."""
     mesh = bpy.data.meshes.new("ridge")
     wide, foot = 5.0, 0.02
     mesh.from_pydata(
@@ -243,7 +256,7 @@ def _step_until_still(scene: Any, cable: Any) -> Points:
 
 
 def _slenderness(droop: float) -> float:
-    """The slenderness at which the heavy elastica droops by H/W, within the range of the reference; else its end."""
+    """The slenderness at which the heavy elastica droops by H/W, limited to the range of the reference."""
     low, high = LEAST_SLENDERNESS, MOST_SLENDERNESS
     if not droop_ratio(low) < droop < droop_ratio(high):
         return low if 0 <= droop <= droop_ratio(low) else high

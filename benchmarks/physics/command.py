@@ -1,4 +1,4 @@
-"""`python -m benchmarks physics`: play the scenes at every setting on one core, and say which is best."""
+"""`python -m benchmarks physics`: play the scenes at every setting on one core, and name the best setting."""
 
 import os
 import time
@@ -9,10 +9,10 @@ from pathlib import Path
 
 @contextmanager
 def one_core() -> Iterator[None]:
-    """Keep this process, and all threads that it starts meanwhile, on one core, where the system lets it.
+    """Keep this process, and all threads that it starts within the context, on one core, if the system allows it.
 
-    Blender and the libraries of linear algebra make as many threads as there are cores when they are loaded, and offer
-    no other way to ask for one. Seconds of the processor then are those of one thread, and none of waiting.
+    Blender and the libraries of linear algebra start as many threads as there are cores when they are loaded, and offer
+    no other way to ask for one thread. CPU seconds are then those of one thread, and contain no waiting.
     """
     if not hasattr(os, "sched_setaffinity"):
         yield
@@ -34,12 +34,12 @@ def run(out: Path, *, seed: int, scenes: int | None) -> int:
         scenes: most scenes for a setting; slow settings have fewer. None for the usual number.
 
     Raises:
-        VerificationError: if the rod solver breaks a gate's bound at its default, or does not end in finite places.
+        VerificationError: if the rod solver breaks a gate's bound at its default, or ends in places that aren't finite.
         TemplateError: if the template can't be opened.
     """
     start = time.process_time()
     with one_core():
-        # Not before: what is loaded here must find itself on one core.
+        # These imports load Blender and linear algebra, so they must come after the process is limited to one core.
         from benchmarks.physics.compare import compare  # noqa: PLC0415
         from benchmarks.physics.settings import DEFAULT_SCENES, all_settings  # noqa: PLC0415
 

@@ -1,4 +1,4 @@
-"""The comparison from the first fall to the picture."""
+"""The whole comparison: play, report, write the files and verify."""
 
 import time
 from collections.abc import Sequence
@@ -19,6 +19,7 @@ from blend.build import TEMPLATE
 from blend.contract import open_template
 
 _WARM_UP_CABLES = 4
+"""Cables of the scene that loads and compiles everything before anything is timed: enough for contacts."""
 
 
 def compare(out: Path, settings: Sequence[Setting], *, seed: int, scenes: int, start_s: float) -> int:
@@ -32,7 +33,7 @@ def compare(out: Path, settings: Sequence[Setting], *, seed: int, scenes: int, s
         start_s: processor seconds that the process had taken when the run began.
 
     Raises:
-        VerificationError: if the rod solver breaks a gate's bound at its default, or does not end in finite places.
+        VerificationError: if the rod solver breaks a gate's bound at its default, or ends in places that aren't finite.
         TemplateError: if the template can't be opened.
     """
     console = bench_console()
@@ -43,7 +44,7 @@ def compare(out: Path, settings: Sequence[Setting], *, seed: int, scenes: int, s
         warm_up(settings, bench_scenes(1, _WARM_UP_CABLES, seed)[0])
     books: dict[Setting, Textbook] = {}
     rows = []
-    # Settings that are compared follow each other, so that a drift of the machine's speed touches all alike.
+    # Settings that are compared are played in succession, so that a drift in the machine's speed affects all equally.
     counts = sorted({count for setting in settings for count in setting.counts})
     plan = [(setting, count) for count in counts for setting in settings if count in setting.counts]
     for setting, count in track(plan, "settings", console=console, transient=True):

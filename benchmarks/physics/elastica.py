@@ -4,8 +4,9 @@ With s the arc length over the length, from the clamp, and theta the slope below
 
     theta'' = -G (1 - s) cos(theta),    theta(0) = 0,    theta'(1) = 0,    G = rho g A L^3 / (E I).
 
-The tip then lies W = integral of cos(theta) out and H = integral of sin(theta) down, both over the length. H/W against
-G is the cantilever master curve of Romero et al. 2021, "Physical validation of simulators in computer graphics".
+The tip then lies W = integral of cos(theta) outwards and H = integral of sin(theta) downwards, both as shares of the
+length. H/W as a function of G is the cantilever master curve of Romero et al. 2021, "Physical validation of simulators
+in computer graphics".
 """
 
 from functools import cache
@@ -16,20 +17,23 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_bvp
 
 LEAST_SLENDERNESS = 0.01
+"""Least slenderness G, without unit: below it H/W is practically G/8."""
 MOST_SLENDERNESS = 1e4
+"""Largest slenderness G, without unit: above it the cable hangs almost straight down."""
 
 _NEARLY_STRAIGHT = 2.0
-"""Up to here the solution for small slopes is a good enough first guess."""
+"""Slenderness up to which the solution for small slopes is a good enough first guess."""
 _CONTINUATION = 4.0
-"""Beyond, the solution for a cable this many times less slender is."""
+"""Factor between a slenderness and the lower one whose solution is its first guess."""
 _TOLERANCE = 1e-8
+"""Relative tolerance of the solver's residuals."""
 
 
 def droop_ratio(slenderness: float) -> float:
     """H/W of the tip; G/8 for small G, sqrt(G/2) for large.
 
     Args:
-        slenderness: G, without unit, 0.01 to 1e4.
+        slenderness: slenderness G, without unit, 0.01 to 1e4.
 
     Raises:
         ValueError: if the slenderness is outside its range.
@@ -39,14 +43,14 @@ def droop_ratio(slenderness: float) -> float:
 
 
 def drooping_shape(slenderness: float, arc: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The whole cable.
+    """The shape of the whole cable.
 
     Args:
-        slenderness: G, without unit, 0.01 to 1e4.
-        arc: (N,) arc lengths from the clamp over the length, 0 to 1.
+        slenderness: slenderness G, without unit, 0.01 to 1e4.
+        arc: arc lengths from the clamp as shares of the length, (N,), 0 to 1.
 
     Returns:
-        (N, 2): how far out and how far down each point lies, over the length.
+        Distances outwards and downwards of each point, as shares of the length, (N, 2).
 
     Raises:
         ValueError: if the slenderness is outside its range.
@@ -59,7 +63,7 @@ def drooping_shape(slenderness: float, arc: NDArray[np.float64]) -> NDArray[np.f
 
 @cache
 def _solve(slenderness: float) -> Any:
-    """The boundary value problem in theta, theta', x and z, by continuation from less slender cables."""
+    """Solve the boundary value problem in theta, theta', x and z, by continuation from less slender cables."""
 
     def rates(s: NDArray[np.float64], state: NDArray[np.float64]) -> NDArray[np.float64]:
         theta, bend = state[0], state[1]

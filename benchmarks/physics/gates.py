@@ -1,4 +1,4 @@
-"""Gates 5 to 10, which hold for a simulator: how each is measured on scenes laid out for the purpose."""
+"""Gates 5 to 10, which a simulator must meet: the measurements on scenes laid out for the purpose."""
 
 from dataclasses import dataclass, fields
 from enum import Enum
@@ -18,14 +18,19 @@ STRESS_RUNS = 500
 
 @dataclass(frozen=True, slots=True)
 class CantileverError:
-    """Gate 5: |H/W over the reference - 1|, and the free length's slenderness w L^3 / EI."""
+    """The measurement of gate 5.
+
+    Attributes:
+        slenderness: slenderness w L^3 / EI of the free length.
+        error: |H/W divided by the reference's - 1|.
+    """
 
     slenderness: float
     error: float
 
     @property
     def gate(self) -> Gate:
-        """Which row of the gate it is measured by."""
+        """The gate that bounds this slenderness."""
         return Gate.CANTILEVER if self.slenderness <= 100 else Gate.SLENDER_CANTILEVER
 
 
@@ -43,7 +48,7 @@ def cantilever_error(
         weight_per_length_n_m: the cable's rho g A.
 
     Raises:
-        ValueError: if the first edge is not level within 1e-3, or the slenderness has no reference.
+        ValueError: if the first edge isn't level within 1e-3, or the slenderness has no reference.
     """
     edges = np.diff(nodes_m, axis=0)
     if abs(edges[0, 2]) > 1e-3 * np.linalg.norm(edges[0]):
@@ -57,12 +62,12 @@ def cantilever_error(
 
 @dataclass(frozen=True, slots=True)
 class CrossingError:
-    """Gate 6.
+    """The measurement of gate 6.
 
     Attributes:
-        lift_off_error: |fitted half length in the air over the reference's - 1|.
-        reaction_error: |force of the ridge over the reference's - 1|.
-        misfit: root mean square distance from the fitted shape, over the lift; large where the fit means nothing.
+        lift_off_error: |fitted half length in the air divided by the reference's - 1|.
+        reaction_error: |force of the ridge divided by the reference's - 1|.
+        misfit: root mean square distance from the fitted shape, as a share of the lift; large if the fit means nothing.
     """
 
     lift_off_error: float
@@ -75,7 +80,8 @@ def crossing_error(
 ) -> CrossingError:
     """Gate 6: a settled cable that lies across a rigid ridge against the beam on a floor.
 
-    The height is fitted like the lift-off length, not imposed: a cable pressed into the ridge is gate 2's affair.
+    The height is fitted like the lift-off length, not imposed: gate 2 measures how far a cable is pressed into the
+    ridge.
 
     Args:
         nodes_m: (N, 3), from end to end over one ridge; both ends lie on the floor, at height zero.
@@ -88,7 +94,7 @@ def crossing_error(
     """
     along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(nodes_m[:, :2], axis=0), axis=1))])
     fit = fit_lifted(along, nodes_m[:, 2] - radius_m)
-    # Between the ridge and half way to the touchdowns nothing else pushes.
+    # Between the ridge and half way to the touchdowns nothing but the ridge pushes.
     reaction = float(reactions_n[np.abs(along - fit.place_m) < fit.lift_off_m / 2].sum())
     return CrossingError(
         lift_off_error=abs(fit.lift_off_m / reference.lift_off_m - 1),
@@ -98,10 +104,11 @@ def crossing_error(
 
 
 def energy_rise(energies_j: NDArray[np.float64]) -> float:
-    """Gate 7: greatest rise in one step over the start's energy; 0 if it never rises.
+    """Gate 7: the largest rise of the energy in one step, as a share of the start's; 0 if it never rises.
 
     Args:
-        energies_j: (steps + 1,), kinetic, bending, stretching and height's energy together, the floor at zero.
+        energies_j: sum of kinetic, bending, stretching and potential energy after each step, (steps + 1,), with the
+            floor at height zero.
 
     Raises:
         ValueError: if the start has no energy.
@@ -112,10 +119,13 @@ def energy_rise(energies_j: NDArray[np.float64]) -> float:
 
 
 def observed_orders(errors: tuple[float, float, float]) -> tuple[float, float]:
-    """Gate 8: the order in the time step from errors at h, h/2 and h/4: from the first two, and from the last two.
+    """Gate 8: the order of convergence in the time step, from the first two and from the last two errors.
+
+    Args:
+        errors: errors at time steps h, h/2 and h/4.
 
     Raises:
-        ValueError: if an error is not positive.
+        ValueError: if an error isn't positive.
     """
     if not min(errors) > 0:
         raise ValueError("an order needs errors above zero")
@@ -124,10 +134,10 @@ def observed_orders(errors: tuple[float, float, float]) -> tuple[float, float]:
 
 
 def largest_movement(one: CableShapes, other: CableShapes) -> float:
-    """Gate 8: greatest distance between a node and itself in another run, over its cable's radius.
+    """Gate 8: the largest distance between a node's places in two runs, in radii of its cable.
 
     Raises:
-        ValueError: if the runs have not the same numbers of cables and nodes.
+        ValueError: if the runs differ in the number of cables or nodes.
     """
     return max(
         float(np.linalg.norm(here - there, axis=1).max() / radius)
@@ -136,7 +146,7 @@ def largest_movement(one: CableShapes, other: CableShapes) -> float:
 
 
 def same_bits(one: CableShapes, other: CableShapes) -> bool:
-    """Gate 9: whether two runs agree to the last bit; 0 and -0 do not, NaN with the same bits does."""
+    """Gate 9: whether two runs agree to the last bit; 0 and -0 differ, and NaN equals NaN with the same bits."""
     return all(_bits(getattr(one, field.name)) == _bits(getattr(other, field.name)) for field in fields(CableShapes))
 
 
@@ -148,7 +158,7 @@ def _bits(value: object) -> object:
 
 
 class StressFault(Enum):
-    """How a run of the stress grid fails."""
+    """The reasons for which a run of the stress grid fails."""
 
     NOT_FINITE = "not finite"
     ESCAPED = "escaped"
@@ -158,7 +168,7 @@ class StressFault(Enum):
 
 
 def stress_fault(shapes: CableShapes, *, reach_m: float, passes: int | None = None) -> StressFault | None:
-    """Gate 10: why a run failed, the first reason in the order of `StressFault`; None if it did not.
+    """Gate 10: the reason why a run failed, the first in the order of `StressFault`; None if it didn't fail.
 
     Args:
         shapes: cables at the run's end, finite or not.

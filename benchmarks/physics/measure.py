@@ -1,4 +1,4 @@
-"""Playing scenes at a setting, and timing the fall alone."""
+"""Play scenes at a setting, and time the fall alone."""
 
 import time
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from worker.simulate.simulate import simulate
 
 
 def play(setting: Setting, scenes: Sequence[Scene]) -> tuple[Played, ...]:
-    """Let the scenes fall one after the other."""
+    """Let the cables of the scenes fall, one scene after the other."""
     return tuple(_play(setting, scene) for scene in scenes)
 
 

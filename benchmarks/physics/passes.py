@@ -1,10 +1,10 @@
-"""Where cables went through each other, or through the floor, between two moments that lie close together.
+"""Find where cables went through each other, or through the floor, between two moments that lie close together.
 
-Every node is taken to move straight from where it was to where it is. Two segments meet on that way when their four
+Every node is assumed to move along a straight line between the two moments. Two segments meet on the way if their four
 ends come to lie in one plane, which is a cubic equation in time, and the lines through them cross within both (Provot
 1997, "Collision and self-collision handling in cloth model dedicated to design garments"). A centreline that meets
-another has gone through it. Nothing is asked of the start, so cables may stand upright, or start within each other; and
-a tip that slips round another's end meets nothing.
+another has gone through it. The method assumes nothing about the start, so cables may stand upright or start within
+each other. A tip that slips round another's end meets nothing.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from worker.simulate.checks.spans import Indices
 from worker.simulate.rod.compiled import compiled
 
 UNDECIDED_RADII = 1e-6
-"""Centrelines nearer than this are on no side of each other: what parts them is rounding, or nothing."""
+"""Distance in radii below which neither centreline is on a side of the other: only rounding separates them."""
 
 UNDONE_RADII = 40.0
 """Distance along both cables below which two passages the opposite ways are one that was undone."""
@@ -48,7 +48,7 @@ class Passage:
     near_end: bool
 
     def undoes(self, other: "Passage") -> bool:
-        """Whether this one leads back from where the other one led."""
+        """Whether this passage undoes the other: the opposite direction, at nearly the same place."""
         places = zip(self.along_radii, other.along_radii, strict=True)
         return (
             self.cables == other.cables
@@ -62,9 +62,9 @@ def passes_between(
 ) -> list[Passage]:
     """All passages between two moments, in the order of the cables.
 
-    A cable that meets itself in a loop shorter than `END_RADII` is passed over: a curve that comes back to its start
-    is at least 2 pi times its least radius of curvature long, so that such a loop bends to under 1.6 of the cable's own
-    radii, where a round section has long been crushed.
+    A cable that meets itself in a loop shorter than `END_RADII` is ignored. A curve that returns to its start is at
+    least 2 pi times its least radius of curvature long, so such a loop bends to less than 1.6 of the cable's own radii,
+    at which a round section has long been crushed.
 
     Args:
         before_m: each cable's nodes (N, 3) at the first moment.
@@ -98,7 +98,7 @@ def passes_between(
         if distance > UNDECIDED_RADII * radius and not is_kink:
             passages.append(Passage(cables, along, int(side), bool(from_end <= END_RADII)))
     passages.sort(key=lambda each: (each.cables, each.along_radii))
-    # One exactly at a node is found by both segments that share it.
+    # Both segments that share a node find a passage exactly at it.
     return [each for n, each in enumerate(passages) if not any(_is_same(each, one) for one in passages[:n])]
 
 
@@ -108,21 +108,26 @@ def _is_same(one: Passage, other: Passage) -> bool:
 
 
 def sunk_between(before_m: tuple[Points, ...], after_m: tuple[Points, ...]) -> int:
-    """How many nodes were above the floor's surface before and are below it now."""
+    """Number of nodes that were above the floor's surface before and are below it now."""
     before, after = (np.concatenate(each)[:, 2] for each in (before_m, after_m))
     return int(np.count_nonzero((before > 0) & (after < 0)))
 
 
 class PassWatch:
-    """Follows a fall from moment to moment and keeps account of what went through.
+    """Follows a fall from moment to moment and counts the passages of cables through each other and the floor.
 
     Attributes:
-        undone: passages that were led back later; the cables lie as they should.
-        sunk_nodes: how often a node went below the floor's surface, whether or not it came up again.
+        undone: number of passages that a later one undid, so that the cables lie as they should.
+        sunk_nodes: number of times that a node went below the floor's surface, whether or not it came up again.
     """
 
     def __init__(self, nodes_m: tuple[Points, ...], radii_m: NDArray[np.float64]) -> None:
-        """Begin with cables where they start."""
+        """Begin to watch.
+
+        Args:
+            nodes_m: nodes of each cable at the start, (N, 3) each.
+            radii_m: radius of each cable, (cables,).
+        """
         self.undone = 0
         self.sunk_nodes = 0
         self._before = nodes_m
@@ -131,20 +136,20 @@ class PassWatch:
 
     @property
     def passes(self) -> int:
-        """Passages away from all ends that stand."""
+        """Number of passages away from all ends that weren't undone."""
         return sum(not each.near_end for each in self._standing)
 
     @property
     def end_slips(self) -> int:
-        """Passages close to an end that stand."""
+        """Number of passages close to an end that weren't undone."""
         return sum(each.near_end for each in self._standing)
 
     def forget(self) -> None:
-        """Let the cables lie as they lie: passages so far stand no more."""
+        """Take the cables' present order as the right one: earlier passages no longer count."""
         self._standing.clear()
 
     def see(self, nodes_m: tuple[Points, ...]) -> None:
-        """Take in the next moment; between two of them nodes should move by no more than about a radius."""
+        """Count the passages since the last moment; between two moments nodes should move by a radius at most."""
         for passage in passes_between(self._before, nodes_m, self._radii):
             earlier = next((each for each in self._standing if passage.undoes(each)), None)
             if earlier is None:
@@ -158,7 +163,7 @@ class PassWatch:
 
 @compiled
 def _swept_boxes(before: Points, after: Points) -> tuple[Points, Points]:
-    """Least and greatest coordinates of each node and the next, at both moments."""
+    """Least and greatest coordinates of each segment, from a node to the next, over both moments."""
     low, high = np.empty(before.shape), np.empty(before.shape)
     for i in range(len(before) - 1):
         for c in range(3):
@@ -169,9 +174,10 @@ def _swept_boxes(before: Points, after: Points) -> tuple[Points, Points]:
 
 @compiled
 def _meetings(before: Points, after: Points, cable: Indices, found: NDArray[np.float64]) -> int:
-    """All meetings of segments: both segments, the fractions along them, the side; as many as `found` has room for.
+    """Find all meetings of segments and return their number.
 
-    Swept boxes are sorted along the axis on which the cables spread farthest.
+    `found` receives a row for each, as many as it has: both segments, the fractions along them, and the side. The swept
+    boxes are sorted along the axis on which the cables spread farthest.
     """
     nodes = len(cable)
     low, high = _swept_boxes(before, after)
@@ -196,7 +202,7 @@ def _meetings(before: Points, after: Points, cable: Indices, found: NDArray[np.f
             if low[there, third] > high[here, third] or low[here, third] > high[there, third]:
                 continue
             i, j = min(here, there), max(here, there)
-            # Neighbours share a node, at which they always meet.
+            # Neighbouring segments share a node, at which they always meet.
             if cable[there] != cable[there + 1] or (j - i < 2 and cable[i] == cable[j]):
                 continue
             for n in range(_meet(before, after, i, j, meeting)):
@@ -209,7 +215,7 @@ def _meetings(before: Points, after: Points, cable: Indices, found: NDArray[np.f
 
 @compiled
 def _volume(before: Points, after: Points, i: int, j: int, time: float, edges: Points) -> float:
-    """Triple product of the two segments and what lies between their first ends; `edges` receives these three."""
+    """Triple product of the two segments and the vector between their first ends; `edges` receives these three."""
     for c in range(3):
         p = before[i, c] + time * (after[i, c] - before[i, c])
         q = before[j, c] + time * (after[j, c] - before[j, c])
@@ -224,13 +230,13 @@ def _volume(before: Points, after: Points, i: int, j: int, time: float, edges: P
 
 @compiled
 def _meet(before: Points, after: Points, i: int, j: int, meeting: Points) -> int:
-    """When two segments meet; `meeting` receives the fractions along them and the side, of up to three times."""
+    """Number of times that two segments meet; `meeting` receives the fractions along them and the side of each time."""
     edges = np.empty((3, 3))
     f0 = _volume(before, after, i, j, 0.0, edges)
     f1 = _volume(before, after, i, j, 1 / 3, edges)
     f2 = _volume(before, after, i, j, 2 / 3, edges)
     f3 = _volume(before, after, i, j, 1.0, edges)
-    # Coefficients in Bernstein's form: where they all have one sign the cubic has no zero.
+    # Coefficients in Bernstein's form: if they all have one sign, the cubic has no zero.
     b1, b2 = (-5 * f0 + 18 * f1 - 9 * f2 + 2 * f3) / 6, (2 * f0 - 9 * f1 + 18 * f2 - 5 * f3) / 6
     if min(f0, f3, b1, b2) > 0 or max(f0, f3, b1, b2) < 0:
         return 0

@@ -1,4 +1,4 @@
-"""The picture: time against error of every setting, and how the rods' cost grows with their number."""
+"""The plot: time against error of every setting, and the growth of the rods' cost with their number."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -21,7 +21,7 @@ _LABELS = {Contender.ROD: (60, 36), Contender.CLOTH: (45, 42), Contender.CLOTH_P
 
 _COLOURS = dict(zip(COUNTS, mpl.colormaps["viridis"](np.linspace(0.9, 0.0, len(COUNTS))), strict=True))
 _BEYOND = 1e4
-"""Where an error is drawn that is greater than that, or infinite."""
+"""Largest error that is drawn, relative to its target; larger and infinite ones are drawn here."""
 
 
 def write_plot(path: Path, rows: Sequence[Row]) -> None:

@@ -1,13 +1,15 @@
-"""The published set-up, for comparison: eight cloth objects that collide with each other, 100 frames, no stop at rest.
+"""The published set-up, for comparison: eight cloth objects that collide with each other for 100 frames.
 
 Each cable is a long narrow plane, finely subdivided, with the modifiers Cloth, Solidify, Subdivision Surface and
-Collision. All eight fall however many are shown. Settings that the publication does not give are Blender's own.
+Collision. All eight fall, whatever number is shown, and the fall doesn't stop at rest. Settings that the publication
+doesn't give are Blender's own.
 
-The publication gives no size either. In metres a cable of 2 mm is thinner than the solver's collision distances can
-follow, and falls through the floor. Here a radius is `RADIUS_UNITS` units, one unit a centimetre for that cable, and
-gravity is 9.81 units, so that the fall is the true one slowed down (`worker.simulate.cloth.scale`). Smaller, cables
-sink deeper into each other; larger, 100 frames are too short for them to land. The objects' colliders wait on each
-other in a circle, which Blender breaks as it sees fit and reports on standard output; nothing warrants that runs agree.
+The publication gives no size either. In metres, a cable of 2 mm is thinner than the solver's collision distances can
+follow, and falls through the floor. Here a radius is `RADIUS_UNITS` units, so for that cable a unit is a centimetre;
+gravity is 9.81 units, so the fall is the true one slowed down (`worker.simulate.cloth.scale`). With smaller cables,
+they sink deeper into each other; with larger ones, 100 frames are too short for them to land. Each object depends on
+the colliders of all others; Blender breaks these circles in an order of its own and reports them on standard output, so
+nothing guarantees that runs agree.
 """
 
 from dataclasses import dataclass
@@ -54,7 +56,7 @@ _GOLDEN_ANGLE_DEG = 137.5
 
 @dataclass(frozen=True, slots=True)
 class _Planes:
-    """What falls: objects, and the line that each started as, in units."""
+    """The falling objects, and the line along which each started, in units."""
 
     objects: list[Any]
     lines: list[Points]
@@ -63,8 +65,8 @@ class _Planes:
 def drop_cables(scene: Scene, fall: ClothFall) -> CableShapes:
     """Let eight cables fall for 100 frames and return those that the scene shows.
 
-    The cables beyond the scene's own repeat them, turned about the vertical and stacked above. Of `fall` only the
-    quality counts, and only if it is not the farm's default: else it is Blender's.
+    The cables beyond the scene's own repeat them, turned about the vertical and stacked above. Only the quality of
+    `fall` counts, and only if it isn't the farm's default: in that case Blender's own default counts.
 
     Raises:
         SceneError: if the solver diverges.
@@ -94,7 +96,7 @@ def drop_cables(scene: Scene, fall: ClothFall) -> CableShapes:
 
 
 def all_eight(shown: tuple[Cable, ...]) -> list[Cable]:
-    """The cables of a scene, and repetitions of them in turn up to eight, each turned and above all before it."""
+    """The cables of a scene, and repetitions of them up to eight, each turned and placed above all before it."""
     cables = list(shown)
     while len(cables) < CABLES:
         model = cables[len(cables) - len(shown)]
@@ -145,7 +147,7 @@ def add_plane(stage: Any, line: Points, width: float) -> Any:
 def _run(stage: Any, planes: _Planes, scale: FallScale) -> tuple[list[Points], list[NDArray[np.float64]]]:
     before: list[Points] = []
     lines = planes.lines
-    # A skipped frame would multiply the time step, so every one is visited in turn.
+    # A skipped frame would multiply the time step, so every frame is visited in turn.
     for frame in range(1, FRAMES + 1):
         stage.frame_set(frame)
         before = lines
@@ -160,9 +162,10 @@ def _run(stage: Any, planes: _Planes, scale: FallScale) -> tuple[list[Points], l
 
 
 def _centreline(stage: Any, plane: Any, nodes: int) -> Points:
-    """Middles of the cross-sections, of two corners and their two copies each, which come first after subdivision.
+    """The middles of the cross-sections of a plane.
 
-    Subdivision draws the two end faces in, so the end nodes are those of a segment like the one before it.
+    Each section has two corners and their two copies, and these vertices come first after subdivision. Subdivision
+    draws the two end faces in, so each end node is placed one segment beyond its neighbour instead.
     """
     corners = read_vertices(stage, plane)[: 4 * nodes]
     line: Points = corners.reshape(2, nodes, 2, 3).mean(axis=(0, 2))

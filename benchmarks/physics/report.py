@@ -1,4 +1,4 @@
-"""Tables, lines and the JSON file of the comparison."""
+"""The tables, the conclusions and the JSON file of the comparison."""
 
 import itertools
 import json
@@ -53,7 +53,7 @@ def falls_table(rows: Sequence[Row], cables: int) -> Table:
 
 
 def textbook_table(rows: Iterable[Row]) -> Table:
-    """Gates 5 and 6 of every setting."""
+    """A table of gates 5 and 6 of every setting."""
     problems = {row.setting: row for row in rows}
     first = next(iter(problems.values()))
     drops = [f"H/W at {each.slenderness:g}" for each in first.textbook.cantilevers]
@@ -131,7 +131,7 @@ def _summary(row: Row) -> str:
 
 
 def write_json(path: Path, rows: Sequence[Row], *, seed: int, cpu_s: float) -> None:
-    """Every figure of every fall, and the machine."""
+    """Write every figure of every fall, and a description of the machine."""
     content = {
         "machine": machine(),
         "seed": seed,
@@ -143,7 +143,7 @@ def write_json(path: Path, rows: Sequence[Row], *, seed: int, cpu_s: float) -> N
 
 
 def machine() -> dict[str, object]:
-    """What decides how fast it is."""
+    """A description of the machine: everything that affects speed."""
     lines = _PROCESSORS.read_text().splitlines() if _PROCESSORS.exists() else []
     names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
     return {

@@ -1,13 +1,13 @@
-"""A cable on a floor that crosses a rigid ridge: how far it lifts off, and what carries it.
+"""A cable on a floor that crosses a rigid ridge: the length that it lifts off, and the forces that carry it.
 
-Euler-Bernoulli, EI y'''' = -w, with slope and curvature zero where it touches down at x = +-a, and y = d, y' = 0 on the
-ridge at x = 0. Free of load but its weight, with t = 1 - |x|/a,
+An Euler-Bernoulli beam under its own weight follows EI y'''' = -w. Slope and curvature are zero at the touchdowns at
+x = +-a, and y = d, y' = 0 on the ridge at x = 0. With t = 1 - |x|/a the solution is
 
     y = d (4 t^3 - 3 t^4),    a = (72 EI d / w)^(1/4),
 
-so the ridge carries 4 w a / 3 and each touchdown, besides the weight of what lies there, w a / 3. It holds for d much
-smaller than a. d is by how much the centreline is lifted: the sum of both radii's doubles where a cable lies on
-another, less the height at which it lies anyway; 2 r for equal cables.
+so the ridge carries 4 w a / 3 and each touchdown w a / 3, besides the weight of the part that lies there. The solution
+holds for d much smaller than a. The lift d is that of the centreline over its height on the floor: if a cable lies
+across another one of the same radius r, d is 2 r.
 """
 
 from dataclasses import dataclass
@@ -19,12 +19,12 @@ from scipy.optimize import least_squares
 
 @dataclass(frozen=True, slots=True)
 class RidgeCrossing:
-    """The solution.
+    """The solution for a cable and a ridge.
 
     Attributes:
-        bending_stiffness_n_m2: EI.
-        weight_per_length_n_m: w.
-        lift_m: d.
+        bending_stiffness_n_m2: bending stiffness EI.
+        weight_per_length_n_m: weight per length w.
+        lift_m: lift d of the centreline over the ridge.
     """
 
     bending_stiffness_n_m2: float
@@ -38,7 +38,7 @@ class RidgeCrossing:
 
     @property
     def lift_off_m(self) -> float:
-        """Half the length that is in the air, a."""
+        """Half the length a that is in the air."""
         return float((72 * self.bending_stiffness_n_m2 * self.lift_m / self.weight_per_length_n_m) ** 0.25)
 
     @property
@@ -48,16 +48,16 @@ class RidgeCrossing:
 
     @property
     def touchdown_reaction_n(self) -> float:
-        """Force of the floor at each of the two touchdowns, besides the weight of what lies there."""
+        """Force of the floor at each of the two touchdowns, besides the weight of the part that lies there."""
         return self.weight_per_length_n_m * self.lift_off_m / 3
 
     def height_m(self, distance_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Lift of the centreline at distances (N,) from the ridge of either sign."""
+        """Lift of the centreline at distances (N,) of either sign from the ridge."""
         return self.lift_m * lifted(distance_m / self.lift_off_m)
 
 
 def lifted(distance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Lift over the ridge's at distances (N,) from it in units of the lift-off length."""
+    """Lift as a share of that on the ridge, at distances (N,) from it in units of the lift-off length."""
     inward = np.maximum(1 - np.abs(distance), 0)
     result: NDArray[np.float64] = inward**3 * (4 - 3 * inward)
     return result
@@ -69,9 +69,9 @@ class LiftedFit:
 
     Attributes:
         lift_off_m: half the length in the air.
-        place_m: where the ridge is.
-        lift_m: height over the ridge.
-        misfit: root mean square distance of the nodes in the air from it, over the lift.
+        place_m: position of the ridge along the cable.
+        lift_m: lift on the ridge.
+        misfit: root mean square distance of the nodes in the air from the shape, as a share of the lift.
     """
 
     lift_off_m: float
@@ -81,15 +81,15 @@ class LiftedFit:
 
 
 def fit_lifted(along_m: NDArray[np.float64], lift_m: NDArray[np.float64]) -> LiftedFit:
-    """Where a cable lifts off, from nodes that may be far apart.
+    """Find where a cable lifts off, from nodes that may be far apart.
 
-    That place can't be read from the nodes: the lift grows with the third power of the distance, so a tenth of the
-    length further in it is 0.4 % of the ridge's, less than what contact may err. But the shape is known up to its
-    length, place and height, and these three are fitted to all nodes, so the high ones, which are sure, decide.
+    That place can't be read from the nodes: the lift grows with the third power of the distance from it, so a tenth of
+    the length further in it is 0.4 % of the ridge's, less than the error of a contact. But the shape is known up to its
+    length, place and height. These three are fitted to all nodes, so the high nodes decide, whose lift is certain.
 
     Args:
-        along_m: (N,), where each node is, rising.
-        lift_m: (N,), height of each over where it would lie on the floor.
+        along_m: position of each node along the cable, rising, (N,).
+        lift_m: height of each node over the one that it has when it lies on the floor, (N,).
 
     Raises:
         ValueError: if fewer than four nodes are in the air.

@@ -1,4 +1,4 @@
-"""What was measured at one setting on one number of cables, and how settings compare."""
+"""The measurements at one setting on one number of cables, and comparisons of settings."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -21,10 +21,10 @@ SCENE_GATES = (
     Gate.SPEED_RMS,
     Gate.SPEED_MAX,
 )
-"""Gates 1 to 4."""
+"""Gates 1 to 4, which are measured on each scene."""
 
 ERROR_GATES = (Gate.LENGTH, Gate.CABLE_PENETRATION, Gate.FLOOR_PENETRATION)
-"""What of a scene makes its error; the others are counts, or say whether a fall was over."""
+"""Gates that make up a scene's error; the others are counts, or say whether a fall had ended."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,13 +47,13 @@ class Played:
 
     @property
     def gates(self) -> Mapping[Gate, float]:
-        """The figure of each of gates 1 to 4; infinite where nothing could be measured."""
+        """The figure of each of gates 1 to 4; infinite if nothing could be measured."""
         return settled_figures(self.figures) if self.figures else dict.fromkeys(SCENE_GATES, np.inf)
 
 
 @dataclass(frozen=True, slots=True)
 class Textbook:
-    """Gates 5 and 6 at one setting; they do not depend on a scene.
+    """Gates 5 and 6 at one setting; they don't depend on a scene.
 
     Attributes:
         cantilevers: error of each cantilever, infinite where it diverged or did not come to rest.
@@ -74,7 +74,7 @@ class Textbook:
 
     @property
     def error(self) -> float:
-        """The worst cantilever over its target."""
+        """Error of the worst cantilever, relative to its target."""
         return max((over_target(each.gate, each.error) for each in self.cantilevers), default=0.0)
 
 
@@ -104,7 +104,7 @@ class Row:
 
     @property
     def cost(self) -> float:
-        """Seconds of computing for a simulated second; 0 where nothing fell."""
+        """CPU seconds for a simulated second; 0 if nothing fell."""
         fallen = sum(fall.fall_s for fall in self.falls)
         return sum(fall.cpu_s for fall in self.falls) / fallen if fallen else 0.0
 
@@ -115,18 +115,18 @@ class Row:
 
     @property
     def error(self) -> float:
-        """The worst figure of gates 1, 2 and 5 over the target that the rods have."""
+        """The worst figure of gates 1, 2 and 5, relative to the rods' target."""
         worst = self.worst
         return max(self.textbook.error, *(over_target(gate, worst[gate]) for gate in ERROR_GATES))
 
     @property
     def off_target(self) -> int:
-        """Scenes that miss a target of gates 1 to 4, the rods' targets for all."""
+        """Number of scenes that miss one of the rods' targets in gates 1 to 4, whatever the simulator."""
         return sum(any(not gate.on_target(x) for gate, x in fall.gates.items()) for fall in self.falls)
 
     @property
     def broken(self) -> int:
-        """Scenes with a figure that gates 1 to 4 never allow."""
+        """Number of scenes with a figure that gates 1 to 4 never allow."""
         return sum(any(gate.is_broken_by(x) for gate, x in fall.gates.items()) for fall in self.falls)
 
     def meets(self, contender: Contender) -> bool:
@@ -137,14 +137,14 @@ class Row:
 
     @property
     def breaches(self) -> list[str]:
-        """What of gates 1 to 6 is never allowed, in words."""
+        """The figures of gates 1 to 6 that are never allowed, in words."""
         figures = [*self.textbook.gates, *((gate, x) for fall in self.falls for gate, x in fall.gates.items())]
         found = [f"{gate.value.name} {x:.3g} {gate.value.unit}".strip() for gate, x in figures if gate.is_broken_by(x)]
         return [fall.fault for fall in self.falls if fall.fault] + found
 
 
 def over_target(gate: Gate, figure: float) -> float:
-    """A figure over the target that the rods have; infinite for what is no number."""
+    """A figure relative to the rods' target; infinite if the figure isn't a finite number."""
     return abs(figure) / gate.value.target if np.isfinite(figure) else np.inf
 
 
@@ -154,18 +154,18 @@ def best(rows: Iterable[Row], targets: Contender) -> Row | None:
 
 
 def closest(rows: Iterable[Row]) -> Row:
-    """The row of the least error; of equals the fastest."""
+    """The row with the least error; among equal ones the fastest."""
     return min(rows, key=lambda row: (row.error, row.cpu_s))
 
 
 def time_ratio(slow: Row, fast: Row) -> float:
-    """How many times longer one takes than the other on the scenes that both played, the first ones of each."""
+    """CPU time of one row relative to another's, on the first scenes of each, which both played."""
     both = min(len(slow.falls), len(fast.falls))
     return sum(fall.cpu_s for fall in slow.falls[:both]) / sum(fall.cpu_s for fall in fast.falls[:both])
 
 
 def growth(few: Row, many: Row) -> float:
-    """The power of the number of cables with which the cost of a simulated second grows."""
+    """The exponent with which the cost of a simulated second grows with the number of cables."""
     return float(np.log(many.cost / few.cost) / np.log(many.cables / few.cables))
 
 
@@ -175,10 +175,10 @@ def is_rod_default(row: Row) -> bool:
 
 
 def verify_default(rows: Iterable[Row]) -> None:
-    """Look at what the rods do at their default; other settings are there to show what they cost.
+    """Check the rods at their default; the other settings are measured only to show what they cost.
 
     Raises:
-        VerificationError: if a figure is one that a gate never allows, or there is none.
+        VerificationError: if a gate never allows one of the figures, or a fall has none.
     """
     for row in rows:
         if is_rod_default(row) and row.breaches:

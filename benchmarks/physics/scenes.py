@@ -1,4 +1,4 @@
-"""The scenes that all simulators play: drawn like those of a dataset, cut or extended to a number of cables."""
+"""The scenes that all simulators play: drawn like a dataset's, then cut or extended to a number of cables."""
 
 from importlib.metadata import version
 
@@ -22,7 +22,7 @@ MOST_CABLES = {"cable": {"count": [DRAWN_CABLES, DRAWN_CABLES]}}
 """The ranges of a spec whose scenes all have `DRAWN_CABLES` cables."""
 
 SPACING_M = 0.004
-"""Height of each further cable above the one before, as in drawn scenes."""
+"""Height of each further cable above the one before, metres, as in drawn scenes."""
 
 _JOBS_APART = 100_000
 """Step from the index of a scene's own job to those of the jobs from which its further cables come."""
@@ -31,7 +31,7 @@ _JOBS_APART = 100_000
 def bench_scenes(count: int, cables: int, seed: int) -> tuple[Scene, ...]:
     """Scenes of a number of cables, the categories taking turns.
 
-    A scene of fewer cables is the start of the same scene with more.
+    A scene with fewer cables has the first cables of the same scene with more.
 
     Args:
         count: number of scenes.
@@ -67,7 +67,7 @@ def crowd(header: DatasetHeader, category: Category, index: int, cables: int) ->
 
 
 def _header(seed: int) -> DatasetHeader:
-    """One that names a surface and an HDRI which need not be there, since nothing is rendered."""
+    """A header whose surface and HDRI needn't exist, since nothing is rendered."""
     nothing = "0" * 64
     description = {**PUBLISHED, "images": DRAWN_CABLES, "seed": seed}
     return DatasetHeader(

@@ -15,8 +15,8 @@ CROWDS = (16, 32)
 """More cables than a picture shows, for the rod solver's default alone, to tell how its cost grows."""
 
 PUBLISHED_COUNTS = (4, 8)
-"""The published set-up drops eight cables whatever it shows; below four they are near copies of each other, which
-tangle, and one fall takes up to 100 s."""
+"""Numbers of cables for the published set-up. It always drops eight; if fewer than four are shown, the rest are near
+copies of each other, which tangle, and one fall takes up to 100 s."""
 
 DEFAULT_SCENES = 6
 """Scenes that every setting plays, unless told otherwise."""
@@ -44,7 +44,7 @@ class Setting:
 
 
 def rod_settings() -> tuple[Setting, ...]:
-    """One thing varied at a time about the default, and the cheapest of both together."""
+    """The rod solver's settings: one thing varied at a time about the default, and the cheapest of both together."""
     default = RodFall()
     steps, radii = default.steps_per_s, default.segment_radii
     pairs = [(250, radii), (500, radii), (steps, radii), (2000, radii), (4000, radii)]
@@ -53,7 +53,7 @@ def rod_settings() -> tuple[Setting, ...]:
 
 
 def cloth_settings() -> tuple[Setting, ...]:
-    """Qualities of the joined cloth, then the published set-up at Blender's."""
+    """The cloth's settings: qualities of the joined set-up, then the published set-up at Blender's own quality."""
     pairs = [(5, 4), (5, 8), (10, 4), (10, 8), (20, 4), (20, 8), (40, 8)]
     published = Setting(
         contender=Contender.CLOTH_PUBLISHED,

@@ -1,7 +1,8 @@
-"""Gates 5 and 6 at a setting: the cantilever and the crossing, of one cable, in segments as long as in a scene.
+"""Measure gates 5 and 6 at a setting: a cantilever and a crossing of one cable, in segments as long as in a scene.
 
-The cable is 2 mm thick, of 10 MPa and 1500 kg/m3, amid what is drawn; its free length makes the slenderness. So a
-slenderness of 1 is 55 mm, a dozen segments, and 1000 is half a metre.
+The cable is 2 mm thick, with a modulus of 10 MPa and a density of 1500 kg/m3, in the middle of the ranges that scenes
+are drawn from. Its free length sets the slenderness: a slenderness of 1 is 55 mm, a dozen segments, and 1000 is half a
+metre.
 """
 
 import numpy as np
@@ -21,6 +22,7 @@ from worker.simulate.rod.model import Rod, Surroundings
 from worker.simulate.rod.simulation import DivergedError, RodSimulation
 
 SLENDERNESS = (1.0, 10.0, 100.0, 1000.0)
+"""Slenderness of the cantilevers, without unit: from stiff to nearly limp."""
 
 _RADIUS_M = 0.001
 _MODULUS_PA = 1e7
@@ -37,7 +39,9 @@ _REST_RMS_M_S, _REST_FASTEST_M_S, _REST_S, _REST_BY_S = 5e-6, 2e-5, 0.05, 60.0
 the most slender one trembles at 2e-6 m/s for ever."""
 
 _CROSSING_DAMPING_S = 0.05
+"""Internal damping of the cable over the ridge, seconds, with which it comes to rest soon."""
 _CROSSING_S = 3.0
+"""Simulated time of the crossing, seconds, in which the cable comes to rest."""
 _AVERAGED_S = 0.2
 """Seconds over which reactions are averaged: they tremble from step to step, and what they carry is their mean."""
 _HALF_LENGTHS = 2.2
@@ -74,9 +78,10 @@ def _free_length_m(slenderness: float) -> float:
 
 
 def _rod_cantilever(slenderness: float, fall: RodFall) -> CantileverError:
-    """Clamped by its first two nodes, hence free from the middle of the first segment on.
+    """Measure gate 5 on a rod that is clamped at its first two nodes.
 
-    The modulus makes up for a number of segments that is rounded.
+    It is free from the middle of the first segment on. The number of segments is rounded, and the modulus is adjusted
+    to make up for it.
     """
     segment = fall.segment_radii * _RADIUS_M
     segments = max(round(_free_length_m(slenderness) / segment + 0.5), _LEAST_SEGMENTS)
@@ -105,12 +110,15 @@ def _rod_cantilever(slenderness: float, fall: RodFall) -> CantileverError:
         bending_stiffness_n_m2=rod.bending_stiffness_n_m2,
         weight_per_length_n_m=rod.mass_per_length_kg_m * GRAVITY_M_S2,
     )
-    # The slenderness as measured differs in its last digits, which may be those that choose the gate.
+    # The measured slenderness differs in its last digits, and those could choose the wrong gate.
     return CantileverError(slenderness, found.error)
 
 
 def _rod_crossing(fall: RodFall) -> CrossingError:
-    """A cable just above a ridge that stands between two of its nodes; nothing rubs, as the reference knows no pull."""
+    """Measure gate 6 on a cable released just above a ridge that stands between two of its nodes.
+
+    There is no friction, since the reference has no tension.
+    """
     segment = fall.segment_radii * _RADIUS_M
     half = _HALF_LENGTHS * _REFERENCE.lift_off_m
     nodes = np.zeros((round(2 * half / segment) + 1, 3))
@@ -134,7 +142,10 @@ def _rod_crossing(fall: RodFall) -> CrossingError:
 
 
 def _of_cloth(fall: ClothFall, *, is_published: bool) -> tuple[CantileverError, ...]:
-    """The published falls do not follow a cable's modulus at all; here its planes are given the stiffness asked for."""
+    """Measure gate 5 on a cloth.
+
+    The published falls ignore a cable's modulus; here their planes get the stiffness that the slenderness asks for.
+    """
     joined = material.SEGMENT_UNITS / scale.RADIUS_UNITS
     segment = (published.SEGMENT_UNITS / published.RADIUS_UNITS if is_published else joined) * _RADIUS_M
     errors = []
@@ -149,7 +160,7 @@ def _of_cloth(fall: ClothFall, *, is_published: bool) -> tuple[CantileverError, 
 
 
 def _cloth_lift_off(fall: ClothFall) -> float:
-    """Against the stiffness that was asked for, not the one that the cloth can have."""
+    """Error of a cloth's lift-off length, relative to the stiffness asked for and not to the one that it can have."""
     segment = material.SEGMENT_UNITS / scale.RADIUS_UNITS * _RADIUS_M
     segments = round(2 * _HALF_LENGTHS * _REFERENCE.lift_off_m / segment)
     try:

@@ -1,1 +1,1 @@
-"""What the pictures of a style look like, in figures, beside published examples and photographs."""
+"""Measure the look of a style's pictures, and compare it with published examples and photographs."""

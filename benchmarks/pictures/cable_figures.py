@@ -1,4 +1,4 @@
-"""How wide cables look and how often they cross, from the instance map alone, so that any dataset can be measured."""
+"""The width of cables and their crossings, from the instance map alone, so that any dataset can be measured."""
 
 from itertools import combinations
 
@@ -8,29 +8,31 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 _FINER = 2
-"""Instances are measured at twice their resolution: a bar of any whole width then has a middle between two pixels."""
+"""Factor by which instances are enlarged before measuring: any whole width then has its middle between two pixels."""
 
 _SMOOTHING_PX = 1.0
-"""Of the finer outline: the steps of a slanting one would make a cable narrower by half a pixel and more."""
+"""Standard deviation, pixels, with which the enlarged outline is smoothed: the steps of a slanting outline would make a
+cable narrower by half a pixel or more."""
 
 _LEAST_PIECE = 0.25
-"""Of a cable's squared width: smaller pieces are crumbs of a cable that lies almost hidden beneath another."""
+"""Least area of a visible piece, as a share of the cable's squared width: smaller ones are crumbs of a cable that is
+almost hidden beneath another."""
 
 _COVERED = 0.9
-"""Of the way from one piece of a cable to the next: what must be other cables."""
+"""Share of the line from one piece of a cable to the next that must run over other cables to count as a crossing."""
 
 
 def median_width_px(instances: NDArray[np.uint16]) -> float:
     """Median width of the cables, over all places of their visible centrelines.
 
     The width at a place is twice the distance from the centreline (Zhang and Suen's thinning) to the nearest pixel
-    outside the cable; the picture's edge is no end of a cable.
+    outside the cable. A cable continues beyond the picture's edge.
 
     Args:
-        instances: (H, W), 0 where no cable is seen, else its number.
+        instances: number of the cable at each pixel, 0 without one, (H, W).
 
     Returns:
-        Pixels; NaN where there is no cable.
+        Pixels; NaN if the picture shows no cable.
     """
     widths = [_widths_px(instances == number) for number in numbers_of(instances)]
     found = np.concatenate(widths) if widths else np.empty(0)
@@ -38,21 +40,20 @@ def median_width_px(instances: NDArray[np.uint16]) -> float:
 
 
 def crossings(instances: NDArray[np.uint16]) -> int:
-    """How many times a cable is seen to lie across another.
+    """Number of times that a cable visibly lies across another.
 
-    One that lies across interrupts what is below it. So each cable's visible pieces are joined, the nearest first and
-    without rings, by straight lines; a line that runs over other cables tells of one crossing with each of them.
-    Crossings of a cable with itself can't be told from the instances, nor those at which one of the two sides is out
-    of the picture.
+    A cable on top interrupts the one below. So the visible pieces of each cable are joined by straight lines, the
+    nearest first and without rings; a line that runs over other cables counts as one crossing with each of them. The
+    instances don't show crossings of a cable with itself, nor those with one of the two sides out of the picture.
 
     Args:
-        instances: (H, W), 0 where no cable is seen, else its number.
+        instances: number of the cable at each pixel, 0 without one, (H, W).
     """
     return sum(_interruptions(instances, number) for number in numbers_of(instances))
 
 
 def numbers_of(instances: NDArray[np.uint16]) -> list[int]:
-    """The cables that are seen."""
+    """The numbers of the visible cables."""
     return [int(number) for number in np.unique(instances) if number]
 
 
@@ -69,7 +70,7 @@ def _widths_px(cable: NDArray[np.bool_]) -> NDArray[np.float64]:
 
 
 def _cut(cable: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """The part with the cable in it, one pixel wider where the picture goes on."""
+    """Crop a mask to the cable, with a margin of a pixel except at the picture's edge."""
     x, y, width, height = cv2.boundingRect(cable)
     return np.ascontiguousarray(cable[max(y - 1, 0) : y + height + 1, max(x - 1, 0) : x + width + 1])
 
@@ -95,7 +96,7 @@ def _interruptions(instances: NDArray[np.uint16], number: int) -> int:
 
 
 def _pieces(cable: NDArray[np.bool_]) -> list[NDArray[np.int64]]:
-    """Border pixels (n, 2) as row and column of each visible piece, without crumbs."""
+    """Border pixels, row and column, (n, 2), of each visible piece but crumbs; none if there is only one piece."""
     count, labels, stats, _ = cv2.connectedComponentsWithStats(cable.astype(np.uint8), connectivity=8)
     if count <= 2:
         return []
@@ -108,7 +109,7 @@ def _pieces(cable: NDArray[np.bool_]) -> list[NDArray[np.int64]]:
 def _lying_over(
     instances: NDArray[np.uint16], number: int, start_px: NDArray[np.int64], end_px: NDArray[np.int64]
 ) -> set[int]:
-    """The other cables on the way from one piece of a cable to the next; none if the way leaves them."""
+    """The other cables on the line from one piece of a cable to the next; none if it runs beside them."""
     steps = int(np.abs(end_px - start_px).max())
     way = np.rint(np.linspace(start_px, end_px, steps + 1)).astype(np.int64)[1:-1]
     seen = instances[way[:, 0], way[:, 1]]

@@ -1,4 +1,4 @@
-"""How the colours of many pictures spread: histograms, their entropy, and how unlike each other they are."""
+"""The spread of colours over many pictures: histograms, their entropy, and their distances from each other."""
 
 from collections.abc import Sequence
 from itertools import combinations
@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 LEVELS = 8
-"""Of each channel in a histogram."""
+"""Levels of each channel in a histogram: few enough that a picture fills its boxes."""
 
 Histogram = NDArray[np.float64]
 
@@ -16,7 +16,7 @@ def colour_histogram(picture: NDArray[np.uint8]) -> Histogram:
     """Share of a picture's pixels in each of 8 x 8 x 8 boxes of RGB, (512,).
 
     Args:
-        picture: (H, W, 3), RGB.
+        picture: RGB picture, (H, W, 3).
     """
     boxes = (picture // (256 // LEVELS)).astype(np.int64)
     index = (boxes[..., 0] * LEVELS + boxes[..., 1]) * LEVELS + boxes[..., 2]
@@ -28,7 +28,7 @@ def entropy_bits(histograms: Sequence[Histogram]) -> float:
     """Shannon's entropy of the histogram of all pictures together.
 
     Returns:
-        0 where all pixels lie in one box, 9 where they fill all 512 alike; NaN without pictures.
+        0 if all pixels lie in one box, 9 if they fill all 512 boxes equally; NaN without pictures.
     """
     if not histograms:
         return float("nan")
@@ -41,7 +41,7 @@ def mean_hellinger(histograms: Sequence[Histogram]) -> float:
     """Mean Hellinger distance between two pictures' histograms, over all pairs.
 
     Returns:
-        0 where all pictures have the same colours, 1 where no two share any; NaN for fewer than two pictures.
+        0 if all pictures have the same colours, 1 if no two share any; NaN for fewer than two pictures.
     """
     if len(histograms) < 2:
         return float("nan")

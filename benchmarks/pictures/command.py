@@ -1,4 +1,4 @@
-"""`python -m benchmarks pictures`: what the pictures of each style look like, in figures and to the eye."""
+"""`python -m benchmarks pictures`: the look of each style's pictures, in figures and as contact sheets."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -19,7 +19,9 @@ from farm.errors import SpecError, VerificationError
 from farm.spec.category import Category
 
 _SHEET_COLUMNS = 6
+"""Pictures in a row of a contact sheet."""
 _SHEET_EDGE_PX = 256
+"""Edge of a picture on a contact sheet, pixels."""
 
 
 def run(
@@ -28,17 +30,17 @@ def run(
     """Measure, print the tables, write `pictures.json`, `pictures.png` and a `sheet-NAME.jpg` each into `out`.
 
     Args:
-        out: a folder that is there; datasets are made, and kept, in `pictures` below it.
-        seed: of the datasets that are made.
-        images: of each dataset that is made.
-        scenes: of each category of the published style that are labelled without a render.
-        styles: make pictures of these.
-        datasets: measure these too.
+        out: an existing folder; datasets are made, and kept, in `pictures` below it.
+        seed: seed of the datasets that are made.
+        images: number of images of each dataset that is made.
+        scenes: number of scenes of each category of the published style to label without a render; 0 for none.
+        styles: styles to make datasets of and measure.
+        datasets: existing datasets to measure.
 
     Raises:
-        SpecError: if there is nothing to measure, or two datasets have one name.
-        VerificationError: if a style does not keep what it promises; everything is written before.
-        FarmError: that with which `farm run` ended.
+        SpecError: if there is nothing to measure, or two datasets have the same name.
+        VerificationError: if a style breaks a promise; the results are all written before.
+        FarmError: the error with which `farm run` ended.
     """
     names = [*styles, *(named.name for named in datasets)]
     if images < 1 or not names or len(set(names)) < len(names):
@@ -74,7 +76,7 @@ def run(
 
 
 def _coverage(console: Console, dataset: Dataset, scenes: int) -> Iterator[tuple[Category, Distribution]]:
-    """Of each category that the dataset has."""
+    """The distribution of the coverage of labelled scenes, for each category of the dataset."""
     for category in dataset.header.spec.quotas:
         drawn = drawn_coverage(dataset.header, category, scenes)
         shares = track(drawn, f"labels of {category}", total=scenes, console=console, transient=True)
@@ -84,7 +86,7 @@ def _coverage(console: Console, dataset: Dataset, scenes: int) -> Iterator[tuple
 def _datasets(
     console: Console, folder: Path, images: int, seed: int, styles: Sequence[str], datasets: Sequence[NamedDataset]
 ) -> Iterator[tuple[str, Dataset]]:
-    """Those that are there first, as a wrong path must not be told after an hour."""
+    """All datasets by name, the existing ones first, so that a wrong path is reported at once and not after an hour."""
     for named in datasets:
         yield named.name, open_dataset(parse_destination(named.place))
     for style in styles:

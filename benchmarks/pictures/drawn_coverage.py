@@ -1,4 +1,4 @@
-"""How much of a picture cables cover, over more scenes than are rendered: labels need no render.
+"""The share of a picture that cables cover, over more scenes than are rendered, since labels need no render.
 
 Coverage differs by five percentage points between pictures of a category, so the mean of the thirty that a small
 dataset has of it is known to a point; the published examples range over two points.
@@ -19,7 +19,7 @@ from worker.simulate.rod.fall import drop_cables
 
 
 def drawn_coverage(header: DatasetHeader, category: Category, scenes: int) -> Iterator[float]:
-    """The share of each of a category's first scenes that shows a cable, as rods settle in it.
+    """The share of pixels that show a cable, for each of a category's first scenes, settled by the rod solver.
 
     Args:
         header: the dataset's header.

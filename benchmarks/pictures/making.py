@@ -1,4 +1,4 @@
-"""The datasets that are measured: made by `farm run` in a folder that is kept, or there already."""
+"""The datasets that are measured: existing ones, and those that `farm run` makes in a folder that is kept."""
 
 import sys
 from argparse import ArgumentTypeError
@@ -9,11 +9,12 @@ from benchmarks.farm.play import run_to_end
 from farm.dataset.dataset import Dataset, open_dataset, parse_destination
 
 STYLES = ("published", "wide")
+"""Styles that are measured unless the command line says otherwise."""
 
 
 @dataclass(frozen=True, slots=True)
 class NamedDataset:
-    """A dataset that is there already: a path or URL, and the name to show it by."""
+    """An existing dataset: its path or URL, and the name under which it is shown."""
 
     name: str
     place: str
@@ -23,7 +24,7 @@ def parse_named(text: str) -> NamedDataset:
     """Read `NAME=FOLDER`.
 
     Raises:
-        argparse.ArgumentTypeError: if it is not written so.
+        argparse.ArgumentTypeError: if the text has another form.
     """
     name, equals, place = text.partition("=")
     if not (equals and place and name.replace("-", "").replace("_", "").isalnum()):
@@ -32,17 +33,17 @@ def parse_named(text: str) -> NamedDataset:
 
 
 def make(style: str, images: int, seed: int, folder: Path) -> Dataset:
-    """Make a dataset of a style in the published mix, or complete the one that a former call began.
+    """Make a dataset of a style in the published mix, or complete the one that an earlier call began.
 
     Args:
-        style: its name, as `farm run --style` takes it.
-        images: in all.
-        seed: of the dataset.
-        folder: where datasets, and what `farm run` prints, are kept from call to call; made if it is not there.
+        style: name of the style, as `farm run --style` takes it.
+        images: number of images in all.
+        seed: seed of the dataset.
+        folder: folder that keeps the datasets and the output of `farm run` from call to call; made if missing.
 
     Raises:
-        ConflictError: if the folder holds a dataset that this version of the farm describes otherwise.
-        FarmError: that with which `farm run` ended.
+        ConflictError: if the folder holds a dataset that this version of the farm describes differently.
+        FarmError: the error with which `farm run` ended.
     """
     folder.mkdir(parents=True, exist_ok=True)
     place = folder / f"{style}-{images}-seed-{seed}"

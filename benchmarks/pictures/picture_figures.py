@@ -1,4 +1,4 @@
-"""The figures of one picture: what a network sees of light, colour, cables and clutter."""
+"""The figures of one picture: its light, cables and clutter as a network sees them."""
 
 from dataclasses import dataclass
 
@@ -9,22 +9,23 @@ from numpy.typing import NDArray
 from benchmarks.pictures.cable_figures import crossings, median_width_px
 
 _CLEARANCE = 0.02
-"""Of the picture's edge: so near to a cable, the background is not looked at, as the cable's own outline is there."""
+"""Distance from a cable, as a share of the picture's edge, within which the background isn't searched for edges, since
+the cable's own outline lies there."""
 
 _CANNY = (50.0, 150.0)
-"""Gradients, in grey levels times four, at which an edge goes on and begins."""
+"""Least gradients, in grey levels times four, at which an edge continues and at which one begins."""
 
 
 @dataclass(frozen=True, slots=True)
 class PictureFigures:
-    """One picture, measured.
+    """The figures of one picture.
 
     Attributes:
         coverage: share of pixels that show a cable.
         grey_level: mean of the grey levels, 0 to 255.
-        grey_deviation: their standard deviation.
-        width_px: median width of the cables; NaN if none is seen.
-        crossings: how many times a cable is seen to lie across another.
+        grey_deviation: standard deviation of the grey levels.
+        width_px: median width of the cables; NaN if none is visible.
+        crossings: number of times that a cable visibly lies across another.
         background_edges: share of the background's pixels that are edges; NaN if cables fill the picture.
     """
 
@@ -40,9 +41,9 @@ def measure(picture: NDArray[np.uint8], mask: NDArray[np.uint8], instances: NDAr
     """Measure a picture.
 
     Args:
-        picture: (H, W, 3), RGB.
-        mask: (H, W), 0 or 255.
-        instances: (H, W), 0 where no cable is seen, else its number.
+        picture: RGB picture, (H, W, 3).
+        mask: mask of the cables, (H, W), 0 or 255.
+        instances: number of the cable at each pixel, 0 without one, (H, W).
     """
     grey = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY).astype(np.uint8)
     return PictureFigures(
@@ -59,8 +60,8 @@ def background_edges(grey: NDArray[np.uint8], mask: NDArray[np.uint8]) -> float:
     """Share of the pixels well away from cables that are edges (Canny's, after a Gaussian blur of one pixel).
 
     Args:
-        grey: (H, W).
-        mask: (H, W), 0 where no cable is.
+        grey: grey levels, (H, W).
+        mask: mask of the cables, (H, W), 0 without a cable.
 
     Returns:
         0 to 1; NaN if no pixel is away from cables.

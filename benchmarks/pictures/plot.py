@@ -1,4 +1,4 @@
-"""The picture: how each figure is distributed, by style and category, with what is known of others' pictures."""
+"""The plot: the distribution of each figure by style and category, beside published examples and photographs."""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -27,18 +27,18 @@ _PROMISE_LOOK: Mapping[str, Any] = {"color": "crimson", "linestyle": "--", "line
 
 _GROUPS = (None, *Category)
 _TAKEN = 0.8
-"""Of the room of a group: what its boxes take."""
+"""Share of a group's width that its boxes take; the rest separates the groups."""
 
 _ROOT_SCALED = frozenset({"crossings", "background_edges"})
-"""Many small values and a few large ones."""
+"""Figures drawn on a square-root scale, since they have many small values and a few large ones."""
 
 
 def write_plot(path: Path, measured: Mapping[str, Sequence[MeasuredPicture]]) -> None:
     """Draw a panel for each figure, and two for the colours.
 
     Args:
-        path: of the PNG file.
-        measured: pictures by the name of their dataset.
+        path: path of the PNG file to write.
+        measured: measured pictures by the name of their dataset.
     """
     figure, panels = plt.subplots(4, 2, figsize=(15, 17), layout="constrained")
     flat = list(panels.flat)
@@ -100,7 +100,7 @@ def _by_group(pictures: Sequence[MeasuredPicture], spread: _Spread) -> list[floa
 
 
 def _places(number: int, datasets: int) -> list[float]:
-    """Where a dataset's boxes stand: side by side, about the middle of each group."""
+    """Positions of a dataset's boxes: side by side with the others', around the middle of each group."""
     aside = _TAKEN * ((number + 0.5) / datasets - 0.5)
     return [group + aside for group in range(len(_GROUPS))]
 

@@ -1,4 +1,4 @@
-"""What the two styles promise, and whether the measured pictures keep it."""
+"""The promises of the two styles, and whether the measured pictures keep them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,10 +13,11 @@ class Promise:
     """One promise of a style.
 
     Attributes:
-        what: the figure and the pictures it is about.
-        asked: in words.
-        found: in words, with the side that misses.
-        kept: whether it is met.
+        style: name of the style.
+        what: the figure and the pictures that the promise is about, in words.
+        asked: the promised values, in words.
+        found: the measured values, in words, with the side that misses.
+        kept: whether the promise is kept.
     """
 
     style: str
@@ -29,15 +30,16 @@ class Promise:
 def promises_of(
     style: str, summaries: Mapping[Category | None, Summary], coverage: Mapping[Category, Distribution]
 ) -> list[Promise]:
-    """The promises of a style; none for a name that is no style.
+    """The promises of a style; none for a name that isn't a style.
 
-    `published`: the mean of each category lies within what the published examples show. `wide`: its pictures cover a
-    range, so that one in twenty lies at or below its lower end and one in twenty at or above its upper end.
+    `published` promises that the mean of each category lies within the range of the published examples. `wide` promises
+    that its pictures cover a range: one in twenty lies at or below its lower end, one in twenty at or above its upper
+    end.
 
     Args:
-        style: its name.
-        summaries: of all pictures under None, and by category.
-        coverage: of more scenes than there are pictures, by category; where given, it stands for that of the pictures.
+        style: name of the style.
+        summaries: summary of all pictures under None, and of each category's.
+        coverage: coverage of more scenes than there are pictures, by category; it replaces that of the pictures.
     """
     if style == "published":
         return [

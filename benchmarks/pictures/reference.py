@@ -1,4 +1,4 @@
-"""What is known of the published examples and of photographs (Malvido Fresnillo et al., 2024, and measured on them)."""
+"""Figures of the published examples and of photographs, from Malvido Fresnillo et al., 2024, or measured on them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """From `low` to `high`, both included."""
+    """A range from `low` to `high`, both included."""
 
     low: float
     high: float
 
     def holds(self, value: float) -> bool:
-        """Whether a value lies in it; NaN never does."""
+        """Whether a value lies in the range; NaN never does."""
         return self.low <= value <= self.high
 
 
@@ -22,14 +22,14 @@ PUBLISHED: Mapping[str, Range] = {
     "grey_deviation": Range(26, 42),
     "width_px": Range(6, 18),
 }
-"""By figure, of the 180 published examples."""
+"""Ranges of the categories' means over the 180 published examples, by figure."""
 
 PHOTOGRAPHS: Mapping[str, Range] = {
     "grey_level": Range(134 - 22, 134 + 22),
     "grey_deviation": Range(51, 51),
     "width_px": Range(7, 22),
 }
-"""By figure, of photographs of real cables."""
+"""Ranges of photographs of real cables, by figure."""
 
 WIDE: Mapping[str, Range] = {"grey_level": Range(60, 200), "grey_deviation": Range(20, 75)}
-"""By figure, what the pictures of style `wide` promise to cover."""
+"""Ranges that the pictures of style `wide` promise to cover, by figure."""

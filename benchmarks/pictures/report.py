@@ -39,12 +39,12 @@ def head(figure: str) -> str:
 
 
 def scaled(figure: str, value: float) -> float:
-    """A figure's value in the unit that its name tells."""
+    """A figure's value in the unit that its name in the table states."""
     return 100.0 * value if figure in _IN_PERCENT else value
 
 
 def figures_table(name: str, summaries: Summaries) -> Table:
-    """A row a group of pictures: mean and standard deviation, below them the 5th, 50th and 95th percentiles."""
+    """A table with one row per group of pictures: mean, standard deviation, and 5th, 50th and 95th percentile."""
     title = f"{name}: mean ± standard deviation; 5th, 50th, 95th percentile"
     table = Table(title=title, title_justify="left", show_lines=True)
     table.add_column("category")
@@ -60,7 +60,7 @@ def figures_table(name: str, summaries: Summaries) -> Table:
 
 
 def spread_table(summaries: Mapping[str, Summaries]) -> Table:
-    """A row a group of pictures of each dataset: the spread of colours and the seconds."""
+    """A table of the spread of colours and the seconds, with one row per group of pictures of each dataset."""
     table = Table(title="spread of colours, and time", title_justify="left")
     for number, title in enumerate(("dataset", "category", "n", "entropy, bits", "Hellinger distance", "s an image")):
         table.add_column(title, justify="right" if number > 1 else "left")
@@ -74,7 +74,7 @@ def spread_table(summaries: Mapping[str, Summaries]) -> Table:
 
 
 def coverage_table(coverage: Mapping[Category, Distribution]) -> Table:
-    """A row a category: what its scenes' labels cover, and how well the mean is known."""
+    """A table with one row per category: the coverage of its labelled scenes, and the standard error of the mean."""
     table = Table(title="published: coverage of labelled scenes, %", title_justify="left")
     for number, title in enumerate(("category", "n", "mean ± standard error", "standard deviation")):
         table.add_column(title, justify="right" if number else "left")
@@ -86,7 +86,7 @@ def coverage_table(coverage: Mapping[Category, Distribution]) -> Table:
 
 
 def promises_table(promises: Sequence[Promise]) -> Table:
-    """A row a promise."""
+    """A table with one row per promise."""
     table = Table(title="what the styles promise", title_justify="left")
     for title in ("style", "of", "asked", "found", ""):
         table.add_column(title)
@@ -104,7 +104,7 @@ def write_json(
     coverage: Mapping[Category, Distribution],
     promises: Sequence[Promise],
 ) -> None:
-    """Every figure of every group and every picture, coverage of labelled scenes, the promises, and the machine."""
+    """Write the figures of all groups and pictures, the coverage of labelled scenes, the promises and the machine."""
     content = {
         "machine": machine(),
         "seed": seed,
@@ -134,7 +134,7 @@ def _cell(figure: str, found: Distribution) -> str:
 
 
 def _number(value: float) -> str:
-    """Three digits that count, no more than three behind the point."""
+    """A number with about three significant digits, and at most three after the point; "-" for NaN."""
     if math.isnan(value) or not value:
         return "-" if math.isnan(value) else "0"
     return f"{value:.0f}" if abs(value) >= 100 else f"{value:.1f}" if abs(value) >= 1 else f"{value:.3f}"
@@ -148,7 +148,7 @@ def _range(figure: str, known: Range | None) -> str:
 
 
 def _without_nan(content: Any) -> Any:
-    """The same with null for what is not known, as JSON has no NaN."""
+    """The same content with None in place of NaN, which JSON doesn't have."""
     if isinstance(content, dict):
         return {key: _without_nan(value) for key, value in content.items()}
     if isinstance(content, (list, tuple)):

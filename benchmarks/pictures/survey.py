@@ -1,4 +1,4 @@
-"""A whole dataset, measured picture by picture, and what the figures come to."""
+"""Measure a whole dataset picture by picture, and summarize the figures."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
@@ -19,7 +19,7 @@ from farm.spec.category import Category
 FIGURES = tuple(field.name for field in fields(PictureFigures))
 
 _ONCE = "open"
-"""The stage that a process goes through once, not with each picture."""
+"""Name of the stage that a process goes through once, not with each picture."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,8 +27,11 @@ class MeasuredPicture:
     """One picture of a dataset.
 
     Attributes:
-        colours: its histogram.
-        seconds: of all its stages, without opening the template, which a process does once.
+        job_id: identifier of the picture's job.
+        category: category of the picture.
+        figures: figures of the picture.
+        colours: histogram of the picture's colours.
+        seconds: time of all stages but opening the template, which a process does once.
     """
 
     job_id: str
@@ -40,7 +43,16 @@ class MeasuredPicture:
 
 @dataclass(frozen=True, slots=True)
 class Distribution:
-    """What one figure comes to over many pictures; those without the figure do not count."""
+    """The distribution of one figure over many pictures.
+
+    Attributes:
+        pictures: number of pictures that have the figure.
+        mean: mean over them.
+        deviation: standard deviation of the sample.
+        p5: 5th percentile.
+        p50: median.
+        p95: 95th percentile.
+    """
 
     pictures: int
     mean: float
@@ -52,13 +64,14 @@ class Distribution:
 
 @dataclass(frozen=True, slots=True)
 class Summary:
-    """What a group of pictures comes to.
+    """The figures of a group of pictures.
 
     Attributes:
-        figures: by the name of the figure.
-        entropy_bits: of the colours of all together.
-        hellinger: mean distance of two pictures' colours.
-        seconds: mean of a picture.
+        pictures: number of pictures.
+        figures: distribution of each figure, by its name.
+        entropy_bits: entropy of the colours of all pictures together, bits.
+        hellinger: mean Hellinger distance between two pictures' colours.
+        seconds: mean time of a picture.
     """
 
     pictures: int
@@ -69,7 +82,7 @@ class Summary:
 
 
 def survey(dataset: Dataset) -> Iterator[MeasuredPicture]:
-    """Measure every picture that is done.
+    """Measure every finished picture.
 
     Raises:
         VerificationError: if a picture can't be decoded.
@@ -94,7 +107,7 @@ def groups(pictures: Sequence[MeasuredPicture]) -> dict[Category | None, list[Me
 
 
 def summarize(pictures: Sequence[MeasuredPicture]) -> Summary:
-    """What a group of pictures comes to."""
+    """Summarize a group of pictures."""
     histograms = [picture.colours for picture in pictures]
     return Summary(
         pictures=len(pictures),
@@ -106,13 +119,13 @@ def summarize(pictures: Sequence[MeasuredPicture]) -> Summary:
 
 
 def values_of(pictures: Iterable[MeasuredPicture], figure: str) -> list[float]:
-    """One figure of all pictures that have it."""
+    """The values of one figure, of all pictures that have it."""
     values = [float(asdict(picture.figures)[figure]) for picture in pictures]
     return [value for value in values if not np.isnan(value)]
 
 
 def distribution(values: Sequence[float]) -> Distribution:
-    """Mean, standard deviation of the sample, and percentiles; NaN where there are too few values."""
+    """The distribution of values; its entries are NaN if there are too few values for them."""
     if not values:
         return Distribution(0, *([float("nan")] * 5))
     deviation = float(np.std(values, ddof=1)) if len(values) > 1 else float("nan")

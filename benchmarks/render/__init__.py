@@ -1,1 +1,1 @@
-"""Time against error of rendering."""
+"""Measure time against error of rendering."""

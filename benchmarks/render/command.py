@@ -24,6 +24,7 @@ DEFAULT_TURN_SCENES = 1
 """Scenes of each category that single settings are turned on."""
 
 RESOLUTION = 512
+"""Edge of a picture, pixels: the default of a dataset."""
 
 
 def run(out: Path, *, seed: int, scenes: int | None, turn_scenes: int | None) -> int:
@@ -36,7 +37,7 @@ def run(out: Path, *, seed: int, scenes: int | None, turn_scenes: int | None) ->
         turn_scenes: number of these scenes for the settings turned one at a time; None for `DEFAULT_TURN_SCENES`.
 
     Raises:
-        VerificationError: if a setting changed a picture that may not.
+        VerificationError: if a setting changed a picture that it must not change.
         FarmError: if a scene can't be made.
     """
     console = bench_console()

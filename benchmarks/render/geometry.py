@@ -1,7 +1,7 @@
-"""What a cable may be to Cycles: the tube that the farm makes, a bevelled curve, or a thick hair. Time and difference.
+"""Time and error of the geometries that a cable can have in Cycles: the farm's tube, a bevelled curve, a thick hair.
 
-Textures run differently along each, so the cables are plain here, and pictures are compared with that of a very fine
-tube at the same samples: what differs is the geometry, and the noise where it moved.
+Textures run differently along each, so the cables are plain here. Pictures are compared with that of a very fine tube
+at the same samples, so they differ by the geometry, and by the noise where it moved.
 """
 
 import time
@@ -96,14 +96,14 @@ def _cables() -> list[Any]:
 
 
 def _make_plain() -> None:
-    """Let the pattern of dirt be one value everywhere."""
+    """Make the cables' pattern of dirt uniform."""
     for material in bpy.data.materials:
         if material.name.startswith(f"{names.CABLE}."):
             material.node_tree.nodes[names.CABLE_MAPPING].inputs["Scale"].default_value = (0.0, 0.0, 0.0)
 
 
 def _replace_tubes(settled: SettledScene, build: Callable[[str, Points, float], Any]) -> None:
-    """Put other geometry in the place of the tubes, with their materials."""
+    """Replace the tubes by other geometry with the same materials."""
     scene = bpy.data.scenes[names.PICTURE_SCENE]
     for tube in _cables():
         bpy.data.objects.remove(tube)
@@ -126,7 +126,7 @@ def _bevelled_curve(name: str, nodes: Points, radius_m: float) -> Any:
 
 
 def _hair(name: str, nodes: Points, radius_m: float) -> Any:
-    """Cycles itself rounds hair through its points."""
+    """A hair through a cable's nodes; Cycles itself smooths it between them."""
     hair = bpy.data.hair_curves.new(name)
     hair.add_curves([len(nodes)])
     hair.attributes["position"].data.foreach_set("vector", nodes.astype(np.float32).ravel())

@@ -1,4 +1,4 @@
-"""Rendering scenes with variants: seconds and errors."""
+"""Render scenes with variants, and measure seconds and errors."""
 
 import hashlib
 import time
@@ -16,7 +16,7 @@ from farm.spec.category import Category
 
 
 class Measurement:
-    """Renders scenes and keeps what was found.
+    """Renders scenes and keeps the measurements.
 
     Args:
         stage: the open renderer.
@@ -29,7 +29,7 @@ class Measurement:
         self._shots: dict[tuple[Variant, Category], list[Shot]] = defaultdict(list)
 
     def measure(self, settled: SettledScene, variants: Iterable[Variant]) -> None:
-        """Render a scene with each variant, one after the other, so that a drift of the machine touches all alike."""
+        """Render a scene with all variants in succession, so that a drift in the machine's speed affects them alike."""
         with blender_writes_to(self._log_file):
             reference = self._references.picture(settled)
             for variant in variants:
@@ -48,5 +48,5 @@ class Measurement:
                 self._shots[variant, settled.job.category].append(shot)
 
     def rows(self) -> Sequence[Row]:
-        """What was found so far."""
+        """The measurements so far."""
         return [Row(variant, category, tuple(shots)) for (variant, category), shots in self._shots.items()]

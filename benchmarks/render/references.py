@@ -31,12 +31,19 @@ class References:
     """A folder of reference pictures, each named by everything that decides it."""
 
     def __init__(self, header: DatasetHeader, stage: Stage, resolution: int, folder: Path | None = None) -> None:
-        """Look up nothing yet; `folder` is the farm's cache if not given."""
+        """Prepare; nothing is read or rendered yet.
+
+        Args:
+            header: header of the scenes' dataset.
+            stage: the open template.
+            resolution: edge of a whole picture, pixels.
+            folder: folder of the references; None for the farm's cache.
+        """
         self._header, self._stage, self._resolution = header, stage, resolution
         self._folder = folder or cache_folder() / "references"
 
     def path(self, settled: SettledScene) -> Path:
-        """Where a scene's reference is, or will be."""
+        """The path of a scene's reference, whether or not it exists."""
         digest = hashlib.sha256()
         floor, world = settled.scene.floor, settled.scene.hdri_world
         content = {
@@ -56,10 +63,10 @@ class References:
         return self._folder / f"{settled.job.id}-{digest.hexdigest()[:16]}.png"
 
     def picture(self, settled: SettledScene) -> NDArray[np.uint8]:
-        """The middle of a scene's reference (H, W, 3), rendered now if it is not there yet.
+        """The middle of a scene's reference, (H, W, 3), rendered now if it doesn't exist yet.
 
         Raises:
-            AssetError: if the file there is no picture.
+            AssetError: if the file isn't a picture.
         """
         path = self.path(settled)
         if not path.exists():

@@ -1,4 +1,4 @@
-"""Tables, JSON, the plot and the calibration that come of the rendering benchmark."""
+"""The tables, the JSON file, the plot and the calibration of the rendering benchmark."""
 
 import json
 import math
@@ -26,7 +26,7 @@ _CALIBRATION_DIGITS = 4
 
 
 def ladder_table(rows: Sequence[Row]) -> Table:
-    """Seconds, FLIP and PSNR of the settings that a quality chooses from; the fronts are bold."""
+    """A table of seconds, FLIP and PSNR of the settings that a quality chooses from; each category's front is bold."""
     table = Table(title="seconds, mean FLIP, PSNR in dB", box=box.SIMPLE_HEAD, padding=0)
     table.add_column("setting", no_wrap=True)
     for category in Category:
@@ -44,7 +44,7 @@ def _cell(row: Row, bold: bool) -> str:
 
 
 def turns_table(rows: Sequence[Row]) -> Table:
-    """What each setting changes of the base: seconds over the base's, and the difference of FLIP and PSNR."""
+    """A table of each changed setting against the base: ratio of the seconds, and differences of FLIP and PSNR."""
     table = Table(title="one setting turned: seconds over the base's, FLIP and PSNR against it", box=box.SIMPLE_HEAD)
     table.add_column("setting", no_wrap=True)
     kinds = _kinds()
@@ -84,7 +84,7 @@ def _turn(rows: dict[Category, Row], base: dict[Category, Row], categories: Iter
 
 
 def calibrate(rows: Sequence[Row]) -> Calibration:
-    """The calibration that these rows give: each category's front."""
+    """The calibration from these rows: each category's front."""
     return Calibration(
         version=1,
         measured_on=f"{os.cpu_count()} cores, {platform.machine()}, no GPU",
@@ -106,7 +106,7 @@ def calibrate(rows: Sequence[Row]) -> Calibration:
 
 
 def verdicts(calibration: Calibration) -> Iterator[str]:
-    """What each preset comes to in each category, or by how much it is missed."""
+    """Sentences on the settings that each preset chooses in each category, or on the error by which it is missed."""
     for preset in (Preset.DRAFT, Preset.STANDARD):
         seconds, weights = 0.0, 0
         for category, rows in calibration.categories.items():

@@ -1,4 +1,4 @@
-"""What the rendering benchmark finds for a variant, and which variants are worth having."""
+"""The measurements of a variant, and the variants that are worth having."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -44,17 +44,17 @@ class Row:
 
     @property
     def flip(self) -> float:
-        """Mean over the scenes."""
+        """Mean FLIP over the scenes."""
         return float(np.mean([shot.errors.flip for shot in self.shots]))
 
     @property
     def psnr_db(self) -> float:
-        """Mean over the scenes."""
+        """Mean PSNR over the scenes, dB."""
         return float(np.mean([shot.errors.psnr_db for shot in self.shots]))
 
 
 def front(rows: Iterable[Row]) -> tuple[Row, ...]:
-    """The rows of which none is both faster and better, in FLIP or in PSNR, than any other; the fastest first."""
+    """The rows worth having, the fastest first: each is better than all faster ones, in FLIP or in PSNR."""
     ordered = sorted(rows, key=lambda row: (row.seconds, row.flip))
     kept: list[Row] = []
     for row in ordered:
@@ -64,9 +64,9 @@ def front(rows: Iterable[Row]) -> tuple[Row, ...]:
 
 
 def idle_settings(rows: Sequence[Row]) -> list[str]:
-    """Turned settings that gave the base's pictures to the byte in every scene, though they need not have.
+    """Changed settings that gave the base's pictures to the byte in every scene, although they may change pictures.
 
-    Either nothing in these scenes is touched by them, or they did not act.
+    Either they affect nothing in these scenes, or they had no effect at all.
 
     Args:
         rows: rows of all categories, among them those of the variant called "base".
@@ -75,7 +75,11 @@ def idle_settings(rows: Sequence[Row]) -> list[str]:
 
 
 def disturbing_settings(rows: Sequence[Row]) -> list[str]:
-    """Settings that changed a picture though they may not; see `idle_settings`."""
+    """Changed settings that must not change a picture and did.
+
+    Args:
+        rows: rows of all categories, including those of the variant called "base".
+    """
     return [variant.name for variant, same in _against_base(rows) if variant.same_picture and not same]
 
 

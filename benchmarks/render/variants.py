@@ -1,4 +1,4 @@
-"""What the rendering benchmark tries: ladders of samples, and every other setting alone, turned from a base."""
+"""The variants that the rendering benchmark tries: ladders of samples, and a base with one other setting changed."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from farm.spec.rendering import (
 )
 
 LADDER = (2, 4, 6, 8, 12, 16)
-"""Samples a pixel, with the denoiser."""
+"""Samples per pixel to try with the denoiser."""
 
 PLAIN_LADDER = (16, 32)
 """Samples without a denoiser."""
@@ -28,7 +28,7 @@ BASE = PictureSettings(
 
 
 class Group(StrEnum):
-    """What a variant is about."""
+    """The subject of a variant."""
 
     SAMPLES = "denoised with albedo and normals"
     UNGUIDED = "denoised unguided"
@@ -47,7 +47,10 @@ class Variant:
     """Settings with a name.
 
     Attributes:
-        same_picture: whether it must give the base's picture to the byte.
+        name: name of the variant.
+        group: subject of the variant.
+        settings: settings of the picture.
+        same_picture: whether the picture must be the base's to the byte.
     """
 
     name: str
@@ -57,7 +60,7 @@ class Variant:
 
 
 def ladder() -> Iterator[Variant]:
-    """What a quality chooses from: samples, with two kinds of denoising, without it, and adaptive."""
+    """The variants that a quality chooses from: samples with two kinds of denoising, without it, and adaptive."""
     for samples in LADDER:
         yield Variant(f"{samples} spp, OIDN", Group.SAMPLES, _cycles(samples=samples))
         yield Variant(f"{samples} spp, OIDN unguided", Group.UNGUIDED, _cycles(samples=samples, guides=Guides.NONE))
@@ -67,7 +70,7 @@ def ladder() -> Iterator[Variant]:
 
 
 def turns() -> Iterator[Variant]:
-    """The base, and one setting turned at a time."""
+    """The base, and the base with one setting changed at a time."""
     yield Variant("base", Group.SAMPLES, BASE, same_picture=True)
     for denoiser in (Denoiser.NONE, Denoiser.BALANCED, Denoiser.HIGH):
         yield Variant(f"OIDN {denoiser}", Group.DENOISER, _cycles(denoiser=denoiser))
@@ -99,6 +102,7 @@ def turns() -> Iterator[Variant]:
 
 
 _CHANGE_NO_PICTURE = frozenset({"keep_loaded", "persistent_data"})
+"""Economies that must not change a picture."""
 
 
 def _cycles(**settings: object) -> PictureSettings:

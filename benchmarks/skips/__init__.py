@@ -1,1 +1,1 @@
-"""What is left out of a picture because its scene doesn't need it, and the time that saves."""
+"""Measure the time saved by leaving out what a picture's scene doesn't need."""

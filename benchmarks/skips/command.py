@@ -1,4 +1,4 @@
-"""`python -m benchmarks skips`: what is left out of a picture, and the seconds that saves."""
+"""`python -m benchmarks skips`: the things left out of a picture, and the seconds that each saves."""
 
 import json
 import time
@@ -28,6 +28,7 @@ DEFAULT_SCENES = 2
 """Scenes of each category."""
 
 RESOLUTION = 512
+"""Edge of a picture, pixels: the default of a dataset."""
 
 _REPEATS = 2
 """Repeats of each way, in turns; the fastest counts, as nothing but other work on the machine makes one slower."""
@@ -51,7 +52,7 @@ def run(
         categories: categories of the scenes.
 
     Raises:
-        VerificationError: if leaving something out changed a picture that it may not change.
+        VerificationError: if leaving something out changed a picture that it must not change.
         FarmError: if a scene can't be made.
     """
     console, log_file = bench_console(), out / "skips.log"
@@ -77,7 +78,7 @@ def run(
 
 
 def _try(skip: Skip, scene: SettledScene) -> Trial:
-    """Make a scene both ways in turns, after a first time that reads what is kept and does not count."""
+    """Make a scene both ways in turns; a first time, which loads what is kept, doesn't count."""
     skip.prepare(scene, True)()
     seconds: dict[bool, list[float]] = {True: [], False: []}
     pictures = {}

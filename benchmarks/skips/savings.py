@@ -1,4 +1,4 @@
-"""Seconds with something and without it, and what leaving it out saves of a picture in the published mix."""
+"""Seconds with and without something, and the seconds that leaving it out saves in the published mix."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,9 +14,10 @@ class Trial:
     """One scene, made both ways.
 
     Attributes:
-        with_s: seconds with what is left out otherwise.
-        without_s: seconds as the farm does it.
-        same: whether both pictures are the same to the byte; None where none is made.
+        category: category of the scene.
+        with_s: seconds with the thing that the farm leaves out.
+        without_s: seconds without it, as the farm makes pictures.
+        same: whether both pictures are the same to the byte; None if no picture is made.
     """
 
     category: Category
@@ -34,23 +35,23 @@ class Saving:
 
     @property
     def with_s(self) -> float:
-        """Mean seconds a picture of the skip's categories, in the shares of the published mix."""
+        """Mean seconds of a picture with the thing, over the skip's categories in the shares of the published mix."""
         return self._mean([trial.with_s for trial in self.trials])
 
     @property
     def without_s(self) -> float:
-        """The same without what is left out."""
+        """Mean seconds of a picture without it, over the same categories."""
         return self._mean([trial.without_s for trial in self.trials])
 
     @property
     def mix_s(self) -> float:
-        """Seconds saved a picture of the published mix."""
+        """Mean seconds saved per picture of the published mix."""
         share = sum(category.traits.weight for category in self.skip.categories)
         return (self.with_s - self.without_s) * share / sum(category.traits.weight for category in Category)
 
     @property
     def is_wrong(self) -> bool:
-        """Whether it changed a picture that it may not change."""
+        """Whether leaving it out changed a picture that it must not change."""
         return self.skip.same_picture and any(trial.same is False for trial in self.trials)
 
     def _mean(self, seconds: Sequence[float]) -> float:

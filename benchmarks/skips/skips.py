@@ -1,4 +1,4 @@
-"""What the farm leaves out, each with the two ways of making a picture: without it, and with it all the same."""
+"""The things that the farm leaves out, each with two ways to make a picture: without it, and with it after all."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ from worker.simulate.rod.simulation import RodSimulation
 from worker.simulate.simulate import simulate
 
 Action = Callable[[], NDArray[np.uint8] | None]
-"""What is timed; it returns the picture, where it makes one."""
+"""The work that is timed; it returns the picture if it makes one."""
 
 PUBLISHED_S = 4.0
 """Seconds that the 100 frames of the published fall last."""
@@ -72,7 +72,7 @@ _ECONOMIES = {
 
 
 class Skips:
-    """All that is left out of the benchmark's scenes.
+    """All things that are left out of the benchmark's scenes.
 
     Args:
         stage: the open renderer.
@@ -164,7 +164,7 @@ class Skips:
     def _world(self, settled: SettledScene, skipped: bool) -> Action:
         settings = self._settings(settled)
         if not skipped:
-            # A finer HDRI needs Cycles' own map of its bright parts, or small suns come back as white specks.
+            # A finer HDRI needs Cycles' own importance map, or small bright suns show as white specks in the picture.
             cycles = settings.cycles.model_copy(update={"world_map_px": 0})
             economy = settings.economy.model_copy(update={"upper_world": False})
             settings = settings.model_copy(update={"cycles": cycles, "economy": economy})

@@ -1,1 +1,1 @@
-"""Memory of renderers over many images, with one that is replaced now and then beside one that never is."""
+"""Measure the memory of renderers over many images: one that is replaced now and then, and one that never is."""

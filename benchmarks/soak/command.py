@@ -1,4 +1,4 @@
-"""`python -m benchmarks soak`: one run by two workers; one has its renderer replaced now and then, one never."""
+"""`python -m benchmarks soak`: a run of two workers; one replaces its renderer now and then, the other never does."""
 
 import tempfile
 from collections import defaultdict
@@ -24,24 +24,25 @@ from farm.spec.make_header import Inputs, make_header
 from farm.spec.parse import parse_spec
 
 RECYCLED_AFTER = 50
+"""Images after which one of the workers replaces its renderer."""
 
 _NEVER = 10**9
-"""As images, and as KiB: neither number nor memory replaces the process."""
+"""Number of images, and of KiB, that no renderer reaches, so that it is never replaced."""
 
 
 def run(out: Path, *, seed: int, images: int, quality: str, resolution: int) -> int:
     """Render, print the table, write `soak.json` and `soak.png` into `out`.
 
     Args:
-        out: a folder that is there.
-        seed: of the dataset.
-        images: of both workers together, in the published mix and style.
-        quality: a preset.
-        resolution: edge in pixels.
+        out: an existing folder.
+        seed: seed of the dataset.
+        images: number of images of both workers together, in the published mix and style.
+        quality: name of a preset.
+        resolution: edge of an image, pixels.
 
     Raises:
-        VerificationError: if the dataset is not complete and as its manifests tell.
-        FarmError: that with which a worker ended.
+        VerificationError: if the dataset is incomplete or differs from its manifests.
+        FarmError: the error with which a worker ended.
     """
     spec = {"seed": seed, "style": "published", "images": images, "quality": quality, "resolution": resolution}
     header = make_header(parse_spec(spec, source="benchmark"), Inputs(environments=False), InstalledAssets())

@@ -1,4 +1,4 @@
-"""How memory grows with images, from samples of both."""
+"""The growth of memory with the number of images, from samples of both."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ class Sample:
     """One look at a worker.
 
     Attributes:
-        done: images it had finished.
+        done: number of images that it had finished.
         rss_bytes: resident memory of its renderer.
     """
 
@@ -22,14 +22,14 @@ class Sample:
 
 
 def growth_mib(samples: Sequence[Sample], after: int = 0) -> float | None:
-    """MiB that resident memory grows by in 100 images: the slope of the straight line nearest to the samples.
+    """Growth of resident memory per 100 images: the slope of the straight line that fits the samples best.
 
     Args:
-        samples: of one process.
-        after: samples with fewer images are left out.
+        samples: samples of one worker.
+        after: least number of images of the samples that count.
 
     Returns:
-        None if fewer than two different numbers of images are left.
+        MiB; None if fewer than two different numbers of images are left.
     """
     left = [sample for sample in samples if sample.done >= after and sample.rss_bytes]
     if len({sample.done for sample in left}) < 2:

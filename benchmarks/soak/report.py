@@ -14,7 +14,7 @@ mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first
 
 _FILLED = 100
-"""By then a renderer's store of decoded textures, a GiB, is full."""
+"""Number of images after which a renderer's cache of decoded textures, a GiB, is full."""
 
 
 def _figures(samples: Sequence[Sample]) -> dict[str, float | None]:
@@ -31,7 +31,7 @@ def _figures(samples: Sequence[Sample]) -> dict[str, float | None]:
 
 
 def soak_table(samples: Mapping[str, Sequence[Sample]]) -> Table:
-    """A row a worker."""
+    """A table with one row per worker."""
     table = Table(title="resident memory of a renderer", title_justify="left")
     for name in (
         "worker",
@@ -50,7 +50,7 @@ def soak_table(samples: Mapping[str, Sequence[Sample]]) -> Table:
 
 
 def write_json(path: Path, samples: Mapping[str, Sequence[Sample]], spec: Mapping[str, object]) -> None:
-    """Every sample, and the machine."""
+    """Write every sample, and a description of the machine."""
     content = {
         "machine": machine(),
         "spec": spec,
@@ -63,7 +63,7 @@ def write_json(path: Path, samples: Mapping[str, Sequence[Sample]], spec: Mappin
 
 
 def write_plot(path: Path, samples: Mapping[str, Sequence[Sample]]) -> None:
-    """Memory by images, a line a worker."""
+    """Draw memory over images, one line per worker."""
     figure, axes = plt.subplots(figsize=(7, 3.5), layout="constrained")
     for name, each in samples.items():
         shown = [sample for sample in each if sample.rss_bytes]

@@ -1,1 +1,1 @@
-"""Where the time from a worker's start to its first picture goes."""
+"""Measure the time from a worker's start to its first picture, step by step."""

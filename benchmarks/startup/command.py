@@ -1,4 +1,4 @@
-"""`python -m benchmarks startup`: from a worker's start to its first picture, and where the time goes."""
+"""`python -m benchmarks startup`: the time from a worker's start to its first picture, step by step."""
 
 import tempfile
 from pathlib import Path
@@ -13,12 +13,13 @@ from farm.spec.category import Category
 from farm.spec.job import Job
 
 DEFAULT_STARTS = 5
+"""Starts to measure unless the command line says otherwise."""
 
 RESOLUTION = 128
-"""Pixels along an edge: small, so that what is paid once stands out from the rendering of every picture."""
+"""Edge of the picture, pixels: small, so that costs of the start stand out from those of every picture."""
 
 CATEGORY = Category.CLOSE_DISTRIBUTED
-"""It shows the most: a floor's textures and an HDRI."""
+"""Category of the picture: the one that loads the most, a floor's textures and an HDRI."""
 
 
 def run(out: Path, *, seed: int, starts: int | None) -> int:
@@ -37,7 +38,7 @@ def run(out: Path, *, seed: int, starts: int | None) -> int:
     header, job = bench_header(1, seed, resolution=RESOLUTION), Job(category=CATEGORY, index=0)
     with tempfile.TemporaryDirectory(prefix="cable-farm-") as name:
         folder = Path(name)
-        # Not counted: it fills the system's file cache, and compiles what the disk lacks.
+        # This start doesn't count: it fills the system's file cache, and compiles what isn't on disk yet.
         start_once(header, job, folder)
         rounds = range(starts or DEFAULT_STARTS)
         measured = [start_once(header, job, folder) for _ in track(rounds, "starts", console=console, transient=True)]

@@ -1,12 +1,13 @@
-"""What imports are due to, from what `python -X importtime` writes."""
+"""The time of imports by library, from the output of `python -X importtime`."""
 
 import re
 from collections import defaultdict
 from collections.abc import Iterator
 
 OWN = "own modules and Python's"
+"""Name for the modules of the farm and of Python itself."""
 ROD = "rod solver"
-"""Its modules' own seconds: numba is made ready by the first of its compiled functions."""
+"""Name for the rod solver's modules, which are counted apart: the first compiled function among them starts numba."""
 
 _LIBRARIES = {
     "bpy": "Blender",
@@ -25,16 +26,16 @@ _LINE = re.compile(r"import time:\s*(?P<own_us>\d+) \|\s*\d+ \|(?P<indent> +)(?P
 
 
 def seconds_by_library(lines: str, root: str) -> dict[str, float]:
-    """Seconds that importing a module took, by the library that asked for them.
+    """Seconds that the import of a module took, by library.
 
-    What a library imports itself counts as its own, so one that is imported earlier by another counts there.
+    The imports of a library count as the library's own, so a library that another one imports first counts there.
 
     Args:
-        lines: what the interpreter wrote; lines of other kinds are passed over.
-        root: the imported module.
+        lines: output of the interpreter; lines of other kinds are ignored.
+        root: name of the imported module.
 
     Returns:
-        Library to seconds; empty if the module was not imported.
+        Seconds by library; empty if the module wasn't imported.
     """
     seconds: dict[str, float] = defaultdict(float)
     for path, own_s in _modules(lines):
@@ -51,9 +52,9 @@ def _library(path: list[str]) -> str:
 
 
 def _modules(lines: str) -> Iterator[tuple[list[str], float]]:
-    """Each module's path from the outermost import down to it, with its own seconds; the last comes first."""
+    """Each module's path, from the outermost import down to it, with its own seconds; the last import comes first."""
     path: list[str] = []
-    # A module is written after all that it imports, so from the end each comes before what is below it.
+    # The interpreter writes a module after all its imports, so in reverse order a module comes before its imports.
     for line in reversed(lines.splitlines()):
         found = _LINE.match(line)
         if found:

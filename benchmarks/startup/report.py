@@ -1,4 +1,4 @@
-"""Tables, JSON and the plot that come of measured starts."""
+"""The tables, the JSON file and the plot of measured starts."""
 
 import json
 import platform
@@ -31,7 +31,7 @@ def _named(prefix: str, seconds: Seconds) -> Seconds:
 
 
 def start_table(starts: Sequence[Start], resolution: int) -> Table:
-    """Where the time until the first picture goes."""
+    """A table of the steps until the first picture."""
     title = f"seconds from a worker's start to its first picture of {resolution} pixels, {len(starts)} starts"
     table = Table(title=title, box=box.SIMPLE_HEAD)
     for name in ("", "step", "median", "least"):
@@ -47,7 +47,7 @@ def start_table(starts: Sequence[Start], resolution: int) -> Table:
 
 
 def once_table(starts: Sequence[Start]) -> Table:
-    """Stages of the first picture and of the same picture made again: the difference is paid once a process."""
+    """A table of the stages of the first picture and of the same one again; a process pays the difference once."""
     table = Table(title="median seconds of a process's first picture, and of the same again", box=box.SIMPLE_HEAD)
     for name in ("stage", "first", "again", "once a process"):
         table.add_column(name, justify="left" if name == "stage" else "right")
@@ -85,7 +85,7 @@ def write_plot(file: Path, starts: Sequence[Start]) -> None:
         of_phase = [part(start) for start in starts]
         for number, step in enumerate(of_phase[0]):
             seconds = median(each.get(step, 0.0) for each in of_phase)
-            # Both processes import own modules: a bar is found by its name.
+            # Both processes import the farm's own modules, so a bar's name holds the phase, too.
             axes.barh(f"{phase}: {step}", seconds, left=left, color=colours[phase], label=None if number else phase)
             left += seconds
     axes.invert_yaxis()

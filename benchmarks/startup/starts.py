@@ -1,4 +1,4 @@
-"""A worker's start, in a fresh process."""
+"""Start a worker in a fresh process, and read the time of each step."""
 
 import json
 import subprocess
@@ -21,18 +21,18 @@ _PROGRAM = [sys.executable, "-X", "importtime", "-m", "benchmarks.startup.timeli
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """What one start took, in seconds.
+    """The time of one start, in seconds.
 
     Attributes:
-        interpreter_s: from asking for the process to its first line.
-        main: imports of the worker's main process, by library.
-        child: what its child imports besides, by library.
-        open_s: opening the template and choosing the device.
-        first: the first picture, by stage.
-        second: the same picture again.
-        read: compiled functions that were read from disk.
-        compiled: those that had to be compiled, since the disk lacked them.
-        device: that rendered.
+        interpreter_s: time from the request for the process to its first line.
+        main: time of the imports of the worker's main process, by library.
+        child: time of the further imports of its child, by library.
+        open_s: time to open the template and choose the device.
+        first: time of the first picture, by stage.
+        second: time of the same picture made again, by stage.
+        read: number of compiled functions that were read from disk.
+        compiled: number of functions that had to be compiled.
+        device: device that rendered.
     """
 
     interpreter_s: float
@@ -47,12 +47,12 @@ class Start:
 
     @property
     def until_first_picture_s(self) -> float:
-        """From asking for the process to the first picture."""
+        """Time from the request for the process to the first picture."""
         return self.until_open_s + sum(self.first.values())
 
     @property
     def until_open_s(self) -> float:
-        """From asking for the process until a picture can be begun."""
+        """Time from the request for the process until a picture can begin."""
         return self.interpreter_s + sum(self.main.values()) + sum(self.child.values()) + self.open_s
 
 
@@ -65,7 +65,7 @@ def start_once(header: DatasetHeader, job: Job, folder: Path) -> Start:
         folder: destination of the result and the process's output.
 
     Raises:
-        VerificationError: if it made no picture, or not the same twice.
+        VerificationError: if the process made no picture, or two different ones.
     """
     result, output, imports = (folder / name for name in ("start.json", "output.log", "imports.log"))
     result.unlink(missing_ok=True)
@@ -81,11 +81,11 @@ def start_once(header: DatasetHeader, job: Job, folder: Path) -> Start:
 
 
 def read_start(content: Mapping[str, Any], imports: str) -> Start:
-    """A start from what its process wrote.
+    """Read a start from the output of its process.
 
     Args:
-        content: the JSON of `benchmarks.startup.watch`.
-        imports: the interpreter's lines.
+        content: content of the JSON file that `benchmarks.startup.watch` writes.
+        imports: lines of `python -X importtime`.
 
     Raises:
         VerificationError: if the two pictures differ.
@@ -108,7 +108,7 @@ def read_start(content: Mapping[str, Any], imports: str) -> Start:
 
 
 def _by_library(imports: str, root: str, all_s: float) -> Seconds:
-    """Seconds by library; what lies between the modules goes to our own."""
+    """Seconds by library; time that no module accounts for counts as the farm's own modules."""
     seconds = seconds_by_library(imports, root)
     seconds[OWN] = max(0.0, all_s - sum(seconds.values()) + seconds.get(OWN, 0.0))
     return seconds

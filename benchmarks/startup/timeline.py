@@ -1,7 +1,7 @@
 """`python -X importtime -m benchmarks.startup.timeline SPAWNED_S RESULT`: a worker's start, up to two pictures.
 
-It does in one process what a worker's main process and its child do one after the other. The header, a line break and
-the job's id come by stdin. Nothing is imported before its time is taken.
+It does in one process what a worker's main process and its child do in succession. It reads the header, a line break
+and the job's identifier from stdin. It imports nothing outside the marks that time it.
 """
 
 import sys
@@ -12,8 +12,8 @@ def main(spawned_s: float, result: str) -> None:
     """Start, make a picture, make it again, and write the seconds of each step.
 
     Args:
-        spawned_s: the system's monotonic clock just before this process was asked for.
-        result: the JSON file to write.
+        spawned_s: time of the system's monotonic clock just before this process was requested.
+        result: path of the JSON file to write.
     """
     marks = [spawned_s, time.perf_counter()]
     import worker.cli  # noqa: PLC0415  # what the main process imports
@@ -22,7 +22,7 @@ def main(spawned_s: float, result: str) -> None:
     import worker.blender.renderer  # noqa: PLC0415  # what the child imports
 
     marks.append(time.perf_counter())
-    # Whatever else the measurement needs comes after the imports that it times, and between the marks.
+    # The measurement's own imports come after those that it times, and their time is subtracted.
     from benchmarks.startup import watch  # noqa: PLC0415
     from farm.run.worker_settings import RendererSettings  # noqa: PLC0415
 

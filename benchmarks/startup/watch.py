@@ -1,4 +1,4 @@
-"""What the measured process notes of its pictures."""
+"""The measured process's notes on its pictures."""
 
 import hashlib
 import json
@@ -17,7 +17,7 @@ from worker.stopwatch import Stopwatch
 
 
 def read_task(text: str) -> tuple[DatasetHeader, Job]:
-    """The header and the job that stdin holds, a line each."""
+    """Parse the header and the job's identifier, a line each."""
     header, job_id = text.splitlines()
     return DatasetHeader.model_validate_json(header), Job.from_id(job_id)
 
@@ -87,7 +87,7 @@ def write(result: str, marks: Sequence[float], pause_s: float, pictures: Sequenc
 def _compiled_now() -> dict[str, int]:
     """Number of compiled functions that were read from disk, and of those that had to be compiled."""
     ours = [vars(module).values() for name, module in sys.modules.items() if name.startswith("worker.")]
-    # A function has its name in every module that imports it.
+    # A function appears in every module that imports it, so it is counted by identity.
     functions = {id(member): member for members in ours for member in members if isinstance(member, Dispatcher)}
     statistics = [function.stats for function in functions.values()]
     return {

@@ -1,1 +1,1 @@
-"""The stress test of the rod solver: many falls over the whole range of every parameter, and starts no scene has."""
+"""Stress test of the rod solver: many falls over the whole range of every parameter, with starts that no scene has."""

@@ -1,4 +1,4 @@
-"""`python -m benchmarks stress`: play the scenes, in as many processes as wanted, and say what failed."""
+"""`python -m benchmarks stress`: play the scenes in several processes, and report the runs that failed."""
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -23,16 +23,24 @@ from benchmarks.stress.scenes import Case, draw_cases
 from benchmarks.terminal import bench_console
 
 DEFAULT_RUNS = 560
-"""Above the 500 that gate 10 asks for, and a whole number of each start."""
+"""Scenes unless the command line says otherwise: more than gate 10's 500, and the same number for each start."""
 
 DEFAULT_PROCESSES = 2
+"""Processes at the same time unless the command line says otherwise."""
 
 
 def run(out: Path, *, seed: int, runs: int | None, only: int | None, processes: int | None) -> int:
-    """Play all scenes, or the one with the number `only`; print, write `stress.json` and `stress.png` into `out`.
+    """Play all scenes, or one alone; print, write `stress.json` and `stress.png` into `out`.
+
+    Args:
+        out: an existing folder.
+        seed: seed of the scenes.
+        runs: number of scenes; `DEFAULT_RUNS` if None.
+        only: number of the one scene to play; None for all.
+        processes: number of processes at the same time; `DEFAULT_PROCESSES` if None.
 
     Returns:
-        0 if no run failed.
+        Exit code: 0 if no run failed.
 
     Raises:
         ValueError: if there is no scene with that number.
@@ -50,7 +58,7 @@ def run(out: Path, *, seed: int, runs: int | None, only: int | None, processes: 
 
 
 def conclude(results: Sequence[Result], out: Path, console: Console) -> int:
-    """Print and write what came of all runs; 0 if none failed."""
+    """Print and write the results of all runs; return 0 if none failed, else 1."""
     for table in (axis_table(results), kind_table(results), gate_table(results), slowest_table(results)):
         console.print(table)
     console.print(summary(results))
@@ -63,6 +71,6 @@ def conclude(results: Sequence[Result], out: Path, console: Console) -> int:
 
 
 def _play_all(cases: Sequence[Case], processes: int) -> Iterator[Result]:
-    """Results in the order of the cases; each run stands alone, so it does not matter which process plays it."""
+    """Results in the order of the cases; runs are independent, so any process may play any of them."""
     with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
         yield from pool.map(play, cases, chunksize=1)

@@ -1,4 +1,4 @@
-"""One run of the stress test, followed step by step."""
+"""Play one run of the stress test, and follow it step by step."""
 
 import time
 from collections.abc import Mapping
@@ -26,7 +26,7 @@ STRIDE = 8
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """What came of a run.
+    """The result of a run.
 
     Attributes:
         case: the scene.
@@ -58,14 +58,14 @@ class Result:
 
     @property
     def gates(self) -> Mapping[Gate, float]:
-        """Gates 1 to 4, passages counted as they were seen and not from the order of the start; none if unmeasured."""
+        """Gates 1 to 4, with passages counted during the fall and not from the start's order; empty if unmeasured."""
         if self.figures is None:
             return {}
         return {**settled_figures(self.figures), Gate.CABLE_PASS_THROUGH: self.passes}
 
 
 def play(case: Case) -> Result:
-    """Let one scene fall until it rests, or its time is over, or it can't go on."""
+    """Let one scene fall until it rests, its time is over, or the solver breaks down."""
     began = time.perf_counter()
     setting = set_up(case)
     radii = np.array([rod.radius_m for rod in setting.rods])
@@ -75,7 +75,7 @@ def play(case: Case) -> Result:
     watch = PassWatch(tuple(rod.nodes_m for rod in setting.rods), radii)
     broke = ""
     try:
-        # What has flown apart may overflow; that is what is to be found out.
+        # Cables that have flown apart may overflow; finding that out is the purpose of the test.
         with np.errstate(over="ignore", invalid="ignore"):
             _follow(simulation, setting, watch)
     except (DivergedError, ArithmeticError, ValueError, MemoryError) as error:
@@ -101,7 +101,7 @@ def play(case: Case) -> Result:
 
 
 def _follow(simulation: RodSimulation, setting: Setting, watch: PassWatch) -> None:
-    """A step or a few after the other, with the same rule of rest as drawn scenes; what escapes is not followed."""
+    """Advance by one step or a few at a time, with drawn scenes' rule of rest; stop when a cable escapes."""
     rods = range(len(setting.rods))
     look_m = LOOK_RADII * min(rod.radius_m for rod in setting.rods)
     quiet_steps = max(1, round(REST_S / simulation.step_s))
@@ -109,7 +109,7 @@ def _follow(simulation: RodSimulation, setting: Setting, watch: PassWatch) -> No
     moved = fastest = 0.0
     step_s = simulation.step_s
     while simulation.time_s < setting.max_time_s and quiet < quiet_steps:
-        # In so short a while nothing but gravity makes slow cables much faster, and nothing passes unseen.
+        # Over so few steps only gravity speeds slow cables up noticeably, so no passage is missed.
         while_s = STRIDE * step_s
         stride = STRIDE if (fastest + GRAVITY_M_S2 * while_s) * while_s < look_m else 1
         before_s = simulation.time_s
@@ -145,7 +145,7 @@ def _shapes(simulation: RodSimulation, setting: Setting) -> CableShapes:
 
 
 def _detail(fault: StressFault | None, figures: SettleFigures | None, watch: PassWatch, setting: Setting) -> str:
-    """The figure that made a run fail, in words."""
+    """The figure that made a run fail, in words; empty without one."""
     if fault is StressFault.ESCAPED:
         return f"farther than {setting.reach_m:.3g} m"
     if fault is None or figures is None:

@@ -1,4 +1,4 @@
-"""What the stress test found: tables, a JSON file and a picture."""
+"""The tables, the JSON file and the plot of the stress test."""
 
 import json
 from collections import Counter
@@ -26,12 +26,12 @@ _MARKS = dict(zip(StressFault, "vsxPo", strict=True))
 
 
 def replay_command(case: Case, out: Path) -> str:
-    """What plays this one scene again."""
+    """The command that plays this one scene again."""
     return f"python -m benchmarks stress --out {out} --seed {case.seed} --runs {case.runs} --only {case.number}"
 
 
 def failures(results: Iterable[Result], out: Path) -> list[str]:
-    """A line for each run that failed: why, and how to see it again."""
+    """A line for each run that failed: the reason, and the command that plays it again."""
     return [
         f"{result.fault.value} ({result.detail}), {result.case.start.value}: {replay_command(result.case, out)}"
         for result in results
@@ -40,7 +40,7 @@ def failures(results: Iterable[Result], out: Path) -> list[str]:
 
 
 def axis_table(results: Sequence[Result]) -> Table:
-    """Failures and runs in each quarter of each axis."""
+    """A table of failures and runs in each quarter of each axis."""
     table = _table("failures of runs in each quarter of each axis", "axis", "from", "1st", "2nd", "3rd", "4th", "to")
     for axis in AXES:
         values = np.array([getattr(result.case, axis.name) for result in results])
@@ -53,7 +53,7 @@ def axis_table(results: Sequence[Result]) -> Table:
 
 
 def kind_table(results: Sequence[Result]) -> Table:
-    """Runs and faults by start, placement and mixture."""
+    """A table of runs and faults by start, placement and mixture."""
     table = _table("faults by kind of scene", "scenes", "runs", *(fault.value for fault in StressFault))
     rows = {start.value: [each for each in results if each.case.start is start] for start in Start}
     rows["aligned"] = [each for each in results if each.case.aligned]
@@ -66,7 +66,7 @@ def kind_table(results: Sequence[Result]) -> Table:
 
 
 def gate_table(results: Sequence[Result]) -> Table:
-    """Of gates 1 to 4 the worst figure, and how many runs are off target and beyond the bound."""
+    """A table of gates 1 to 4: the worst figure, and the numbers of runs off target and beyond the bound."""
     table = _table("gates 1 to 4 over all runs", "figure", "worst", "in run", "off target", "beyond the bound")
     measured = [result for result in results if result.figures]
     for gate in measured[0].gates if measured else ():
@@ -80,7 +80,7 @@ def gate_table(results: Sequence[Result]) -> Table:
 
 
 def slowest_table(results: Sequence[Result], count: int = 5) -> Table:
-    """The runs that took longest."""
+    """A table of the runs that took longest."""
     columns = ("run", "seconds", "steps", "simulated s", "cables", "radius m", "wind m/s")
     table = _table("the slowest runs", "start", *columns)
     for result in sorted(results, key=lambda each: -each.wall_s)[:count]:
@@ -91,7 +91,7 @@ def slowest_table(results: Sequence[Result], count: int = 5) -> Table:
 
 
 def summary(results: Sequence[Result]) -> str:
-    """What the tables leave out, in a sentence or two."""
+    """A few sentences on what the tables leave out."""
     undone, slips = (sum(getattr(each, name) for each in results) for name in ("undone", "end_slips"))
     deepest = max((each.figures.cable_penetration_max for each in results if each.figures), default=0.0)
     sunk = sum(each.sunk_nodes > 0 for each in results)
@@ -103,13 +103,13 @@ def summary(results: Sequence[Result]) -> str:
 
 
 def write_json(path: Path, results: Sequence[Result]) -> None:
-    """Every case and what came of it."""
+    """Write every case and its result."""
     content = [asdict(result) | _figures(result) for result in results]
     path.write_text(json.dumps(content, indent=1, default=_plain) + "\n")
 
 
 def write_plot(path: Path, results: Sequence[Result]) -> None:
-    """Runs over pairs of axes, those that failed marked by their fault."""
+    """Draw the runs over pairs of axes; marks show the faults of those that failed."""
     figure, planes = plt.subplots(1, len(_PLANES), figsize=(15, 4.8), layout="constrained")
     for plane, names in zip(planes, _PLANES, strict=True):
         _draw_plane(plane, names, results)

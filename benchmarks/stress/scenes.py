@@ -1,7 +1,7 @@
-"""What the stress test's scenes are drawn from: one number on each axis, and one of the starts.
+"""Draw the stress test's scenes: a value on each axis, and one of the starts.
 
-The axes are sampled as a Latin hypercube: each is cut into as many layers as there are scenes, and each layer is used
-once. A twentieth of the scenes lies exactly at either end of each axis.
+The axes are sampled as a Latin hypercube: each is divided into as many layers as there are scenes, and each layer is
+used once. On each axis, a twentieth of the scenes lies exactly at either end.
 """
 
 from dataclasses import dataclass
@@ -29,35 +29,36 @@ MIN_LENGTH_RADII = 48.0
 """Least length of a cable, in radii: a dozen segments."""
 
 _SEED_STREAM, _SCENE_STREAM = 0, 1
+"""First spawn keys of the random streams for the cases and for what else is drawn in each scene."""
 
 
 class Start(Enum):
-    """How the cables of a scene start."""
+    """The start of a scene's cables."""
 
     STACKED = "stacked"
-    """Level and bent, one above the other, as drawn scenes do."""
+    """The cables are level and bent, one above the other, as in drawn scenes."""
     OVERLAPPING = "overlapping"
-    """The same, their axes half a radius above each other, so that they cut into each other wherever they cross."""
+    """The cables are stacked with half a radius between their axes, so that they overlap wherever they cross."""
     ONE_HEIGHT = "one height"
-    """All axes at one height, so that they meet wherever they cross, and no side is the right one."""
+    """All axes are at one height, so that they meet wherever they cross, and neither side is the right one."""
     COINCIDENT = "coincident"
     """Pairs of cables, the one in the place of the other."""
     UPRIGHT = "upright"
     """Standing on their ends, side by side, with the small bend that any cable has."""
     AT_FLOOR = "at the floor"
-    """Lying on the floor and on each other, touching all along the height of the pile."""
+    """The cables lie on the floor and on each other, and touch all the way up the pile."""
     IN_FLOOR = "in the floor"
-    """The same, tilted so that the pile's one side is below the floor."""
+    """The cables lie in such a pile, tilted so that one side of it is below the floor."""
     THROWN = "thrown"
-    """Stacked, with 2 to 8 m/s in any direction, each cable its own."""
+    """The cables are stacked, and each starts with its own velocity of 2 to 8 m/s in any direction."""
 
 
 HOSTILE = tuple(start for start in Start if start is not Start.STACKED)
-"""Half of the scenes start in one of these ways."""
+"""The starts that no drawn scene has; half of the scenes have one of them."""
 
 
 class Scale(Enum):
-    """How an axis is divided."""
+    """The scale of an axis: how its values are spread between its ends."""
 
     LINEAR = "linear"
     LOGARITHMIC = "logarithmic"
@@ -91,10 +92,10 @@ AXES = (
     Axis("drop", "m", 0.0, 1.0, Scale.SQUARE),
     Axis("steps", "1/s", 100.0, 2000.0, Scale.LOGARITHMIC),
     Axis("cables", "", 1.0, 16.0, Scale.LOGARITHMIC),
-    # Without friction nothing that slides ever stops.
+    # Without friction a sliding cable would never stop.
     Axis("friction_floor", "", 0.1, 2.0, Scale.LOGARITHMIC),
     Axis("friction_cable", "", 0.0, 2.0, Scale.SQUARE),
-    # How far a cable's natural shape turns from end to end: up to a loop and a half.
+    # The turn of a cable's natural shape from end to end: up to a loop and a half.
     Axis("turn", "rad", 0.0, 10.0, Scale.SQUARE),
     Axis("length", "radii", MIN_LENGTH_RADII, 400.0, Scale.LOGARITHMIC),
 )
@@ -122,6 +123,17 @@ class Case:
         length: length over `radius`; less where many cables would have too many nodes.
         aligned: whether the cables lie in a bundle.
         mixed: whether each cable has its own radius, density and modulus.
+        density: density of the scene's first cable, kg/m3.
+        modulus: Young's modulus of the first cable, Pa.
+        radius: radius of the first cable, m.
+        wind: mean speed of the wind, m/s.
+        drop: height of the lowest cable above the floor, m.
+        steps: steps of the solver per second.
+        cables: number of cables.
+        friction_floor: coefficient of friction between a cable and the floor.
+        friction_cable: coefficient of friction between two cables.
+        turn: turn of the natural shape from end to end, rad.
+        length: length of a cable in units of `radius`, limited by `NODE_BUDGET`.
     """
 
     seed: int
@@ -143,13 +155,13 @@ class Case:
     length: float
 
     def generator(self) -> np.random.Generator:
-        """What else is drawn for this scene."""
+        """The generator for everything else that is drawn in this scene."""
         sequence = np.random.SeedSequence(self.seed, spawn_key=(_SCENE_STREAM, self.runs, self.number))
         return np.random.Generator(np.random.PCG64(sequence))
 
 
 def draw_cases(runs: int, seed: int) -> list[Case]:
-    """The scenes of one stress test; the same numbers give the same scenes."""
+    """Draw the scenes of a stress test; the same number of runs and seed give the same scenes."""
     rng = np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(_SEED_STREAM, runs))))
     shares = {axis.name: _layers(rng, runs) for axis in AXES}
     crowd = rng.permutation(runs) < round(CROWD_SHARE * runs)
@@ -181,7 +193,7 @@ def draw_cases(runs: int, seed: int) -> list[Case]:
 
 
 def _layers(rng: np.random.Generator, runs: int) -> NDArray[np.float64]:
-    """One number in each layer of 0 to 1, in any order, stretched so that some lie at the ends."""
+    """One number in each layer of 0 to 1, in random order, stretched so that `EXTREME_SHARE` lies at either end."""
     layers = (rng.permutation(runs) + rng.random(runs)) / runs
     stretched: NDArray[np.float64] = np.clip((layers - EXTREME_SHARE) / (1 - 2 * EXTREME_SHARE), 0.0, 1.0)
     return stretched

@@ -1,4 +1,4 @@
-"""The rods of a stress scene where they start, and what acts on them."""
+"""The rods of a stress scene at its start, and the forces that act on them."""
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -53,7 +53,7 @@ class Setting:
 
 
 def set_up(case: Case) -> Setting:
-    """Everything about a scene that its case and its own random numbers decide."""
+    """Make a scene from its case and its own random numbers."""
     rng = case.generator()
     rods = [_level_rod(case, rng, common) for common in [rng.uniform(-1, 1, BEND_KNOTS)] for _ in range(case.cables)]
     bearing = rng.uniform(0, 2 * np.pi)
@@ -76,7 +76,7 @@ def set_up(case: Case) -> Setting:
 
 
 def _level_rod(case: Case, rng: np.random.Generator, common: Array) -> Rod:
-    """A rod of the scene's length, level about the origin, without stress."""
+    """A level rod of the scene's length around the origin, without stress."""
     radius, modulus, density = case.radius, case.modulus, case.density
     if case.mixed:
         radius = float(np.clip(radius * 2 ** rng.uniform(-1, 1), 0.000_25, 0.010))
@@ -93,7 +93,7 @@ def _level_rod(case: Case, rng: np.random.Generator, common: Array) -> Rod:
 
 
 def _placed(rod: Rod, case: Case, rng: np.random.Generator, bearing: float) -> Rod:
-    """Turned and moved in the plane, by shares of its length like those of drawn scenes."""
+    """Turn and shift a rod in the plane, by shares of its length like those of drawn scenes."""
     length = rod.segment_length_m * (len(rod.nodes_m) - 1)
     spread = 0.03 if case.aligned else 0.08
     shift = rng.uniform(-spread, spread, 2) * length
@@ -108,7 +108,7 @@ def _moved(rod: Rod, nodes_m: Array) -> Rod:
 
 
 def _heights(rods: list[Rod], case: Case, rng: np.random.Generator) -> list[Rod]:
-    """The rods where they start, by the kind of start."""
+    """Lift the rods to the places that the kind of start gives them."""
     widest = max(rod.radius_m for rod in rods)
     lowest = widest + case.drop
     order = rng.permutation(len(rods))
@@ -135,7 +135,7 @@ def _lifted(rod: Rod, height_m: float) -> Rod:
 
 
 def _upright(rods: list[Rod], widest: float, drop: float) -> list[Rod]:
-    """On a square grid, and bent a little, each to its own side: exactly straight ones would balance on their ends."""
+    """Stand the rods on a square grid, each bent a little to its own side, since straight ones would balance."""
     columns = int(np.ceil(np.sqrt(len(rods))))
     standing = []
     for k, rod in enumerate(rods):
@@ -152,7 +152,7 @@ def _upright(rods: list[Rod], widest: float, drop: float) -> list[Rod]:
 
 
 def _tilted(rods: list[Rod], widest: float) -> list[Rod]:
-    """Turned as one about the y axis until the lowest place is two radii lower than it would lie."""
+    """Turn all rods together about the y axis until the lowest place is two radii lower than it would lie."""
     farthest = max(float(np.abs(rod.nodes_m[:, 0]).max()) for rod in rods)
     sine = min(2 * widest / max(farthest, 2 * widest), 0.9)
     cosine = float(np.sqrt(1 - sine * sine))
@@ -168,7 +168,7 @@ def _throws(case: Case, rng: np.random.Generator) -> Array:
 
 
 def _breeze(case: Case, rng: np.random.Generator, highest_m: float) -> Breeze | None:
-    """The wind until the highest rod would have fallen, with three gusts."""
+    """A wind with three gusts that blows until the highest rod would have fallen; None without wind."""
     bearing, tilt = rng.uniform(0, 2 * np.pi), np.radians(rng.uniform(-WIND_TILT_DEG, WIND_TILT_DEG))
     gusts = np.stack(
         [rng.uniform(0, 0.5, 3), 2 * np.pi / rng.uniform(0.02, 0.5, 3), rng.uniform(0, 2 * np.pi, 3)], axis=1
@@ -180,7 +180,7 @@ def _breeze(case: Case, rng: np.random.Generator, highest_m: float) -> Breeze | 
 
 
 def _slide_s(speed_m_s: float, terminal_m_s: float, braking_m_s2: float) -> float:
-    """How long it takes at most to stop."""
+    """Longest time that a sliding rod can take to stop, seconds."""
     slide_s = speed_m_s / braking_m_s2
     if speed_m_s > terminal_m_s:
         slide_s = min(slide_s, terminal_m_s / GRAVITY_M_S2 + terminal_m_s / braking_m_s2)
@@ -188,19 +188,19 @@ def _slide_s(speed_m_s: float, terminal_m_s: float, braking_m_s2: float) -> floa
 
 
 def _bounds(case: Case, rods: list[Rod], velocities: Array, breeze: Breeze | None) -> tuple[float, float]:
-    """How far a rod can come, and how long it can take.
+    """Upper bounds on the distance that a rod can reach, metres, and on the time until all rest, seconds.
 
-    - It falls from its height, and from as much more as the throw and the wind can lift it, no slower than at its
-      terminal speed where there is air; lying on its end it takes several times sqrt(L/g) to topple.
-    - It moves sideways at what the throw and the wind gave it, and what a fall can turn sideways. Then it slides, on
-      the floor or on others, braked by friction, by the dry resistance of what touches and, while faster than its
-      terminal speed, by drag, which takes that speed over g.
+    - A rod falls from its height, plus the height to which the throw and the wind can lift it, no slower than at its
+      terminal speed if there is air. Standing on its end, it takes several times sqrt(L/g) to topple.
+    - It moves sideways at the speed from the throw and the wind, plus the speed that a fall can turn sideways. Then it
+      slides on the floor or on others, braked by friction, by the dry resistance of contacts and, while it is faster
+      than its terminal speed, by drag, which takes that speed divided by g.
     - A cable that bridges others swings. A beam lifted by d off a floor leaves it over a half-length (72 EI d/w)^1/4,
-      so the period of its slowest mode is 2.4 sqrt(d/g), whatever its stiffness and weight. Its internal damping tau
-      lets the swing decay at a rate of omega^2 tau / 2; from 3 m/s to rest takes ln(6000) = 8.7 time constants.
-      The pile is at most as high as all cables upon each other.
+      so the period of its slowest mode is 2.4 sqrt(d/g), whatever its stiffness and weight. With internal damping tau
+      the swing decays at a rate of omega^2 tau / 2; from 3 m/s to rest it takes ln(6000) = 8.7 time constants. The
+      pile is at most as high as all cables on top of each other.
 
-    Stick and slip between many cables goes on a while: the sum is taken twice.
+    Stick and slip between many cables takes longer, so the sum is doubled.
     """
     throw = float(np.linalg.norm(velocities, axis=1).max())
     gust = 1 + float(breeze.gusts[:, 0].sum()) if breeze else 1.0

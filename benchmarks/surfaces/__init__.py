@@ -1,1 +1,1 @@
-"""What each floor surface costs to render, beside a plain one."""
+"""Measure the cost of rendering each floor surface, relative to a plain one."""

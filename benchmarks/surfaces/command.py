@@ -1,4 +1,4 @@
-"""`python -m benchmarks surfaces`: CPU seconds of rendering each floor surface, beside a plain one."""
+"""`python -m benchmarks surfaces`: CPU seconds of rendering each floor surface, relative to a plain one."""
 
 import json
 import tempfile
@@ -30,8 +30,10 @@ mpl.use("Agg")
 from matplotlib import pyplot as plt  # the backend must be chosen first
 
 RESOLUTION = 512
+"""Edge of a picture, pixels: the default of a dataset."""
 
 CATEGORY = Category.CLOSE_CONCENTRATED
+"""Category of the scenes: a floor close up, under a lamp."""
 
 DEFAULT_SCENES = 1
 """Scenes that each surface is tried on, once as new and once with wear."""
@@ -61,9 +63,9 @@ _PLAIN_LEVEL = 150
 
 
 def run(out: Path, *, seed: int, scenes: int | None, only: Sequence[str] = ()) -> int:
-    """Measure, print the table, write `surfaces.json`, after each surface, and `surfaces.png` into `out`.
+    """Measure, print the table, write `surfaces.json` after each surface, and `surfaces.png` into `out`.
 
-    Processor time is measured, not the clock's, as other work on the machine touches it less.
+    CPU time is measured and not wall time, since other work on the machine affects it less.
 
     Args:
         out: existing folder for the results.
@@ -130,7 +132,7 @@ def _measure(stage: Stage, settled: Sequence[SettledScene], name: str, plain: st
 
 
 def _with_floor(settled: SettledScene, **changed: object) -> SettledScene:
-    """The same scene over a floor that differs."""
+    """The same scene with some fields of its floor changed."""
     floor = settled.scene.floor
     assert floor is not None, "the category has floors"  # noqa: S101
     return replace(settled, scene=settled.scene.model_copy(update={"floor": floor.model_copy(update=changed)}))

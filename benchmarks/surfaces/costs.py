@@ -1,4 +1,4 @@
-"""The cost of surfaces over a plain one, as figures."""
+"""The cost of surfaces relative to a plain one."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ class SurfaceCost:
 
     @property
     def ratio(self) -> float:
-        """Rendering over rendering the plain one."""
+        """Time of rendering, relative to the plain surface's."""
         return float(np.sum(self.render_s) / np.sum(self.plain_render_s))
 
     @property
@@ -40,5 +40,5 @@ class SurfaceCost:
 
 
 def too_costly(costs: Sequence[SurfaceCost]) -> list[SurfaceCost]:
-    """Those above `MOST`, the costliest first."""
+    """The surfaces above `MOST`, the costliest first."""
     return sorted((cost for cost in costs if cost.ratio > MOST), key=lambda cost: -cost.ratio)

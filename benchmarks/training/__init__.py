@@ -1,1 +1,1 @@
-"""What the pictures are worth: a small segmentation network, trained on each style and tested on all."""
+"""Measure the pictures' worth for training: a small segmentation network is trained on each style and tested on all."""

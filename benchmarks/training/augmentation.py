@@ -1,28 +1,29 @@
-"""What is done to a picture before a network sees it in training: turned, mirrored, its light and colour changed."""
+"""Random changes to a picture before a network sees it in training: turns, mirroring, light and colour."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 _BRIGHTNESS = 0.12
-"""Of the whole range of levels, up or down."""
+"""Largest change of brightness, up or down, as a share of the whole range of levels."""
 
 _CONTRAST = 0.2
+"""Largest change of contrast, up or down, as a share."""
 _TINT = 0.08
-"""Of a channel's own level."""
+"""Largest change of a channel, up or down, as a share of its level."""
 
 
 def augment(
     picture: NDArray[np.uint8], mask: NDArray[np.bool_], draw: np.random.Generator
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """A picture and its mask, changed at random.
+    """Change a picture and its mask at random.
 
     Args:
-        picture: (H, H, 3), RGB.
-        mask: (H, H).
-        draw: what the changes are drawn from; always the same number of draws.
+        picture: RGB picture, (H, H, 3).
+        mask: mask of the cables, (H, H).
+        draw: source of the randomness, always used for the same number of draws.
 
     Returns:
-        The picture (3, H, H), as `as_input` gives it, and the mask (1, H, H) of 0 and 1.
+        The picture as `as_input` lays it out, (3, H, H), and the mask of 0 and 1, (1, H, H).
     """
     turns, mirrored = int(draw.integers(4)), bool(draw.integers(2))
     contrast = 1.0 + draw.uniform(-_CONTRAST, _CONTRAST)
@@ -38,5 +39,5 @@ def augment(
 
 
 def as_input(levels: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Levels (H, W, 3) from 0 to 1 as a network takes them: channels first, about 0, with a deviation of about 1."""
+    """Lay out levels (H, W, 3) from 0 to 1 for a network: channels first, mean near 0, standard deviation near 1."""
     return np.ascontiguousarray(((levels - 0.5) / 0.25).transpose(2, 0, 1), dtype=np.float32)

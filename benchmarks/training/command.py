@@ -1,4 +1,4 @@
-"""`python -m benchmarks training`: one network for each training set, every one tested on every test set."""
+"""`python -m benchmarks training`: train a network on each training set, and test each on every test set."""
 
 import copy
 import time
@@ -18,15 +18,15 @@ from benchmarks.training.report import lessons_table, write_json
 from farm.errors import MachineError
 
 _WEIGHTS_STREAM, _ORDER_STREAM = 0, 1
-"""Of the seed: the initial weights, and the order of the pictures with their augmentation."""
+"""Streams of the seed: one for the initial weights, one for the order of the pictures and their augmentation."""
 
 
 def run(out: Path, plan: Plan) -> int:
     """Train, test, print the table, write `training.json` and `training.png` into `out`.
 
     Args:
-        out: a folder that is there; datasets are made, and kept, in `pictures` below it.
-        plan: what to train and test on.
+        out: an existing folder; datasets are made, and kept, in `pictures` below it.
+        plan: training and test sets, and the length of the training.
 
     Raises:
         SpecError: if the plan can't be carried out.
@@ -49,7 +49,7 @@ def run(out: Path, plan: Plan) -> int:
 def _teach(
     console: Console, plan: Plan, train_sets: Mapping[str, Examples], test_sets: Mapping[str, Examples]
 ) -> Iterator[Lesson]:
-    """All networks begin with the same weights, and draw the same order and augmentation."""
+    """Train and test a network on each training set; all have the same initial weights, order and augmentation."""
     import torch  # noqa: PLC0415  # no other command needs it
 
     from benchmarks.training.lessons import deterministic, predict, train  # noqa: PLC0415

@@ -1,4 +1,4 @@
-"""Pictures with their masks, as the network takes them: read from a dataset, or from a folder of photographs."""
+"""Read pictures and their masks for the network, from a dataset or from a folder of photographs."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +13,7 @@ from farm.dataset.outputs import IMAGE, MASK
 from farm.errors import SpecError, VerificationError
 
 EDGE_PX = 256
-"""Of what the network takes."""
+"""Edge of the network's pictures, pixels."""
 
 _PICTURES = frozenset({".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp"})
 
@@ -23,8 +23,8 @@ class Examples:
     """A set of pictures, all of one size.
 
     Attributes:
-        pictures: (N, H, W, 3), RGB.
-        masks: (N, H, W), true where a cable is seen.
+        pictures: RGB pictures, (N, H, W, 3).
+        masks: masks, true where a cable is visible, (N, H, W).
     """
 
     pictures: NDArray[np.uint8]
@@ -35,10 +35,10 @@ class Examples:
 
 
 def examples_of(dataset: Dataset) -> Examples:
-    """Every picture of a dataset that is done, at `EDGE_PX`.
+    """Every finished picture of a dataset, at `EDGE_PX`.
 
     Raises:
-        VerificationError: if none is done, or one can't be decoded.
+        VerificationError: if none is finished, or one can't be decoded.
         DestinationError: if the dataset can't be read.
     """
     pairs = []
@@ -56,13 +56,13 @@ def examples_of(dataset: Dataset) -> Examples:
 
 
 def photographs_in(folder: Path) -> Examples:
-    """Photographs from `images`, and their masks of equal names from `masks`; a mask may have another ending.
+    """Read photographs from the folder `images` and their masks from `masks`.
 
-    A picture is scaled until its shorter edge is `EDGE_PX`, and the middle is taken. In a mask, all that is brighter
-    than middle grey is cable.
+    A mask has the same name as its photograph, up to the ending. The middle square of a picture is scaled to an edge of
+    `EDGE_PX`. A mask's pixels that are brighter than middle grey are cable.
 
     Raises:
-        SpecError: if there is no picture, one has no mask or one of another shape, or one can't be decoded.
+        SpecError: if there is no picture, or one can't be decoded, has no mask or a mask of another shape.
     """
     files = [folder / "images" / name for name in sorted(_names(folder / "images"))]
     masks = {Path(name).stem: folder / "masks" / name for name in _names(folder / "masks")}
@@ -89,7 +89,7 @@ def _names(folder: Path) -> list[str]:
 
 
 def _decode(content: bytes, how: int) -> NDArray[np.uint8] | None:
-    """RGB or grey; None where it is no image."""
+    """Decode an image to RGB or grey; None if it isn't one."""
     decoded = cv2.imdecode(np.frombuffer(content, np.uint8), how) if content else None
     if decoded is None:
         return None
@@ -97,7 +97,7 @@ def _decode(content: bytes, how: int) -> NDArray[np.uint8] | None:
 
 
 def _fit(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """The middle, `EDGE_PX` square."""
+    """Crop an image to its middle square, and scale that to an edge of `EDGE_PX`."""
     rows, columns = image.shape[:2]
     edge = min(rows, columns)
     top, left = (rows - edge) // 2, (columns - edge) // 2

@@ -1,4 +1,4 @@
-"""Training and testing a network on the CPU, with the same outcome every time on the same machine."""
+"""Train and test a network on the CPU, with the same result every time on the same machine."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -13,15 +13,18 @@ from benchmarks.training.augmentation import as_input, augment
 from benchmarks.training.examples import Examples
 
 BATCH = 8
+"""Pictures in a training step."""
 _PEAK_RATE = 3e-3
+"""Highest learning rate of the cycle."""
 _WEIGHT_DECAY = 1e-4
+"""AdamW's weight decay."""
 _WARM_UP = 0.15
-"""Of all steps: while the rate rises."""
+"""Share of all steps during which the learning rate rises."""
 
 
 @contextmanager
 def deterministic() -> Iterator[None]:
-    """Let PyTorch use no algorithm whose outcome differs from call to call."""
+    """Restrict PyTorch, within the context, to algorithms whose result is the same in every call."""
     before = torch.are_deterministic_algorithms_enabled()
     torch.use_deterministic_algorithms(True)
     try:
@@ -37,14 +40,14 @@ def train(
     draw: np.random.Generator,
     tell: Callable[[int, float], None] = lambda _number, _loss: None,
 ) -> list[float]:
-    """Train a network in place: AdamW, one cycle of the rate, binary cross-entropy plus one minus soft Dice.
+    """Train a network in place with AdamW, one cycle of the learning rate, and `segmentation_loss`.
 
     Args:
-        network: from pictures (N, 3, H, W) to logits (N, 1, H, W).
+        network: network from pictures (N, 3, H, W) to logits (N, 1, H, W).
         examples: the training set.
-        epochs: passes over it.
-        draw: decides the order and the augmentation.
-        tell: called after each epoch, with its number counted from 1 and its loss.
+        epochs: number of passes over the training set.
+        draw: source of the randomness, for the order and the augmentation.
+        tell: function called after each epoch with its number, counted from 1, and its mean loss.
 
     Returns:
         The mean loss of each epoch.
@@ -69,7 +72,7 @@ def train(
 
 
 def predict(network: nn.Module, pictures: NDArray[np.uint8]) -> NDArray[np.bool_]:
-    """The masks (N, H, W) that a network sees in pictures (N, H, W, 3)."""
+    """The masks (N, H, W) that a network predicts for pictures (N, H, W, 3)."""
     network.eval()
     found = []
     with torch.inference_mode():
@@ -81,11 +84,11 @@ def predict(network: nn.Module, pictures: NDArray[np.uint8]) -> NDArray[np.bool_
 
 
 def segmentation_loss(logits: Tensor, masks: Tensor) -> Tensor:
-    """Mean binary cross-entropy, plus one minus the soft Dice of the batch: cables are few of the pixels.
+    """Mean binary cross-entropy, plus one minus the batch's soft Dice, since cables cover few of the pixels.
 
     Args:
-        logits: (N, 1, H, W).
-        masks: of the same shape, 0 and 1.
+        logits: logits of the network, (N, 1, H, W).
+        masks: true masks of 0 and 1, (N, 1, H, W).
     """
     seen = torch.sigmoid(logits)
     dice = (2.0 * (seen * masks).sum() + 1.0) / (seen.sum() + masks.sum() + 1.0)
@@ -94,7 +97,7 @@ def segmentation_loss(logits: Tensor, masks: Tensor) -> Tensor:
 
 
 def _batches(examples: Examples, draw: np.random.Generator) -> Iterator[tuple[Tensor, Tensor]]:
-    """All examples once, in a new order; the last batch may be smaller."""
+    """Batches of all examples in a new random order; the last batch may be smaller."""
     order = draw.permutation(len(examples))
     for start in range(0, len(order), BATCH):
         chosen = order[start : start + BATCH]
@@ -104,5 +107,5 @@ def _batches(examples: Examples, draw: np.random.Generator) -> Iterator[tuple[Te
 
 
 def _laid_out(pictures: NDArray[np.float32]) -> Tensor:
-    """Channels last in memory: on a CPU a step then takes half the time."""
+    """Make a tensor with channels last in memory, with which a step on a CPU takes half the time."""
     return torch.from_numpy(pictures).contiguous(memory_format=torch.channels_last)

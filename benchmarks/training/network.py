@@ -1,4 +1,4 @@
-"""A small U-Net (Ronneberger et al., 2015) with batch normalization, from no weights but those drawn here."""
+"""A small U-Net (Ronneberger et al., 2015) with batch normalization and random initial weights."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -12,12 +12,12 @@ WIDTHS = (12, 24, 48, 96, 160)
 
 
 class UNet(nn.Module):
-    """From pictures (N, 3, H, W) to the logits (N, 1, H, W) that a pixel shows a cable.
+    """A network from pictures (N, 3, H, W) to the logits (N, 1, H, W) that a pixel shows a cable.
 
-    H and W must be multiples of 2 to the number of scales but one.
+    With S scales, H and W must be multiples of 2 to the power of S - 1.
 
     Args:
-        generator: what the initial weights are drawn from (He et al., 2015).
+        generator: source of the initial weights (He et al., 2015).
         widths: channels at each scale, the finest first.
     """
 
@@ -31,13 +31,13 @@ class UNet(nn.Module):
         for part in self.modules():
             if isinstance(part, nn.Conv2d):
                 nn.init.kaiming_normal_(part.weight, nonlinearity="relu", generator=generator)
-                # As the pictures lie: on a CPU a step takes 15 percent less time.
+                # With weights in the same memory layout as the pictures, a step on a CPU takes 15 percent less time.
                 part.weight.data = part.weight.data.contiguous(memory_format=torch.channels_last)
                 if part.bias is not None:
                     nn.init.zeros_(part.bias)
 
     def forward(self, pictures: Tensor) -> Tensor:
-        """Logits of a batch."""
+        """The logits of a batch."""
         scales: list[Tensor] = []
         now = pictures
         for number, block in enumerate(self.down):

@@ -1,4 +1,4 @@
-"""What came of training on one set of pictures."""
+"""The result of training on one set of pictures."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,14 +12,14 @@ from benchmarks.training.scores import Scores, agreement, scores
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """One network.
+    """One trained network.
 
     Attributes:
-        name: of the set it was trained on.
-        pictures: of that set.
-        losses: mean of each epoch.
-        seconds: of the training.
-        masks: (N, H, W) that it sees in the pictures of each test set.
+        name: name of the set that it was trained on.
+        pictures: number of pictures of that set.
+        losses: mean loss of each epoch.
+        seconds: time of the training.
+        masks: predicted masks, (N, H, W), for the pictures of each test set, by the set's name.
     """
 
     name: str
@@ -29,6 +29,6 @@ class Lesson:
     masks: Mapping[str, NDArray[np.bool_]]
 
     def scores(self, test: str, examples: Examples) -> Scores:
-        """What it reaches on a test set, by the set's name and its true masks."""
+        """The scores on a test set, given the set's name and its examples with the true masks."""
         pairs = zip(self.masks[test], examples.masks, strict=True)
         return scores([agreement(seen, true) for seen, true in pairs])

@@ -1,4 +1,4 @@
-"""What a run of the measurement trains and tests on."""
+"""The plan of a run: the sets of pictures to train and test on."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -10,21 +10,21 @@ from farm.dataset.dataset import open_dataset, parse_destination
 from farm.errors import SpecError
 
 PHOTOGRAPHS = "photographs"
-"""The name of the user's own test set."""
+"""Name of the user's own test set."""
 
 _TEST_SEED = 1_000_003
-"""Added to the seed: test pictures share no draw with those to train on."""
+"""Number added to the seed for test pictures, so that they share no draw with the training pictures."""
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What to do.
+    """What to train and test on, and for how long.
 
     Attributes:
-        seed: of the datasets that are made, the initial weights, the order and the augmentation.
-        images: to train on, of each style that is made.
-        test_images: to test on, likewise.
-        epochs: passes over the training pictures.
+        seed: seed of the datasets that are made, of the initial weights, the order and the augmentation.
+        images: number of images to train on, of each style that is made.
+        test_images: number of images to test on, of each style that is made.
+        epochs: number of passes over the training pictures.
         train: datasets to train on, instead of making some.
         test: datasets to test on, instead of making some.
         photographs: a folder of photographs to test on, too.
@@ -39,10 +39,10 @@ class Plan:
     photographs: Path | None = None
 
     def check(self) -> None:
-        """Refuse what can't be done.
+        """Refuse a plan that can't be carried out.
 
         Raises:
-            SpecError: for too few pictures or epochs, or two sets of one name.
+            SpecError: if there are too few pictures or epochs, or two sets have the same name.
         """
         if min(self.images, self.test_images, self.epochs) < 1:
             raise SpecError("give at least 1 of --images, --test-images and --epochs")
@@ -53,15 +53,15 @@ class Plan:
 
 
 def read_sets(plan: Plan, folder: Path, tell: Callable[[str], None]) -> tuple[dict[str, Examples], dict[str, Examples]]:
-    """The sets to train on and those to test on, by name; made, or completed, where they are not there.
+    """Read the training and the test sets, by name; datasets that don't exist are made, unfinished ones completed.
 
     Args:
-        plan: what to do.
-        folder: where datasets that are made are kept.
-        tell: called with what is begun.
+        plan: the plan.
+        folder: folder that keeps the datasets that are made.
+        tell: function called with a description of each dataset that is about to be made.
 
     Raises:
-        SpecError: if the photographs are not as they must be.
+        SpecError: if the folder of photographs is wrong.
         FarmError: if a dataset can't be made or read.
     """
     photographs = {PHOTOGRAPHS: photographs_in(plan.photographs)} if plan.photographs else {}

@@ -1,4 +1,4 @@
-"""The picture: every network's IoU on every test set, its loss, and what it sees in a few test pictures."""
+"""The plot: each network's IoU on every test set, its loss, and its masks of a few test pictures."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -16,17 +16,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 
 _SHOWN = 3
-"""Pictures of each test set."""
+"""Pictures of each test set that are drawn."""
 
 _HIT, _FALSE_ALARM, _MISS = (255, 255, 255), (230, 60, 40), (60, 120, 255)
 
 
 def write_plot(path: Path, lessons: Sequence[Lesson], tests: Mapping[str, Examples]) -> None:
-    """Draw it.
+    """Draw the plot.
 
     Args:
-        path: of the PNG file.
-        lessons: the networks.
+        path: path of the PNG file to write.
+        lessons: the trained networks.
         tests: the test sets by name.
     """
     columns = len(tests) * (2 + len(lessons))
@@ -68,7 +68,7 @@ def _draw_losses(axes: Axes, lessons: Sequence[Lesson]) -> None:
 
 
 def _draw_pictures(part: SubFigure, name: str, examples: Examples, lessons: Sequence[Lesson]) -> None:
-    """Pictures spread over the set, as it comes by category."""
+    """Draw pictures spread evenly over the set, which is ordered by category."""
     part.suptitle(f"{name}: white hit, red false alarm, blue miss", fontsize="medium")
     chosen = np.linspace(0, len(examples) - 1, min(_SHOWN, len(examples))).round().astype(int)
     panels = part.subplots(len(chosen), 2 + len(lessons), squeeze=False)
@@ -84,7 +84,7 @@ def _draw_pictures(part: SubFigure, name: str, examples: Examples, lessons: Sequ
 
 
 def overlay(seen: NDArray[np.bool_], true: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """A picture (H, W, 3) of two masks (H, W): hits white, false alarms red, misses blue."""
+    """A picture (H, W, 3) that compares two masks (H, W): hits are white, false alarms red, misses blue."""
     picture = np.zeros((*true.shape, 3), np.uint8)
     picture[seen & true] = _HIT
     picture[seen & ~true] = _FALSE_ALARM

@@ -1,4 +1,4 @@
-"""The table and the JSON file of what the pictures are worth for training."""
+"""The table and the JSON file of the pictures' worth for training."""
 
 import json
 import math
@@ -16,7 +16,7 @@ from benchmarks.training.plan import Plan
 
 
 def lessons_table(lessons: Sequence[Lesson], tests: Mapping[str, Examples]) -> Table:
-    """A row a network, a column a test set."""
+    """A table with one row per network and one column per test set."""
     title = "IoU ± its standard error / Dice, mean over pictures; below, over all pixels"
     table = Table(title=title, title_justify="left", show_lines=True)
     table.add_column("trained on")
@@ -36,7 +36,7 @@ def lessons_table(lessons: Sequence[Lesson], tests: Mapping[str, Examples]) -> T
 
 
 def write_json(path: Path, plan: Plan, lessons: Sequence[Lesson], tests: Mapping[str, Examples]) -> None:
-    """Every score, the loss of every epoch, and the machine."""
+    """Write every score, the loss of every epoch, and a description of the machine."""
     content = {
         "machine": machine(),
         "torch": version("torch"),

@@ -1,4 +1,4 @@
-"""How well predicted masks agree with true ones: intersection over union, and Dice."""
+"""The agreement of predicted masks with true ones: intersection over union, and Dice."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
-    """Pixels of a predicted mask and the true one.
+    """Numbers of pixels of a predicted mask and the true one.
 
     Attributes:
-        hits: pixels that both call cable.
-        false_alarms: those that the prediction alone does.
-        misses: those that the truth alone does.
+        hits: pixels that are cable in both.
+        false_alarms: pixels that are cable in the prediction alone.
+        misses: pixels that are cable in the true mask alone.
     """
 
     hits: int
@@ -23,27 +23,28 @@ class Agreement:
 
     @property
     def iou(self) -> float:
-        """Intersection over union; 1 where neither shows a cable."""
+        """Intersection over union; 1 if neither mask shows a cable."""
         union = self.hits + self.false_alarms + self.misses
         return self.hits / union if union else 1.0
 
     @property
     def dice(self) -> float:
-        """Twice the intersection over the sum of both; 1 where neither shows a cable."""
+        """Twice the intersection over the sum of both areas; 1 if neither mask shows a cable."""
         both = 2 * self.hits + self.false_alarms + self.misses
         return 2 * self.hits / both if both else 1.0
 
 
 @dataclass(frozen=True, slots=True)
 class Scores:
-    """What a network reaches on a set of pictures.
+    """The scores of a network on a set of pictures.
 
     Attributes:
-        mean_iou: over the pictures.
-        iou_error: the standard error of that mean; NaN for one picture.
-        mean_dice: over the pictures.
-        pixel_iou: over the pixels of all pictures together.
-        pixel_dice: likewise.
+        pictures: number of pictures.
+        mean_iou: mean IoU of the pictures.
+        iou_error: standard error of that mean; NaN for one picture.
+        mean_dice: mean Dice of the pictures.
+        pixel_iou: IoU of the pixels of all pictures together.
+        pixel_dice: Dice of the pixels of all pictures together.
     """
 
     pictures: int
@@ -55,7 +56,7 @@ class Scores:
 
 
 def agreement(predicted: NDArray[np.bool_], true: NDArray[np.bool_]) -> Agreement:
-    """Compare two masks of one shape."""
+    """Compare two masks of the same shape."""
     return Agreement(
         hits=int(np.count_nonzero(predicted & true)),
         false_alarms=int(np.count_nonzero(predicted & ~true)),
@@ -64,7 +65,7 @@ def agreement(predicted: NDArray[np.bool_], true: NDArray[np.bool_]) -> Agreemen
 
 
 def scores(agreements: Sequence[Agreement]) -> Scores:
-    """What the pictures of a set, at least one, come to."""
+    """The scores over the pictures of a set, of which there is at least one."""
     ious = [each.iou for each in agreements]
     together = Agreement(
         sum(each.hits for each in agreements),

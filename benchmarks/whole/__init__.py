@@ -1,1 +1,1 @@
-"""What a whole picture costs, from the drawn scene to its files, beside the published method and other settings."""
+"""Measure the cost of a whole picture, from the draw of its scene to its files, beside other methods and settings."""

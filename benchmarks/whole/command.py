@@ -1,4 +1,4 @@
-"""`python -m benchmarks whole`: what a picture costs, beside the published method and other settings."""
+"""`python -m benchmarks whole`: the cost of a picture, beside the published method and other settings."""
 
 import tempfile
 from pathlib import Path
@@ -23,8 +23,8 @@ def run(out: Path, plan: Plan) -> int:
     """Measure, print the tables, write `whole.json` and `whole.png` into `out`.
 
     Raises:
-        SpecError: if the plan asks for no image, or for more slow ones than there are.
-        VerificationError: if the written dataset does not verify, or a picture or mask is not of its scene.
+        SpecError: if the plan asks for no image, or for more slow images than images.
+        VerificationError: if the written dataset fails verification, or a picture or mask doesn't fit its scene.
         FarmError: if an image can't be made.
     """
     if not 0 <= plan.slow_images <= plan.images or plan.images < 1:
@@ -42,7 +42,7 @@ def run(out: Path, plan: Plan) -> int:
         highlight=False,
     )
     write_json(out / "whole.json", found)
-    # Loaded no earlier, as it would count as memory that pictures take.
+    # Imported only now, since its memory would count as the pictures'.
     from benchmarks.whole.plot import write_plot  # noqa: PLC0415
 
     write_plot(out / "whole.png", found)

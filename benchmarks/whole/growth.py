@@ -1,4 +1,4 @@
-"""How the standard picture's cost grows with its resolution and with the number of its cables."""
+"""The growth of the standard picture's cost with its resolution and with the number of its cables."""
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -25,7 +25,7 @@ from worker.stopwatch import Stopwatch
 
 
 class Axis(StrEnum):
-    """What is made larger."""
+    """The quantity that grows."""
 
     RESOLUTION = "resolution"
     CABLES = "cables"
@@ -36,7 +36,10 @@ class Point:
     """The mean picture of some scenes of a category.
 
     Attributes:
-        value: pixels along an edge, or cables.
+        axis: quantity that grows.
+        category: category of the scenes.
+        value: value of the quantity: pixels along an edge, or number of cables.
+        scenes: number of scenes.
         stages_s: mean seconds of each stage.
     """
 
@@ -48,19 +51,19 @@ class Point:
 
     @property
     def seconds(self) -> float:
-        """Of all stages."""
+        """Mean seconds of all stages together."""
         return sum(self.stages_s.values())
 
 
 def power(few: Point, many: Point) -> float:
-    """The exponent with which seconds grow from one point to the other."""
+    """The exponent with which the seconds grow from one point to the other."""
     return float(np.log(many.seconds / few.seconds) / np.log(many.value / few.value))
 
 
 def measure_growth(
     plan: Plan, stage: Stage, folder: Path, on_picture: Callable[[], None] = lambda: None
 ) -> tuple[Point, ...]:
-    """Make the same scenes at every resolution with the cables drawn, and with every number of cables.
+    """Make the same scenes at every resolution with the drawn number of cables, and with every number of cables.
 
     Textures are read before a scene's clock runs. No scene is rejected, as one with many cables might be.
 
@@ -94,7 +97,7 @@ def _means(timings: Sequence[Mapping[str, float]]) -> Mapping[str, float]:
 
 
 def points(plan: Plan) -> Iterator[tuple[Axis, int]]:
-    """The points of a category."""
+    """The axis and the value of each point of a category."""
     yield from ((Axis.RESOLUTION, value) for value in plan.resolutions)
     yield from ((Axis.CABLES, value) for value in plan.counts)
 

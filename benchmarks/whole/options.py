@@ -1,4 +1,4 @@
-"""The whole-image benchmark's options."""
+"""The command-line options of the whole-image benchmark."""
 
 import argparse
 from typing import Any
@@ -14,7 +14,7 @@ def add_whole(commands: Any, shared: argparse.ArgumentParser) -> None:
         "--slow-images",
         type=int,
         default=usual.slow_images,
-        help="of them, those made the published way and with others' settings, minutes each; 0 for none",
+        help="how many of them to make in the published way and with others' settings, too, minutes each; 0 for none",
     )
     whole.add_argument(
         "--growth-images",
@@ -27,12 +27,12 @@ def add_whole(commands: Any, shared: argparse.ArgumentParser) -> None:
         "--errors",
         action=argparse.BooleanOptionalAction,
         default=usual.errors,
-        help="compare with references, which take minutes each where they are not kept from a run before",
+        help="compare with references, which take minutes each unless an earlier run has kept them",
     )
 
 
 def plan_of(options: argparse.Namespace) -> Plan:
-    """What the parsed options ask for."""
+    """The plan that the parsed options ask for."""
     return Plan(
         seed=options.seed,
         images=options.images,

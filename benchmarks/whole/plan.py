@@ -1,4 +1,4 @@
-"""How much the whole-image benchmark does."""
+"""The plan of a run of the whole-image benchmark."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""The picture of the whole-image benchmark: every way's stages, and how the standard picture's cost grows."""
+"""The plot of the whole-image benchmark: every way's stages, and the growth of the standard picture's cost."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -40,7 +40,7 @@ def _draw_stages(axes: Axes, row: Row) -> None:
 
 
 def _draw_ways(axes: Axes, rows: Sequence[Row]) -> None:
-    """Bars on a logarithmic scale can't be stacked, so each stage has one of its own."""
+    """Draw every way's stages; each stage has its own bar, since bars can't be stacked on a logarithmic scale."""
     stages = [stage for stage in STAGES if any(row.mix_s([stage]) >= _LEAST_S for row in rows if stage in row.stages)]
     height = 0.8 / max(1, len(stages))
     for number, stage in enumerate(stages):
@@ -58,7 +58,7 @@ def _draw_ways(axes: Axes, rows: Sequence[Row]) -> None:
 
 
 _LEAST_S = 0.001
-"""A stage that takes less is not drawn."""
+"""Least seconds of a stage that is drawn."""
 
 
 def _draw_growth(axes: Axes, points: Sequence[Point], axis: Axis) -> None:

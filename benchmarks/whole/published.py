@@ -1,4 +1,4 @@
-"""A picture at the published method's costs: eight cloths, Blender's own sampling, and a second render for the mask."""
+"""Make a picture as the published method does: eight cloths, Blender's own sampling, a second render for the mask."""
 
 from pathlib import Path
 from typing import Any
@@ -27,9 +27,10 @@ LEAST_AGREEMENT = 0.9
 
 
 def make_published(stage: Stage, header: DatasetHeader, job: Job, folder: Path) -> Shot:
-    """Make the picture of a job's drawn scene, and its mask.
+    """Make the picture of a job's scene, and its mask.
 
-    Nothing is checked between the fall and the picture. A fall that diverges is drawn again, and its seconds count.
+    Nothing is checked between the fall and the picture. If a fall diverges, the scene is drawn again, and the seconds
+    of both count.
 
     Args:
         stage: the open renderer.
@@ -38,9 +39,9 @@ def make_published(stage: Stage, header: DatasetHeader, job: Job, folder: Path) 
         folder: destination of the picture and the mask.
 
     Raises:
-        SceneError: if no drawn scene came to an end.
-        VerificationError: if the mask is not of the picture's cables.
-        RenderError: if Blender gives no picture.
+        SceneError: if the fall of every drawn scene diverged.
+        VerificationError: if the mask doesn't fit the picture's cables.
+        RenderError: if Blender makes no picture.
     """
     watch = Stopwatch()
     settled = _settle(header, job, watch)
@@ -53,7 +54,7 @@ def make_published(stage: Stage, header: DatasetHeader, job: Job, folder: Path) 
     with watch.stage("write"):
         write_files(folder, image=picture, mask=mask)
     verify_mask(mask, settled)
-    # It has no check, which takes no time then.
+    # The published method has no check, so that stage counts 0 s.
     return Shot(job, {stage: watch.stages_s.get(stage, 0.0) for stage in STAGES})
 
 
@@ -69,10 +70,10 @@ def _settle(header: DatasetHeader, job: Job, watch: Stopwatch) -> SettledScene:
 
 
 def render_mask() -> NDArray[np.uint8]:
-    """Render the set scene with white cables on black, sampled as set, and threshold it: (H, W), 0 or 255.
+    """Render the built scene with white cables on black, at its own sampling, and threshold it: (H, W), 0 or 255.
 
     Raises:
-        RenderError: if Blender gives no picture.
+        RenderError: if Blender makes no picture.
     """
     with white_on_black():
         grey = cv2.cvtColor(render_picture(), cv2.COLOR_RGB2GRAY)
@@ -81,10 +82,10 @@ def render_mask() -> NDArray[np.uint8]:
 
 
 def verify_mask(mask: NDArray[np.uint8], settled: SettledScene) -> None:
-    """Compare a rendered mask (H, W) with that of the geometry.
+    """Compare a rendered mask (H, W) with the one from geometry.
 
     Raises:
-        VerificationError: if they are of different cables.
+        VerificationError: if they show different cables.
     """
     drawn = label_scene(settled.geometry(BLENDER.settings.detail, len(mask))).mask
     # Cables of a pixel or two, in small pictures, are lost in the filter of the render: they have no inside.
@@ -97,6 +98,6 @@ def verify_mask(mask: NDArray[np.uint8], settled: SettledScene) -> None:
 
 
 def _share_within(part: NDArray[Any], whole: NDArray[Any]) -> float:
-    """How much of one mask (H, W) is in another; all of it, if it is empty."""
+    """Share of one mask's pixels that are in another, (H, W) each; 1 if the first is empty."""
     pixels = np.count_nonzero(part)
     return np.count_nonzero((part > 0) & (whole > 0)) / pixels if pixels else 1.0

@@ -1,4 +1,4 @@
-"""How others set Cycles: Blender as it starts, and BlenderProc."""
+"""Other programs' settings of Cycles: Blender's own defaults, and BlenderProc's."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from farm.spec.rendering import Denoiser, PictureSettings, Prefilter
 
 @dataclass(frozen=True, slots=True)
 class Rendering:
-    """Settings of a picture, and those that the farm leaves nobody to choose.
+    """Settings of a picture, including those that the farm doesn't let a user choose.
 
     Attributes:
         settings: the settings that the farm has.
@@ -34,7 +34,7 @@ def set_picture(stage: Stage, settled: SettledScene, rendering: Rendering) -> No
 
 
 _AUTOMATIC = {"adaptive_min_samples": 0, "sampling_pattern": "AUTOMATIC"}
-"""Cycles takes 64 samples before it looks at the noise, and blue noise."""
+"""Properties with which Cycles chooses itself: 64 samples before adaptive sampling may stop, and blue noise."""
 
 BLENDER = Rendering(
     PictureSettings(
@@ -51,7 +51,7 @@ BLENDER = Rendering(
     ),
     more={**_AUTOMATIC, "transparent_max_bounces": 8},
 )
-"""Blender 4.5 as it starts, with nothing left out of the scene. Cables are modelled as in standard pictures."""
+"""Defaults of Blender 4.5, with nothing left out of the scene. Cables are modelled as in standard pictures."""
 
 BLENDERPROC = Rendering(
     PictureSettings(
@@ -62,7 +62,7 @@ BLENDERPROC = Rendering(
     ),
     more={**_AUTOMATIC, "transparent_max_bounces": 8, "transmission_bounces": 0, "volume_bounces": 0},
 )
-"""What BlenderProc sets where a script says nothing, on all cores; the rest is Blender's.
+"""Defaults of BlenderProc, on all cores; what it leaves alone is Blender's default.
 
-Its denoiser is Blender's Denoise node, with the same Open Image Denoise at the same quality as that of Cycles.
+BlenderProc denoises with Blender's Denoise node, which uses the same Open Image Denoise at the same quality as Cycles.
 """

@@ -1,4 +1,4 @@
-"""Tables and the JSON file of the whole-image benchmark."""
+"""The tables and the JSON file of the whole-image benchmark."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -19,14 +19,16 @@ _RENDER = ("render",)
 
 @dataclass(frozen=True, slots=True)
 class Findings:
-    """Everything that a run found.
+    """The results of a run.
 
     Attributes:
+        plan: the plan of the run.
         standard: the farm's own pictures.
         slow: the other ways, on some of the same scenes.
-        start_s: seconds until Blender is loaded, once a process.
-        open_s: seconds to open the template, once a process.
-        peak_mib: most resident memory of the process that made the standard pictures.
+        growth: points of the growth with resolution and with cables.
+        start_s: seconds until Blender is loaded, once per process.
+        open_s: seconds to open the template, once per process.
+        peak_mib: peak resident memory of the process that made the standard pictures, MiB.
     """
 
     plan: Plan
@@ -39,11 +41,11 @@ class Findings:
 
     @property
     def rows(self) -> tuple[Row, ...]:
-        """The standard, then the others."""
+        """The standard way, then the others."""
         return (self.standard, *self.slow)
 
     def ratios(self) -> tuple[Ratio, ...]:
-        """Each way over the standard: all stages that it has, then rendering alone where it has more."""
+        """Each way relative to the standard: over all its stages, then over rendering alone if it has more stages."""
         found = []
         for row in self.slow:
             found += [ratio(row, self.standard)]
@@ -52,7 +54,7 @@ class Findings:
 
 
 def ratio_table(found: Findings) -> Table:
-    """How many times as long the other ways take on the same scenes, in the published mix."""
+    """A table of the other ways' time relative to the standard, on the same scenes in the published mix."""
     names = ("way", "stages", "scenes", "s", "standard s", "times")
     table = _table("seconds an image over those of standard, the same scenes, published mix", *names)
     for each in found.ratios():
@@ -62,7 +64,7 @@ def ratio_table(found: Findings) -> Table:
 
 
 def ratio_by_category_table(found: Findings) -> Table:
-    """The same by category."""
+    """A table of the other ways' relative time by category."""
     ratios = found.ratios()
     table = _table("the same by category", "category", *(f"{each.way}\n{_stages(each)}" for each in ratios))
     for category in Category:
@@ -77,7 +79,7 @@ def _stages(compared: Ratio) -> str:
 
 
 def stage_table(row: Row) -> Table:
-    """Mean seconds of each stage by category, and of the published mix."""
+    """A table of mean seconds of each stage, by category and in the published mix."""
     shots = len(row.shots)
     table = _table(f"{row.way}: mean seconds an image, {shots} images", "category", *row.stages, "all")
     columns = [row.means_s([stage]) for stage in row.stages] + [row.means_s(row.stages)]
@@ -89,7 +91,7 @@ def stage_table(row: Row) -> Table:
 
 
 def error_table(rows: Sequence[Row]) -> Table | None:
-    """Mean errors against the references; None if there is none."""
+    """A table of mean errors against the references; None without references."""
     categories = [category for category in Category if any(row.errors(category) for row in rows)]
     if not categories:
         return None
@@ -110,7 +112,7 @@ def error_table(rows: Sequence[Row]) -> Table | None:
 
 
 def same_scenes(rows: Sequence[Row]) -> tuple[Row, ...]:
-    """The ways with errors, each with those pictures alone whose scenes all of them have; none if there is no such."""
+    """The ways that have errors, each reduced to the scenes that all of them have; empty if they share no scene."""
     known = [row.on(frozenset(shot.job for shot in row.shots if shot.errors)) for row in rows]
     compared = [row for row in known if row.shots]
     if not compared:
@@ -120,13 +122,13 @@ def same_scenes(rows: Sequence[Row]) -> tuple[Row, ...]:
 
 
 def mean_errors(row: Row, category: Category) -> tuple[float, float]:
-    """FLIP and PSNR in decibels, each the mean over the category's pictures that have a reference."""
+    """Mean FLIP and mean PSNR in dB of the category's pictures that have a reference."""
     errors = row.errors(category)
     return float(np.mean([each.flip for each in errors])), float(np.mean([each.psnr_db for each in errors]))
 
 
 def growth_table(points: Sequence[Point], axis: Axis) -> Table:
-    """Seconds by resolution or by number of cables, and the power with which they grow from one to the next."""
+    """A table of seconds by resolution or number of cables, with the exponent of the growth from row to row."""
     those = [point for point in points if point.axis is axis]
     title = f"standard: mean seconds an image by {axis}, {those[0].scenes} scenes a category"
     table = _table(title, "category", axis, *STAGES, "all", "power")
@@ -143,7 +145,7 @@ def growth_table(points: Sequence[Point], axis: Axis) -> Table:
 
 
 def tables(found: Findings) -> list[Table]:
-    """All of them, the ratios first."""
+    """All tables, the ratios first."""
     errors = error_table(found.rows)
     return [
         *([ratio_table(found), ratio_by_category_table(found)] if found.slow else []),
@@ -154,7 +156,7 @@ def tables(found: Findings) -> list[Table]:
 
 
 def write_json(path: Path, found: Findings) -> None:
-    """Every figure, and the machine."""
+    """Write every figure, and a description of the machine."""
     content = {
         "machine": machine(),
         "plan": asdict(found.plan),

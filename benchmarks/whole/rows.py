@@ -1,4 +1,4 @@
-"""Seconds a stage of each picture, means by category and in the published mix, and ratios over the same scenes."""
+"""Seconds of each picture's stages, means by category and in the published mix, and ratios on the same scenes."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -28,8 +28,9 @@ class Shot:
     """One picture.
 
     Attributes:
+        job: job of the picture.
         stages_s: seconds of each stage that the way has.
-        errors: against the scene's reference; None if there is none.
+        errors: errors against the scene's reference; None without a reference.
     """
 
     job: Job
@@ -46,16 +47,16 @@ class Row:
 
     @property
     def stages(self) -> tuple[str, ...]:
-        """Those that the way has, in their order."""
+        """The stages that the way has, in their order."""
         return tuple(stage for stage in STAGES if any(stage in shot.stages_s for shot in self.shots))
 
     @property
     def categories(self) -> tuple[Category, ...]:
-        """Those with a picture."""
+        """The categories that have a picture."""
         return tuple(category for category in Category if any(shot.job.category is category for shot in self.shots))
 
     def means_s(self, stages: Sequence[str]) -> Mapping[Category, float]:
-        """Mean seconds a picture of some stages together, by category."""
+        """Mean seconds of some stages together, by category."""
         return {
             category: float(
                 np.mean(
@@ -70,21 +71,21 @@ class Row:
         }
 
     def mix_s(self, stages: Sequence[str]) -> float:
-        """Mean seconds a picture of some stages together, in the published mix of categories."""
+        """Mean seconds of some stages together, in the published mix of categories."""
         return mix(self.means_s(stages))
 
     def errors(self, category: Category) -> tuple[Errors, ...]:
-        """Of the category's pictures that have a reference."""
+        """The errors of the category's pictures that have a reference."""
         those = [shot.errors for shot in self.shots if shot.job.category is category]
         return tuple(each for each in those if each is not None)
 
     def on(self, jobs: frozenset[Job]) -> "Row":
-        """The same with the pictures of some jobs alone."""
+        """The same way, with the pictures of some jobs alone."""
         return Row(self.way, tuple(shot for shot in self.shots if shot.job in jobs))
 
     @property
     def jobs(self) -> frozenset[Job]:
-        """Those of its pictures."""
+        """The jobs of the pictures."""
         return frozenset(shot.job for shot in self.shots)
 
 
@@ -96,13 +97,13 @@ def mix(values: Mapping[Category, float]) -> float:
     """
     weights = sum(category.traits.weight for category in values)
     if not weights:
-        raise ValueError("a mean needs one category at least")
+        raise ValueError("a mean needs at least one category")
     return sum(category.traits.weight * value for category, value in values.items()) / weights
 
 
 @dataclass(frozen=True, slots=True)
 class Ratio:
-    """Seconds of a way over those of the standard pictures of the same scenes, and the stages that both count.
+    """Seconds of a way, relative to those of the standard pictures of the same scenes.
 
     Attributes:
         slow_s: seconds an image in the published mix.
@@ -119,7 +120,7 @@ class Ratio:
 
     @property
     def value(self) -> float:
-        """How many times as long the way takes."""
+        """Time of the way, relative to the standard."""
         return self.slow_s / self.standard_s
 
 

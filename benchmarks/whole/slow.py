@@ -1,4 +1,4 @@
-"""The same scenes in the other ways, and how far each picture is from its reference."""
+"""Make the same scenes in the other ways, and measure each picture's error against its reference."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -28,7 +28,7 @@ MOST_FLIP = 0.3
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """What other ways' pictures of a dataset's scenes are made with.
+    """Makes a dataset's scenes in the other ways, and compares pictures with references.
 
     Attributes:
         dataset: the standard pictures.
@@ -45,11 +45,11 @@ class Comparison:
     def slow_rows(self, jobs: Sequence[Job], on_image: Callable[[], None] = lambda: None) -> tuple[Row, ...]:
         """Make the scenes of some jobs in every other way, one scene after the other.
 
-        A scene's textures are read before its clock runs, in favour of these ways: standard pictures read theirs.
+        A scene's textures are loaded before it is timed, which favours these ways: standard pictures load their own.
 
         Raises:
-            VerificationError: if a picture is not of its scene.
-            FarmError: if one can't be made.
+            VerificationError: if a picture doesn't fit its scene.
+            FarmError: if a picture can't be made.
         """
         found: dict[Way, list[Shot]] = {way: [] for way in (Way.PUBLISHED, *RENDERINGS)}
         for job in jobs:
@@ -62,10 +62,10 @@ class Comparison:
         return tuple(Row(way, tuple(shots)) for way, shots in found.items() if shots)
 
     def with_errors(self, standard: Row, slow_jobs: Iterable[Job]) -> Row:
-        """The standard pictures with their errors: of the slow scenes', and of those whose references are kept.
+        """The standard pictures with errors, for the slow scenes and those whose references are kept.
 
         Raises:
-            VerificationError: if a picture is not of its scene.
+            VerificationError: if a picture doesn't fit its scene.
         """
         if self.references is None:
             return standard

@@ -1,4 +1,4 @@
-"""The farm's own pictures: made as a worker makes them, written and verified."""
+"""Make the farm's own pictures as a worker does, write them and verify them."""
 
 import resource
 import subprocess
@@ -30,7 +30,7 @@ _BYTES_PER_UNIT = 1 if sys.platform == "darwin" else 1024
 
 
 _WARM_UP = 1_000_000
-"""Index of a scene that is in no benchmark."""
+"""Index of a scene that no benchmark uses, made first to load everything."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +38,9 @@ class Standard:
     """The standard pictures.
 
     Attributes:
-        open_s: seconds to open the template, once a process.
-        peak_mib: most resident memory of this process until they were made.
+        row: the pictures.
+        open_s: seconds to open the template, once per process.
+        peak_mib: peak resident memory of this process when they were finished, MiB.
     """
 
     row: Row
@@ -50,10 +51,10 @@ class Standard:
 def make_standard(dataset: Dataset, jobs: Sequence[Job], on_image: Callable[[], None] = lambda: None) -> Standard:
     """Make the pictures of all jobs of a dataset with all cores, and check the written dataset.
 
-    A picture of another scene comes first and does not count, as it loads the solver and the renderer's kernels.
+    A picture of another scene is made first and doesn't count, since it loads the solver and the renderer's kernels.
 
     Raises:
-        VerificationError: if it does not verify.
+        VerificationError: if the dataset fails verification.
         FarmError: if an image can't be made.
     """
     start = time.perf_counter()
@@ -73,10 +74,10 @@ def make_standard(dataset: Dataset, jobs: Sequence[Job], on_image: Callable[[], 
 
 
 def settled_again(dataset: Dataset, job: Job) -> SettledScene:
-    """The scene of a picture that was made, and its cables at rest, from the manifest: falls repeat to the bit.
+    """The scene of a finished picture, from its manifest, and its cables at rest, since falls repeat to the bit.
 
     Raises:
-        VerificationError: if the picture is not there.
+        VerificationError: if the picture's manifest can't be read.
     """
     manifest = parse_manifest(dataset.storage.read(manifest_path(job)), dataset, job)
     if manifest is None:

@@ -1,4 +1,4 @@
-"""Writing a picture's files where no manifest is wanted."""
+"""Write a picture's files without a manifest."""
 
 from pathlib import Path
 
@@ -10,10 +10,10 @@ from farm.storage import LocalStorage
 
 
 def write_files(folder: Path, **pictures: NDArray[np.uint8] | NDArray[np.uint16]) -> None:
-    """Write PNG files as a worker does, each read back, named after its keyword.
+    """Write pictures as PNG files as a worker does, each named after its keyword and read back.
 
     Raises:
-        DestinationError: if one can't be written.
+        DestinationError: if a file can't be written.
     """
     storage = LocalStorage(folder)
     for name, pixels in pictures.items():

@@ -1,1 +1,1 @@
-"""Rooms and yards of our own, built from a seed: what is seen behind cables, and lights them."""
+"""The farm's own rooms and yards, each built from a seed: the backdrop behind the cables and the light on them."""

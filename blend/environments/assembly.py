@@ -1,7 +1,7 @@
-"""Many simple solids in few meshes: each has its place, its material and its own tint.
+"""Many simple solids in few meshes: each solid has its own place, material and tint.
 
-One mesh for each material renders faster than an object for each thing; what differs from thing to thing (its colour,
-where its grain begins) lies in the mesh's attributes `tint` and `local`, which the materials read.
+One mesh for each material renders faster than one object for each thing. What differs from solid to solid (its colour,
+and the point where its grain begins) lies in the mesh's attributes `tint` and `local`, which the materials read.
 """
 
 from collections.abc import Iterator, Sequence
@@ -16,10 +16,10 @@ from blend.environments.solids import CHAMFERED, CUBE, Solid, lathed, swept, tur
 
 Points = NDArray[np.float64]
 Print = tuple[float, float, float, float]
-"""Where a picture lies in the atlas: left, bottom, right, top, each 0 to 1."""
+"""Rectangle of a picture in the atlas: left, bottom, right, top, each 0 to 1."""
 
 COURSED = frozenset({"brick", "blocks", "ribbed", "tiles", "pegboard"})
-"""Materials whose courses run level and go on from one solid to the next."""
+"""Materials whose courses run level and continue from one solid to the next."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,12 +27,13 @@ class Part:
     """Faces of one material.
 
     Attributes:
-        points: (N, 3), metres in the world.
+        points: corners, (N, 3), metres in the world.
         faces: index arrays (M, K) of polygons with K corners.
-        tint: (N, 4) linear colour; for what shines its radiance. The fourth is one random number for each solid.
-        local: (N, 3), metres along the solid's own axes, its longest first, from a random origin.
-        smooth: shaded as if curved.
-        uv: (N, 2), only of parts that show a picture.
+        tint: linear colour, (N, 4), or the radiance of a solid that shines; the fourth number is random, one for each
+            solid.
+        local: position along the solid's own axes, the longest first, from a random origin, (N, 3), metres.
+        smooth: whether the faces are shaded as if curved.
+        uv: position in the atlas, (N, 2); None for a part that shows no picture.
     """
 
     points: Points
@@ -48,8 +49,9 @@ class Daylight:
     """An opening that lets light in: a one-sided lamp that can't be seen.
 
     Attributes:
-        frame: (4, 4), takes its own frame (x across, z up, light goes towards y) into the world.
-        width_m, height_m: its size.
+        frame: matrix, (4, 4), from the opening's own frame (x across, z up, light towards +y) into the world.
+        width_m: width of the opening.
+        height_m: height of the opening.
     """
 
     frame: Points
@@ -59,13 +61,13 @@ class Daylight:
 
 @dataclass
 class Assembly:
-    """Collects solids. Placing is relative to the innermost `at`.
+    """Collects solids, which are placed relative to the innermost `at`.
 
     Attributes:
-        rng: of all that is drawn.
-        parts: by material.
-        daylight: the openings.
-        things: how many things (not solids) were placed.
+        rng: source of all randomness in the environment.
+        parts: parts collected so far, by material.
+        daylight: openings that let daylight in.
+        things: number of things placed; a thing may have many solids.
     """
 
     rng: np.random.Generator
@@ -76,12 +78,20 @@ class Assembly:
 
     @property
     def frame(self) -> Points:
-        """(4, 4), takes what is placed now into the world."""
+        """Matrix, (4, 4), from the innermost thing's own frame into the world."""
         return self._frames[-1]
 
     @contextmanager
     def at(self, x: float, y: float, z: float = 0.0, turn: float = 0.0, lean: float = 0.0) -> Iterator["Assembly"]:
-        """Place a thing: its origin, turned about the vertical, then leaned about its own x axis; degrees."""
+        """Place a thing: solids added within the context lie in the thing's own frame.
+
+        Args:
+            x: x of the thing's origin in the enclosing frame, metres.
+            y: y of the origin, metres.
+            z: z of the origin, metres.
+            turn: turn about the vertical, degrees.
+            lean: lean about the thing's own x axis after the turn, degrees.
+        """
         self._frames.append(self.frame @ turned(x, y, z, turn, lean))
         self.things += 1
         try:
@@ -99,7 +109,7 @@ class Assembly:
         bevel: float = 0.0,
         turn: float = 0.0,
     ) -> None:
-        """A box; `place` is the middle of its underside, `bevel` the width of its chamfers in metres."""
+        """Add a box; `place` is the middle of its underside, `bevel` the width of its chamfers in metres."""
         edges = np.maximum(np.abs(np.array(size)), 1e-4)
         bevel = min(bevel, 0.3 * float(edges.min()))
         if bevel > 0:
@@ -123,7 +133,7 @@ class Assembly:
         top: float | None = None,
         sides: int = 14,
     ) -> None:
-        """A cylinder or cone from the middle of its end; `top` is the radius of the other end."""
+        """Add a cylinder or cone; `place` is the middle of one end, `top` the radius of the other if it differs."""
         self.lathe(place, [(radius, 0.0), (radius if top is None else top, length)], material, tint, axis, sides)
 
     def lathe(
@@ -135,20 +145,29 @@ class Assembly:
         axis: str = "z",
         sides: int = 16,
     ) -> None:
-        """A body of revolution: radius and distance along the axis, from its origin at `place`; ends are closed."""
+        """Add a body of revolution with closed ends.
+
+        Args:
+            place: point on the axis from which distances along it count.
+            profile: radius and distance along the axis of each ring, metres.
+            material: name of the material.
+            tint: linear colour.
+            axis: "x", "y" or "z".
+            sides: number of sides of the polygon that stands for the circle.
+        """
         for solid in lathed(profile, axis, sides):
             self._add(solid, material, tint, offset=place)
 
     def tube(
         self, points: Sequence[tuple[float, float, float]] | Points, radius: float, material: str, tint: Colour
     ) -> None:
-        """A round tube along points (N, 3)."""
+        """Add a round tube along points (N, 3)."""
         self._add(swept(np.asarray(points, np.float64), radius), material, tint)
 
     def prism(
         self, outline: Sequence[tuple[float, float]], x: float, width: float, material: str, tint: Colour
     ) -> None:
-        """An outline in (y, z), counter-clockwise seen from +x, made `width` thick about `x`."""
+        """Add a prism: an outline in (y, z), counter-clockwise seen from +x, made `width` thick about `x`."""
         flat = np.array(outline, np.float64)
         count = len(flat)
         left = np.column_stack([np.full(count, x - 0.5 * width), flat])
@@ -160,7 +179,7 @@ class Assembly:
         self._add(Solid(points, faces), material, tint)
 
     def quads(self, corners: Points, material: str, tints: Points) -> None:
-        """Loose four-cornered faces (N, 4, 3) of tints (N, 3)."""
+        """Add loose four-cornered faces (N, 4, 3) with tints (N, 3)."""
         count = len(corners)
         points = self._placed(corners.reshape(-1, 3))
         seeds = self.rng.random(count)
@@ -178,10 +197,19 @@ class Assembly:
         *,
         facing: str = "y",
     ) -> None:
-        """A picture of the atlas; `place` is the middle of its lower edge; it faces +y, or +z and is read from +y."""
+        """Add a picture from the atlas.
+
+        Args:
+            place: middle of the picture's lower edge.
+            size: width and height, metres.
+            shown: rectangle of the picture in the atlas.
+            material: name of a material that shows the atlas.
+            tint: factor for the picture's colours, or its radiance on a screen.
+            facing: "y" for an upright picture that faces +y, "z" for a lying one that is read from +y.
+        """
         half, high = 0.5 * size[0], size[1]
         x, y, z = place
-        # Seen from +y, what is on the left lies at +x.
+        # Seen from +y, the left edge lies at +x.
         if facing == "z":
             points = np.array([(x + half, y, z), (x - half, y, z), (x - half, y - high, z), (x + half, y - high, z)])
         else:
@@ -191,7 +219,7 @@ class Assembly:
         self._add(Solid(points, (np.array([[0, 1, 2, 3]]),)), material, tint, uv=uv)
 
     def daylight_through(self, width: float, height: float) -> None:
-        """Let daylight in through an opening that begins at the frame's origin, towards y."""
+        """Let daylight in, towards +y, through an opening in the plane y = 0 of the current frame."""
         self.daylight.append(Daylight(self.frame.copy(), width, height))
 
     def _placed(self, points: Points) -> Points:
@@ -215,7 +243,10 @@ class Assembly:
         self.parts.setdefault(material, []).append(part)
 
     def _local(self, points: Points, own: Points, material: str) -> Points:
-        """Where a material's pattern is read: along the solid's longest axis, or in a wall's own upright courses."""
+        """Positions at which a material's pattern is read.
+
+        They run along the solid's longest axis, or for a material in `COURSED` along the level courses of its wall.
+        """
         edges = np.ptp(points, axis=0)
         if material in COURSED:
             level = [0, 1] if edges[0] >= edges[1] else [1, 0]

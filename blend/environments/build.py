@@ -1,4 +1,4 @@
-"""From a recipe to an open scene."""
+"""Build the scene of an environment from its recipe."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -28,9 +28,9 @@ class Built:
     """An environment's scene.
 
     Attributes:
-        scene: Blender's, all but its render settings.
-        assembly: what stands in it.
-        light: what lights it apart from its lamps.
+        scene: Blender's scene, complete but for the render settings.
+        assembly: the solids in it.
+        light: the sky, the sun and the other light that doesn't come from lamps.
     """
 
     scene: Any
@@ -46,7 +46,7 @@ def build_environment(recipe: EnvironmentRecipe) -> Built:
 
 
 def assemble(recipe: EnvironmentRecipe) -> tuple[Assembly, Light]:
-    """What stands in an environment, and what lights it; nothing in Blender changes."""
+    """Collect an environment's solids and its light; Blender's open file doesn't change."""
     rng = environment_generator(recipe)
     assembly = Assembly(rng)
     return assembly, BUILDERS[recipe.kind](assembly, rng, recipe.seed)

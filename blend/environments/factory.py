@@ -17,7 +17,7 @@ Rng = np.random.Generator
 
 
 def crane(a: Assembly, rng: Rng, span: float, z: float) -> None:
-    """A bridge crane along y, its hook in the middle."""
+    """A bridge crane along y, with its hook near the middle."""
     tint = pick(rng, (YELLOW, ORANGE, (0.7, 0.5, 0.02)))
     with a.at(0, 0, turn=90):
         for y in (-0.5, 0.5):
@@ -37,7 +37,7 @@ def crane(a: Assembly, rng: Rng, span: float, z: float) -> None:
 
 
 def platform(a: Assembly, rng: Rng) -> None:
-    """A steel platform with stairs and railings, a tank on it."""
+    """A steel platform with stairs, railings and a tank on it."""
     tint = pick(rng, (YELLOW, LIGHT_GREY, *MACHINES))
     for x in (-1.6, 1.6):
         for y in (0.2, 2.0):
@@ -68,7 +68,7 @@ def platform(a: Assembly, rng: Rng) -> None:
 
 
 def fenced_robot(a: Assembly, rng: Rng) -> None:
-    """A robot behind posts and rails of a guard fence."""
+    """A robot behind a guard fence of posts and rails."""
     machines.robot(a, rng)
     for x in np.linspace(-1.8, 1.8, 5):
         a.box((float(x), 2.1, 0), (0.06, 0.06, 2.0), "paint", YELLOW)
@@ -99,7 +99,7 @@ PIECES = (
 
 
 def build(a: Assembly, rng: Rng, variant: int) -> Light:
-    """Build one: an old hall of brick with sun in it, or a new one with even light."""
+    """Build a factory hall: an old one of brick with sun in it, or a new one with even light."""
     old = variant % 2 == 0
     style = Style(
         wall="brick" if old else "ribbed",

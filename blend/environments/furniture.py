@@ -29,14 +29,14 @@ Rng = np.random.Generator
 
 
 def legs(a: Assembly, size: tuple[float, float, float], material: str, tint: tuple[float, float, float]) -> None:
-    """Four legs under a top of a size (width, depth, height of its underside), its back at y = 0."""
+    """Four legs under a table top with its back at y = 0; `size` is its width, depth and height of its underside."""
     for x in (-0.5, 0.5):
         for y in (0.04, size[1] - 0.04):
             a.box((x * (size[0] - 0.08), y, 0), (0.05, 0.05, size[2]), material, tint, bevel=0.005)
 
 
 def workbench(a: Assembly, rng: Rng) -> None:
-    """A heavy bench with a drawer block, a shelf below, and whatever lies on it."""
+    """A heavy bench with a drawer block, a shelf below, and tools and parts on it."""
     width, deep, high = 2.0, 0.75, 0.86
     frame = vary(rng, pick(rng, STEEL_FURNITURE))
     legs(a, (width, deep, high), "paint", frame)
@@ -67,7 +67,7 @@ def drawers(
 
 
 def desk(a: Assembly, rng: Rng) -> None:
-    """An office desk with a computer, papers and a chair before it."""
+    """An office desk with a computer, papers and a chair in front of it."""
     width, deep, wood = 1.5, 0.75, pick(rng, (*WOODS, WHITE, LIGHT_GREY))
     legs(a, (width, deep, 0.7), "metal", pick(rng, (ALUMINIUM, DARK_GREY)))
     a.box((0, 0.5 * deep, 0.7), (width, deep, 0.028), "wood", wood, bevel=0.004)
@@ -80,9 +80,9 @@ def desk(a: Assembly, rng: Rng) -> None:
         with a.at(x, 0.12, 0.728, turn=-25 * x):
             monitor(a, rng)
     keyboard(a, 0.02, 0.5, 0.728)
-    for x, renderer in ((-0.55, papers), (0.52, papers), (0.42, mug)):
+    for x, thing in ((-0.55, papers), (0.52, papers), (0.42, mug)):
         with a.at(x, 0.28 + rng.uniform(-0.1, 0.1), 0.728, turn=rng.normal(0, 15)):
-            renderer(a, rng)
+            thing(a, rng)
     if rng.random() < 0.5:
         with a.at(-0.6, 0.02, 0.728):
             desk_lamp(a, rng)
@@ -94,7 +94,7 @@ def desk(a: Assembly, rng: Rng) -> None:
 
 
 def monitor(a: Assembly, rng: Rng) -> None:
-    """A flat screen on a foot, most often on."""
+    """A flat screen on a foot, switched on four times out of five."""
     width, high = rng.choice([0.53, 0.6]), 0.33
     a.box((0, 0.06, 0), (0.22, 0.18, 0.012), "plastic", BLACK, bevel=0.004)
     a.box((0, 0.02, 0), (0.05, 0.02, 0.2), "plastic", BLACK)
@@ -167,7 +167,7 @@ def plant(a: Assembly, rng: Rng, size: float = 1.0) -> None:
 
 
 def trolley(a: Assembly, rng: Rng) -> None:
-    """A two-decked trolley, loaded."""
+    """A trolley with two loaded decks."""
     tint = vary(rng, pick(rng, STEEL_FURNITURE))
     for z in (0.18, 0.78):
         a.box((0, 0.3, z), (0.85, 0.5, 0.03), "paint", tint, bevel=0.008)
@@ -180,7 +180,7 @@ def trolley(a: Assembly, rng: Rng) -> None:
 
 
 def ladder(a: Assembly, rng: Rng) -> None:
-    """A ladder that leans at a wall."""
+    """A ladder that leans against a wall."""
     high = rng.uniform(2.2, 3.0)
     with a.at(0, 0.55, 0, lean=13):
         for x in (-0.2, 0.2):

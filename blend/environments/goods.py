@@ -1,4 +1,7 @@
-"""Small things: boxes, bins, bottles, books, cases, tools, cups. Each as `layout.Build` has it."""
+"""Small things: boxes, bins, bottles, books, cases, tools, cups.
+
+Each function is a `layout.Build`: the thing's back is at y = 0, its foot at z = 0, its middle at x = 0.
+"""
 
 import numpy as np
 
@@ -39,17 +42,17 @@ def carton(a: Assembly, rng: Rng, width: float = 0.36, depth: float = 0.32) -> N
 
 
 def small_carton(a: Assembly, rng: Rng) -> None:
-    """A smaller one."""
+    """A small cardboard box."""
     carton(a, rng, 0.24, 0.22)
 
 
 def large_carton(a: Assembly, rng: Rng) -> None:
-    """A larger one."""
+    """A large cardboard box."""
     carton(a, rng, 0.56, 0.45)
 
 
 def stacked_cartons(a: Assembly, rng: Rng) -> None:
-    """Two or three, one on another."""
+    """Two or three cardboard boxes, one on another."""
     z = 0.0
     for _ in range(int(rng.integers(2, 4))):
         high, tint = rng.uniform(0.15, 0.3), vary(rng, pick(rng, CARDBOARD))
@@ -113,7 +116,7 @@ def case(a: Assembly, rng: Rng) -> None:
 
 
 def tool_box(a: Assembly, rng: Rng) -> None:
-    """A steel box with a lid and a bail."""
+    """A steel tool box with a lid and a bow handle."""
     tint = vary(rng, pick(rng, MACHINES))
     a.box((0, 0.12, 0), (0.42, 0.2, 0.15), "paint", tint, bevel=0.008)
     a.prism([(0.02, 0.15), (0.22, 0.15), (0.17, 0.21), (0.07, 0.21)], 0.0, 0.42, "paint", tint)
@@ -123,7 +126,7 @@ def tool_box(a: Assembly, rng: Rng) -> None:
 
 
 def books(a: Assembly, rng: Rng) -> None:
-    """A short row of books, some of them leaning."""
+    """A short row of books, sometimes with a leaning one at its end."""
     x, lean = -0.17, rng.random() < 0.4
     while x < 0.14:
         thick, high, deep = rng.uniform(0.012, 0.045), rng.uniform(0.19, 0.3), rng.uniform(0.14, 0.21)
@@ -148,7 +151,7 @@ def binders(a: Assembly, rng: Rng) -> None:
 
 
 def papers(a: Assembly, rng: Rng) -> None:
-    """A few sheets, askew."""
+    """A few sheets of paper, askew."""
     for n in range(int(rng.integers(1, 5))):
         with a.at(rng.normal(0, 0.02), 0.15 + rng.normal(0, 0.02), 0.003 * n, turn=rng.normal(0, 12)):
             a.box((0, 0, 0), (0.21, 0.297, 0.002), "card", WHITE)
@@ -191,7 +194,7 @@ def mug(a: Assembly, rng: Rng) -> None:
 
 
 def reel(a: Assembly, rng: Rng) -> None:
-    """A reel of wire, standing."""
+    """A standing reel of wire."""
     r, w, tint = rng.uniform(0.09, 0.17), rng.uniform(0.07, 0.14), pick(rng, CABLES)
     side = pick(rng, WOODS) if rng.random() < 0.5 else pick(rng, PLASTICS)
     a.cylinder((-0.5 * w, 0.18, r), 0.78 * r, w, "rubber", tint, axis="x", sides=20)
@@ -200,7 +203,7 @@ def reel(a: Assembly, rng: Rng) -> None:
 
 
 def coil(a: Assembly, rng: Rng) -> None:
-    """A coil of cable, lying."""
+    """A lying coil of cable."""
     tint, r = pick(rng, CABLES), rng.uniform(0.1, 0.15)
     turns = np.linspace(0, 2 * np.pi * 5, 70)
     wobble = r * (1 + 0.06 * np.sin(turns * 0.77))
@@ -214,6 +217,8 @@ CARTONS = (
     Piece(large_carton, 0.58, 0.47),
     Piece(stacked_cartons, 0.42, 0.4),
 )
+"""Cardboard boxes."""
+
 STORED = (
     *CARTONS,
     Piece(crate, 0.62, 0.42),
@@ -223,9 +228,12 @@ STORED = (
     Piece(reel, 0.3, 0.36),
     Piece(bin_open, 0.19, 0.28),
 )
+"""Things that are kept on the shelves of workshops and storerooms."""
+
 SHELVED = (
     Piece(binders, 0.4, 0.32),
     Piece(books, 0.38, 0.25),
     Piece(small_carton, 0.26, 0.24),
     Piece(bottle, 0.1, 0.1),
 )
+"""Things that are kept on the shelves of offices."""

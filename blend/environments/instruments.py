@@ -1,4 +1,4 @@
-"""What stands on laboratory benches: glassware, bottles, instruments."""
+"""Things on laboratory benches: glassware, bottles, instruments."""
 
 import numpy as np
 
@@ -24,12 +24,12 @@ from blend.environments.tools import meter, parts_tray
 
 Rng = np.random.Generator
 
-
 LIQUIDS = palette("7a3a10 a86018 2a6a8a b0a040 8a2a2a 3a7a4a d0c8a8 402010")
+"""Colours of the liquids in flasks and tubes."""
 
 
 def flask(a: Assembly, rng: Rng) -> None:
-    """A conical flask or a beaker, part full."""
+    """A conical flask, partly full."""
     tint, r, h = pick(rng, LIQUIDS), rng.uniform(0.035, 0.06), rng.uniform(0.1, 0.18)
     a.lathe((0, 0.07, 0.002), [(r * 0.94, 0), (r * 0.7, 0.45 * h)], "dark glass", tint, sides=14)
     a.lathe((0, 0.07, 0), [(r, 0), (0.28 * r, 0.75 * h), (0.28 * r, h)], "glass", (0.86, 0.92, 0.92), sides=14)
@@ -48,7 +48,7 @@ def brown_bottle(a: Assembly, rng: Rng) -> None:
 
 
 def rack(a: Assembly, rng: Rng) -> None:
-    """A rack of tubes."""
+    """A rack of test tubes."""
     tint = pick(rng, PLASTICS)
     for z in (0.0, 0.06):
         a.box((0, 0.06, z), (0.26, 0.1, 0.008), "plastic", tint)
@@ -84,7 +84,7 @@ def instrument(a: Assembly, rng: Rng) -> None:
 
 
 def stacked_instruments(a: Assembly, rng: Rng) -> None:
-    """Two, one on another."""
+    """Two bench instruments, one on the other."""
     instrument(a, rng)
     with a.at(0, 0, 0.31):
         instrument(a, rng)
@@ -104,7 +104,7 @@ def microscope(a: Assembly, rng: Rng) -> None:
 
 
 def centrifuge(a: Assembly, rng: Rng) -> None:
-    """A squat device with a round lid."""
+    """A centrifuge: a squat device with a round lid."""
     tint = vary(rng, pick(rng, (WHITE, LIGHT_GREY, BLUE)))
     a.box((0, 0.22, 0), (0.38, 0.42, 0.22), "plastic", tint, bevel=0.03)
     a.cylinder((0, 0.2, 0.22), 0.16, 0.05, "plastic", vary(rng, GREY), sides=24)
@@ -127,7 +127,7 @@ BENCH_TOP = (
     Piece(mug, 0.1, 0.1),
     Piece(small_carton, 0.26, 0.24),
 )
-
+"""Things on top of laboratory benches; one that is listed twice is twice as likely."""
 
 SHELF = (
     Piece(brown_bottle, 0.12, 0.13),
@@ -138,3 +138,4 @@ SHELF = (
     Piece(rack, 0.28, 0.14),
     Piece(canister, 0.27, 0.25),
 )
+"""Things on the shelves over laboratory benches; one that is listed twice is twice as likely."""

@@ -27,7 +27,7 @@ Rng = np.random.Generator
 
 
 def lab_bench(a: Assembly, rng: Rng) -> None:
-    """A bench with cupboards below, instruments on it, and a shelf above."""
+    """A bench with cupboards below, instruments on it, and shelves above."""
     width, deep = 1.8, 0.75
     front = vary(rng, pick(rng, (WHITE, LIGHT_GREY, WOODS[2], (0.25, 0.4, 0.55))), 0.05)
     a.box((0, 0.34, 0.1), (width, 0.62, 0.76), "plastic", vary(rng, LIGHT_GREY), bevel=0.005)
@@ -123,7 +123,7 @@ PIECES = (
 
 
 def build(a: Assembly, rng: Rng, variant: int) -> Light:
-    """Build one; the variants differ in floor, colours and light."""
+    """Build a laboratory; the two variants differ in floor, colours and light."""
     bright = variant % 2 == 1
     style = Style(
         wall="wall",

@@ -1,4 +1,4 @@
-"""Lamps; what shines is a material whose tint is its radiance."""
+"""Lamps: their shining parts have the material `glow`, whose tint is the radiance."""
 
 import numpy as np
 
@@ -7,18 +7,21 @@ from blend.environments.palette import ALUMINIUM, DARK_GREY, WHITE, Colour
 from blend.environments.solids import hanging
 
 COOL: Colour = (17.0, 18.5, 20.0)
+"""Radiance of a bluish lamp in red, green and blue, linear: about three times that of the sky in a window."""
 NEUTRAL: Colour = (20.0, 19.0, 17.0)
+"""Radiance of a white lamp in red, green and blue, linear."""
 WARM: Colour = (22.0, 17.5, 11.5)
+"""Radiance of a yellowish lamp in red, green and blue, linear."""
 
 
 def panel(a: Assembly, z: float, light: Colour = NEUTRAL, size: tuple[float, float] = (0.58, 0.58)) -> None:
-    """A flat panel in a ceiling."""
+    """A flat panel set in a ceiling at height z."""
     a.box((0, 0, z - 0.02), (size[0] + 0.05, size[1] + 0.05, 0.02), "paint", WHITE)
     a.box((0, 0, z - 0.025), (*size, 0.006), "glow", light)
 
 
 def tube(a: Assembly, z: float, light: Colour = COOL, length: float = 1.5, drop: float = 0.0) -> None:
-    """A long housing with one tube, hung below z."""
+    """A long housing with one fluorescent tube, hung `drop` below height z."""
     low = z - drop - 0.09
     a.box((0, 0, low + 0.03), (length, 0.12, 0.06), "paint", WHITE, bevel=0.01)
     a.cylinder((-0.5 * length + 0.03, 0, low), 0.019, length - 0.06, "glow", light, axis="x", sides=8)
@@ -61,10 +64,10 @@ def desk_lamp(a: Assembly, rng: np.random.Generator) -> None:
 
 
 def rows(xs: tuple[float, float, int], ys: tuple[float, float, int]) -> list[tuple[float, float]]:
-    """Places of lamps: from, to and how many along x and along y."""
+    """Places x, y of lamps in a grid; `xs` and `ys` each hold the first place, the last one and the count."""
     return [(float(x), float(y)) for x in np.linspace(*xs) for y in np.linspace(*ys)]
 
 
 def string_cable(a: Assembly, start: tuple[float, float, float], end: tuple[float, float, float], tint: Colour) -> None:
-    """A cable that hangs between two places."""
+    """A cable that hangs between two points."""
     a.tube(hanging(start, end, 0.15), 0.008, "rubber", tint)

@@ -1,4 +1,4 @@
-"""Placing things: rows along walls, clutter on tables, stacks on shelves."""
+"""Place things: in rows along walls, strewn over tables, side by side on shelves."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -9,12 +9,13 @@ from blend.environments.assembly import Assembly
 from blend.environments.palette import pick
 
 Build = Callable[[Assembly, np.random.Generator], None]
-"""Builds a thing whose back is at y = 0, its front towards +y, its foot at z = 0, its middle at x = 0."""
+"""A function that builds a thing with its back at y = 0, its front towards +y, its foot at z = 0, its middle at
+x = 0."""
 
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A thing to stand somewhere, and the room it takes along x and y, metres."""
+    """A thing to place, and the room that it takes along x and y, metres."""
 
     build: Build
     width: float
@@ -24,7 +25,10 @@ class Piece:
 def line_up(
     a: Assembly, rng: np.random.Generator, pieces: Sequence[Piece], left: float, right: float, gap: float = 0.08
 ) -> None:
-    """Place pieces drawn at random side by side from `left` to `right`, no piece twice in a row if there are others."""
+    """Place random pieces side by side from `left` to `right`, with gaps of about `gap`, all in metres.
+
+    No piece comes twice in succession if another one fits.
+    """
     x, before = left, None
     while True:
         fitting = [piece for piece in pieces if x + piece.width <= right]
@@ -46,7 +50,16 @@ def clutter(
     *,
     density: float = 0.7,
 ) -> None:
-    """Strew small things over a top of a size (x, y), whose back edge's middle is at the origin, without overlap."""
+    """Strew small things over a table top, without overlap.
+
+    Args:
+        a: assembly that receives the things.
+        rng: source of the randomness.
+        pieces: things to choose from.
+        size: width and depth of the top, metres; the middle of its back edge is at the origin.
+        z: height of the top, metres.
+        density: fullness of the top, 0 to 1: at 1, things cover about 60 % of it.
+    """
     taken: list[tuple[float, float, float]] = []
     room = size[0] * size[1]
     used = 0.0
@@ -70,7 +83,16 @@ def clutter(
 def row_on(
     a: Assembly, rng: np.random.Generator, pieces: Sequence[Piece], width: float, z: float, *, empty: float = 0.12
 ) -> None:
-    """Fill a shelf of a width, its middle at the origin, from left to right; like things mostly stand together."""
+    """Fill a shelf from left to right; things of the same kind mostly stand together.
+
+    Args:
+        a: assembly that receives the things.
+        rng: source of the randomness.
+        pieces: things to choose from.
+        width: width of the shelf, metres; its middle is at the origin.
+        z: height of the shelf, metres.
+        empty: probability of a gap before a thing.
+    """
     x = -0.5 * width + 0.02
     piece = pick(rng, pieces)
     while x < 0.5 * width - 0.05:

@@ -1,4 +1,4 @@
-"""What things are made of, as Cycles shaders that read a solid's tint, its own axes and its UV map.
+"""Materials of the environments: Cycles shaders that read a solid's tint, its own axes and its UV map.
 
 A material is named by a word, such as `paint`, or by `surface:` and the name of one of `assets.surfaces`.
 """
@@ -15,21 +15,22 @@ from assets.surfaces.recipe import recipe_generator
 from blend.environments.shader import Shader
 
 SURFACE_PREFIX = "surface:"
+"""Prefix of a material's name that shows one of the farm's own surfaces."""
 SURFACE_PIXELS = 1024
-"""Texels along an edge of a surface's tile: a tile of 0.5 m has 0.5 mm, far finer than a panorama shows."""
+"""Texels along an edge of a surface's tile: 0.5 mm each on a tile of 0.5 m, far finer than a panorama shows."""
 
 _PRINTED = frozenset({"print", "screen"})
-"""Materials that show a part of the atlas."""
+"""Names of the materials that show a part of the atlas."""
 
 _SHAPELESS = ("concrete", "asphalt")
-"""Surfaces without courses, that may be shown at any scale."""
+"""Prefixes of the names of surfaces without courses, which look right at any scale."""
 
 
 def make_material(name: str, atlas: Any) -> Any:
-    """The material of a name; `atlas` is the image with all prints.
+    """Make the material called `name`; `atlas` is the image with all prints.
 
     Raises:
-        KeyError: there is no such material.
+        KeyError: no material has that name.
     """
     shader = Shader(name)
     if name.startswith(SURFACE_PREFIX):
@@ -42,12 +43,12 @@ def make_material(name: str, atlas: Any) -> Any:
 
 
 def is_known(name: str) -> bool:
-    """Whether there is a material of that name."""
+    """Whether a material has that name."""
     return name in _BUILT or name in _PRINTED or name.removeprefix(SURFACE_PREFIX) in SURFACES
 
 
 def new_image(name: str, pixels: NDArray[np.uint8], *, colour: bool = True) -> Any:
-    """An image from (H, W, 3) sRGB or (H, W) plain numbers, the top row first."""
+    """Make a Blender image from sRGB (H, W, 3) or from plain numbers (H, W), 0 to 255, the top row first."""
     height, width = pixels.shape[:2]
     image = bpy.data.images.new(name, width, height, alpha=False)
     image.colorspace_settings.name = "sRGB" if colour else "Non-Color"
@@ -59,7 +60,7 @@ def new_image(name: str, pixels: NDArray[np.uint8], *, colour: bool = True) -> A
 
 
 def _surface(shader: Shader, name: str) -> None:
-    """One of the farm's own surfaces, with stains of a size that hides its repeats."""
+    """One of the farm's own surfaces, with large stains that hide how its tile repeats."""
     recipe = SURFACES[name]
     maps = recipe.build(recipe_generator(recipe), SURFACE_PIXELS)
     scale = 1.0 / recipe.size_m
@@ -67,7 +68,7 @@ def _surface(shader: Shader, name: str) -> None:
     image = new_image(name, maps.colour)
     colour = shader.image(image, scale)
     if name.startswith(_SHAPELESS):
-        # A second look at another scale, in patches, so that no spot comes again and again.
+        # Patches show the same tile at another scale, so that no spot visibly repeats.
         patches = shader.span(shader.noise(0.8, detail=2.0), 0.0, 1.0, 0.44, 0.56)
         colour = shader.mixed(patches, colour, shader.image(image, 0.37 * scale))
     tinted = shader.times(colour, shader.tint.outputs["Color"])
@@ -91,7 +92,7 @@ def _shown(shader: Shader, atlas: Any, *, shines: bool) -> None:
 
 
 def _paint(shader: Shader) -> None:
-    """Painted metal: uneven, a little dirty, with some worn spots."""
+    """Painted metal: uneven and a little dirty."""
     tint = shader.times(shader.tint.outputs["Color"], shader.span(shader.noise(3.0), 0.82, 1.06))
     dirt = shader.span(shader.noise(6.0, (1, 1, 0.25), 5.0), 0.0, 0.55, 0.56, 0.78)
     shader.colour(shader.mixed(dirt, tint, (0.06, 0.05, 0.04)))
@@ -196,7 +197,7 @@ def _ribbed(shader: Shader) -> None:
 
 
 def _tiles(shader: Shader) -> None:
-    """Square tiles of 0.6 m with fine holes, as of a suspended ceiling."""
+    """Square tiles of 0.6 m with a fine grain, as in a suspended ceiling."""
     brick = shader.node("ShaderNodeTexBrick", offset=0.0)
     for name, value in (("Scale", 1.0), ("Mortar Size", 0.012), ("Brick Width", 0.6), ("Row Height", 0.6)):
         brick.inputs[name].default_value = value
@@ -229,7 +230,7 @@ def _leaf(shader: Shader) -> None:
 
 
 def _glass(shader: Shader) -> None:
-    """A thin pane: what is behind, tinted, and a reflection."""
+    """A thin pane: it shows what is behind it, tinted, and a reflection."""
     clear, shiny, mix = (shader.node(f"ShaderNode{kind}") for kind in ("BsdfTransparent", "BsdfGlossy", "MixShader"))
     shader.link(shader.tint.outputs["Color"], clear.inputs["Color"])
     shiny.inputs["Roughness"].default_value = 0.04
@@ -247,7 +248,7 @@ def _dark_glass(shader: Shader) -> None:
 
 
 def _glow(shader: Shader) -> None:
-    """What shines: its tint is its radiance."""
+    """A material that shines; its tint is its radiance."""
     emission = shader.node("ShaderNodeEmission")
     shader.link(shader.tint.outputs["Color"], emission.inputs["Color"])
     shader.put_out(emission.outputs[0])

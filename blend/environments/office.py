@@ -25,11 +25,13 @@ from blend.environments.scene import Light
 
 Rng = np.random.Generator
 WALLS = palette("e2dfd6 d4d8d8 c8d0c4 ddd2c0")
+"""Colours of an office's walls."""
 ACCENTS = palette("2c5a8c 8a4a3a 3a6a5a c08a30")
+"""Strong colours of single walls and of cushions."""
 
 
 def printer(a: Assembly, rng: Rng) -> None:
-    """A copier on the floor."""
+    """A printer and copier that stands on the floor."""
     tint = vary(rng, LIGHT_GREY)
     a.box((0, 0.35, 0.05), (0.62, 0.62, 0.75), "plastic", tint, bevel=0.015)
     for z in (0.08, 0.26, 0.44):
@@ -60,7 +62,7 @@ def sofa(a: Assembly, rng: Rng) -> None:
 
 
 def filing_cabinet(a: Assembly, rng: Rng) -> None:
-    """Four drawers, something on top."""
+    """A filing cabinet of four drawers, with a plant or a carton on top."""
     tint = vary(rng, pick(rng, (LIGHT_GREY, DARK_GREY, WHITE, (0.3, 0.33, 0.36))))
     a.box((0, 0.31, 0), (0.47, 0.62, 1.32), "paint", tint, bevel=0.006)
     for n in range(4):
@@ -72,7 +74,7 @@ def filing_cabinet(a: Assembly, rng: Rng) -> None:
 
 
 def blind(a: Assembly, rng: Rng, width: float, high: float) -> None:
-    """A slatted blind, part way down; its top edge is at z = 0."""
+    """A slatted blind let down by `high` metres; its top edge is at z = 0."""
     a.box((0, 0.03, -0.05), (width, 0.05, 0.05), "metal", ALUMINIUM)
     for n in range(int(high / 0.045)):
         with a.at(0, 0.03, -0.09 - 0.045 * n, lean=rng.normal(28, 1.0)):
@@ -115,7 +117,7 @@ PIECES = (
 
 
 def build(a: Assembly, rng: Rng, variant: int) -> Light:
-    """Build one; the variants differ in floor, windows and light."""
+    """Build an office; the two variants differ in floor, windows and light."""
     warm = variant % 2 == 0
     tint = vary(rng, pick(rng, WALLS), 0.04)
     style = Style(

@@ -1,4 +1,4 @@
-"""Houses, cars, trees and what stands in streets and yards."""
+"""Houses, cars, trees and other things in streets and yards."""
 
 import numpy as np
 
@@ -26,11 +26,13 @@ from blend.environments.solids import hanging
 
 Rng = np.random.Generator
 FRONTS = palette("c8b49a b8a88c d8d0c0 a86a50 8a8c90 d0b880 b49a90 94a09c e0dcd2")
+"""Colours of plastered house fronts."""
 PANES = (0.03, 0.04, 0.055)
+"""Linear colour of window panes seen from outside in daylight: nearly black, a little blue."""
 
 
 def house(a: Assembly, rng: Rng, width: float = 9.0, floors: int = 3, deep: float = 6.0) -> None:
-    """A house, its front at y = 0 towards +y, with windows, a door or a shop."""
+    """A house with windows and a door; its front is at y = 0 and faces +y."""
     wall = pick(rng, ("brick", "wall", "wall", "blocks"))
     tint = (0.42, 0.22, 0.15) if wall == "brick" else vary(rng, pick(rng, FRONTS))
     high, frame = 3.1 * floors + 0.4, pick(rng, (WHITE, DARK_GREY, (0.2, 0.1, 0.05)))
@@ -104,7 +106,7 @@ def shed(a: Assembly, rng: Rng, width: float = 14.0, high: float = 5.5) -> None:
 
 
 def car(a: Assembly, rng: Rng, *, van: bool = False) -> None:
-    """A car whose side is along y, its middle at the origin."""
+    """A car or van along y, with its middle at the origin."""
     tint, long = pick(rng, CAR_PAINT), 4.3
     half = 0.5 * long
     if van:
@@ -227,7 +229,7 @@ def wheeled_bin(a: Assembly, rng: Rng) -> None:
 
 
 def container(a: Assembly, rng: Rng) -> None:
-    """A shipping container, its long side to +y."""
+    """A shipping container with a long side facing +y."""
     tint = vary(rng, pick(rng, palette("a83c28 1c4a7a 2a6a4a d88c20 7a7c7c b8b8b0")))
     a.box((0, 1.22, 0.15), (6.0, 2.44, 2.45), "ribbed", tint)
     for x in (-3.0, 3.0):
@@ -265,7 +267,7 @@ def bench(a: Assembly, rng: Rng) -> None:
 
 
 def wires(a: Assembly, rng: Rng, start: tuple[float, float, float], end: tuple[float, float, float]) -> None:
-    """Overhead lines between two places."""
+    """Three overhead lines between two points."""
     for n in range(3):
         shift = 0.25 * n
         a.tube(

@@ -1,4 +1,4 @@
-"""Colours that things have, in linear light, and drawing among them."""
+"""Colours of the things in environments, in linear light, and random choices among them."""
 
 from collections.abc import Sequence
 from typing import TypeVar
@@ -18,7 +18,7 @@ def srgb(code: str) -> Colour:
 
 
 def palette(codes: str) -> tuple[Colour, ...]:
-    """The colours of a list of codes, apart by blanks."""
+    """The colours of hexadecimal codes that blanks separate."""
     return tuple(srgb(code) for code in codes.split())
 
 
@@ -41,12 +41,12 @@ YELLOW, RED, ORANGE, BLUE, GREEN = srgb("e0b010"), srgb("b81c1c"), srgb("e0701c"
 
 
 def pick(rng: np.random.Generator, choices: Sequence[T]) -> T:
-    """One of several, each as likely."""
+    """One of several choices, each equally likely."""
     return choices[int(rng.integers(len(choices)))]
 
 
 def vary(rng: np.random.Generator, colour: Colour, spread: float = 0.12) -> Colour:
-    """A colour a little brighter or darker, and a little off in hue."""
+    """A colour made brighter or darker by up to the share `spread`, and shifted in hue by a third of that."""
     brightness = rng.uniform(1 - spread, 1 + spread)
     red, green, blue = (float(value * brightness * rng.uniform(1 - spread / 3, 1 + spread / 3)) for value in colour)
     return red, green, blue

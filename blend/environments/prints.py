@@ -1,4 +1,4 @@
-"""What is printed, written or shown in rooms: labels, posters, sheets, signs, screens, dials; drawn into one atlas."""
+"""Prints and screens of rooms, drawn into one image, the atlas: labels, posters, sheets, signs, screens, dials."""
 
 from collections.abc import Callable
 from enum import Enum
@@ -13,7 +13,7 @@ from blend.environments.palette import pick
 Image = NDArray[np.uint8]
 
 CELL_PX, CELLS = 256, 8
-"""Edge of a picture in texels, and how many there are of each kind."""
+"""Edge of a picture in texels, and number of pictures of each kind: one row of the atlas holds a kind."""
 
 _WORDS = [
     "SAFETY",
@@ -42,7 +42,7 @@ _FONT = cv2.FONT_HERSHEY_SIMPLEX
 
 
 class PrintKind(Enum):
-    """The atlas's rows, from the top."""
+    """Kinds of prints; the value is the row of the atlas that holds the kind, counted from the top."""
 
     SCREEN = 0
     POSTER = 1
@@ -55,18 +55,18 @@ class PrintKind(Enum):
 
 
 def cell(kind: PrintKind, number: int) -> Print:
-    """Where a picture lies in the atlas, a little within its edges."""
+    """The rectangle of a picture in the atlas, 1.5 texels inside its edges, so that no neighbour shows at them."""
     left, top, margin = (number % CELLS) / CELLS, 1.0 - kind.value / CELLS, 1.5 / (CELL_PX * CELLS)
     return left + margin, top - 1 / CELLS + margin, left + 1 / CELLS - margin, top - margin
 
 
 def any_of(rng: np.random.Generator, kind: PrintKind) -> Print:
-    """One of a kind's pictures."""
+    """The rectangle of a random picture of a kind."""
     return cell(kind, int(rng.integers(CELLS)))
 
 
 def draw_atlas(rng: np.random.Generator) -> Image:
-    """All of them, (2048, 2048, 3), sRGB, the top row first."""
+    """Draw the atlas with all prints, (2048, 2048, 3), sRGB, the top row first."""
     atlas = np.zeros((CELLS * CELL_PX, CELLS * CELL_PX, 3), np.uint8)
     for kind in PrintKind:
         for column in range(CELLS):
@@ -80,7 +80,7 @@ def _blank(colour: tuple[int, int, int]) -> Image:
 
 
 def _rows_of_text(image: Image, rng: np.random.Generator, box: tuple[int, int, int, int], ink: tuple[int, ...]) -> None:
-    """Lines of words in a box (left, top, right, bottom), too small to read, as strokes of a word's length."""
+    """Draw lines of text too small to read: strokes as long as words, in a box (left, top, right, bottom)."""
     left, top, right, bottom = box
     step = int(rng.integers(7, 12))
     for y in range(top, bottom - 4, step):

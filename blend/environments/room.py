@@ -22,11 +22,11 @@ from blend.environments.palette import (
 from blend.environments.prints import PrintKind, any_of
 
 THICK = 0.22
-"""Of walls, metres."""
+"""Thickness of the walls, metres, as deep as a window's reveal looks."""
 
 
 class Wall(Enum):
-    """By where it stands; the value is how far it is turned, so that its own y points into the room."""
+    """A wall, named by its side of the room; the value is the turn, in degrees, that points its y into the room."""
 
     EAST = 90
     NORTH = 180
@@ -35,7 +35,7 @@ class Wall(Enum):
 
 
 class Hole(Enum):
-    """What is in an opening of a wall."""
+    """The kinds of openings in a wall."""
 
     WINDOW = "window"
     DOOR = "door"
@@ -44,7 +44,15 @@ class Hole(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Opening:
-    """An opening in a wall; `middle` counts from the wall's middle, along its own x."""
+    """An opening in a wall, metres.
+
+    Attributes:
+        hole: kind of opening.
+        middle: position of the opening's middle along the wall's own x, from the wall's middle.
+        width: width of the opening.
+        sill: height of its lower edge over the floor.
+        height: height from its lower to its upper edge.
+    """
 
     hole: Hole
     middle: float
@@ -55,14 +63,19 @@ class Opening:
 
 @dataclass(frozen=True, slots=True)
 class Style:
-    """How a room's shell looks.
+    """The look of a room's shell.
 
     Attributes:
-        wall, upper, lower: material of the walls, its tint, and its tint below `dado` metres.
-        floor, floor_tint: material of the floor and its tint.
-        ceiling, ceiling_tint: the same of the ceiling.
-        frames: tint of window frames.
-        panes: across and up.
+        wall: material of the walls.
+        upper: tint of the walls above `dado`.
+        lower: tint of the walls below `dado`.
+        floor: material of the floor.
+        dado: height up to which the walls have the lower tint, metres.
+        floor_tint: tint of the floor.
+        ceiling: material of the ceiling.
+        ceiling_tint: tint of the ceiling.
+        frames: tint of the window frames.
+        panes: number of panes of a window, across and up.
     """
 
     wall: str
@@ -79,7 +92,17 @@ class Style:
 
 @dataclass(frozen=True, slots=True)
 class Room:
-    """A box of air, metres; the camera stands near its origin."""
+    """A box-shaped room, metres; the camera stands near the origin.
+
+    Attributes:
+        west: x of the west wall.
+        east: x of the east wall.
+        south: y of the south wall.
+        north: y of the north wall.
+        height: height of the ceiling over the floor at z = 0.
+        style: look of the shell.
+        openings: windows, doors and gates of each wall.
+    """
 
     west: float
     east: float
@@ -90,12 +113,20 @@ class Room:
     openings: dict[Wall, tuple[Opening, ...]] = field(default_factory=dict)
 
     def length(self, wall: Wall) -> float:
-        """Of a wall."""
+        """Length of a wall, metres."""
         return self.east - self.west if wall in {Wall.NORTH, Wall.SOUTH} else self.north - self.south
 
     @contextmanager
     def along(self, a: Assembly, wall: Wall, u: float = 0.0, off: float = 0.0, z: float = 0.0) -> Iterator[Assembly]:
-        """At a wall, `u` from its middle and `off` from its face; y points into the room."""
+        """Place things at a wall: x runs along the wall and y points into the room.
+
+        Args:
+            a: assembly that receives the things.
+            wall: the wall.
+            u: distance of the origin from the wall's middle, along the wall, metres.
+            off: distance of the origin from the wall's face, metres.
+            z: height of the origin, metres.
+        """
         x, y = 0.5 * (self.west + self.east), 0.5 * (self.south + self.north)
         place = {
             Wall.EAST: (self.east - off, y + u),
@@ -107,7 +138,7 @@ class Room:
             yield a
 
     def build(self, a: Assembly) -> None:
-        """Floor, ceiling, walls and what is in them."""
+        """Build floor, ceiling and walls with their windows, doors and gates."""
         width, depth = self.east - self.west, self.north - self.south
         middle = (0.5 * (self.west + self.east), 0.5 * (self.south + self.north))
         a.box((*middle, -0.1), (width + 1, depth + 1, 0.1), self.style.floor, self.style.floor_tint)
@@ -133,7 +164,7 @@ def _wall(a: Assembly, length: float, height: float, style: Style, openings: Seq
 
 
 def _panel(a: Assembly, left: float, right: float, low: float, high: float, style: Style) -> None:
-    """A part of a wall, its front at y = 0."""
+    """A part of a wall with its front at y = 0."""
     middle, width = 0.5 * (left + right), right - left
     cut = min(max(style.dado, low), high)
     for bottom, top, tint in ((low, cut, style.lower), (cut, high, style.upper)):
@@ -205,16 +236,16 @@ _FILLED: dict[Hole, Callable[[Assembly, Opening, Style], None]] = {
 
 
 def windows(count: int, length: float, width: float, sill: float, height: float) -> tuple[Opening, ...]:
-    """So many windows, evenly along a wall."""
+    """Make `count` equal windows, spread evenly over the given length of a wall; metres."""
     middles = (np.arange(count) + 0.5) / count * length - 0.5 * length
     return tuple(Opening(Hole.WINDOW, float(middle), width, sill, height) for middle in middles)
 
 
 def door(middle: float, width: float = 0.95, height: float = 2.1) -> Opening:
-    """A door."""
+    """Make a door; `middle` counts from the wall's middle, metres."""
     return Opening(Hole.DOOR, middle, width, 0.0, height)
 
 
 def gate(middle: float, width: float = 3.4, height: float = 3.4) -> Opening:
-    """A gate for vehicles."""
+    """Make a gate for vehicles; `middle` counts from the wall's middle, metres."""
     return Opening(Hole.GATE, middle, width, 0.0, height)

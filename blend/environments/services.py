@@ -1,4 +1,4 @@
-"""What hangs on walls and ceilings: pipes, trays, ducts, boards, signs, sockets, beams."""
+"""Things on walls and ceilings: pipes, trays, ducts, boards, signs, sockets, beams."""
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from blend.environments.solids import hanging
 
 Rng = np.random.Generator
 PIPES = palette("b8b8b4 8a3a2c 2c6a4a 3a5f8a c8a82c 9a9c9a d8d8d4")
+"""Colours of painted pipes."""
 
 
 def pipe_run(a: Assembly, rng: Rng, length: float, z: float, count: int = 3) -> None:
@@ -58,7 +59,7 @@ def _valve(a: Assembly, rng: Rng, x: float, y: float, z: float, radius: float) -
 
 
 def cable_tray(a: Assembly, rng: Rng, length: float, z: float, width: float = 0.35) -> None:
-    """A ladder tray along x with cables in it, on hangers, its middle at y = 0."""
+    """A ladder tray along x on hangers, with cables in it; its middle is at y = 0."""
     for side in (-0.5, 0.5):
         a.box((0, side * width, z), (length, 0.012, 0.07), "metal", LIGHT_GREY)
     for x in np.arange(-0.5 * length + 0.1, 0.5 * length, 0.3):
@@ -100,7 +101,7 @@ def pin_board(a: Assembly, rng: Rng, width: float = 1.4, high: float = 0.95) -> 
 
 
 def white_board(a: Assembly, rng: Rng, width: float = 1.8, high: float = 1.1) -> None:
-    """A whiteboard that has been drawn on."""
+    """A whiteboard with drawings on it."""
     a.box((0, 0.012, 0), (width, 0.02, high), "plastic", WHITE)
     for n in range(2):
         a.picture((-0.4 + 0.8 * n, 0.0225, 0.1), (0.75, 0.9), any_of(rng, PrintKind.DRAWING))
@@ -133,7 +134,7 @@ def clock(a: Assembly, rng: Rng) -> None:
 
 
 def extinguisher(a: Assembly, rng: Rng) -> None:
-    """A fire extinguisher on its hook, its sign above."""
+    """A fire extinguisher on a wall, with its sign above."""
     a.lathe((0, 0.1, 0.75), [(0.075, 0), (0.08, 0.02), (0.08, 0.4), (0.03, 0.48)], "paint", RED)
     a.box((0, 0.1, 1.22), (0.05, 0.1, 0.05), "plastic", BLACK)
     a.tube([(0.02, 0.12, 1.24), (0.12, 0.14, 1.2), (0.12, 0.14, 0.95)], 0.012, "rubber", BLACK)
@@ -142,7 +143,7 @@ def extinguisher(a: Assembly, rng: Rng) -> None:
 
 
 def trunking(a: Assembly, rng: Rng, length: float, z: float = 1.02) -> None:
-    """A wall duct with sockets, plugs and a few cords."""
+    """A wall duct with sockets, plugs and cords along x."""
     a.box((0, 0.03, z), (length, 0.06, 0.12), "plastic", vary(rng, WHITE), bevel=0.006)
     for x in np.arange(-0.5 * length + 0.3, 0.5 * length - 0.2, 0.45):
         a.box((float(x), 0.063, z + 0.02), (0.08, 0.01, 0.08), "plastic", WHITE, bevel=0.003)
@@ -154,7 +155,7 @@ def trunking(a: Assembly, rng: Rng, length: float, z: float = 1.02) -> None:
 
 
 def fuse_board(a: Assembly, rng: Rng) -> None:
-    """A grey distribution board with conduits upwards."""
+    """A grey distribution board with conduits that run upwards."""
     width, high = rng.uniform(0.45, 0.8), rng.uniform(0.6, 1.1)
     a.box((0, 0.11, 0.9), (width, 0.22, high), "paint", vary(rng, LIGHT_GREY), bevel=0.01)
     a.box((0, 0.226, 0.92), (width - 0.04, 0.014, high - 0.04), "paint", vary(rng, LIGHT_GREY, 0.05), bevel=0.006)
@@ -175,7 +176,7 @@ def radiator(a: Assembly, rng: Rng, width: float = 1.2) -> None:
 
 
 def truss(a: Assembly, length: float, z: float, tint: Colour, high: float = 0.7) -> None:
-    """A lattice girder along x, its lower chord at z."""
+    """A lattice girder along x with its lower chord at z."""
     for level in (z, z + high):
         a.box((0, 0, level), (length, 0.12, 0.1), "paint", tint)
     step = high
@@ -187,7 +188,7 @@ def truss(a: Assembly, length: float, z: float, tint: Colour, high: float = 0.7)
 
 
 def girder(a: Assembly, length: float, z: float, tint: Colour, high: float = 0.3) -> None:
-    """An I-beam along x, its underside at z."""
+    """An I-beam along x with its underside at z."""
     for level in (z, z + high - 0.02):
         a.box((0, 0, level), (length, 0.5 * high, 0.02), "paint", tint)
     a.box((0, 0, z), (length, 0.015, high), "paint", tint)

@@ -1,4 +1,4 @@
-"""A sky with clouds over a blurred town, drawn in numpy."""
+"""Draw the panorama of a sky with clouds over a blurred town, in numpy."""
 
 import cv2
 import numpy as np
@@ -8,6 +8,7 @@ from assets.surfaces.kit.grid import Grid
 from assets.surfaces.kit.noise import fractal
 
 WIDTH_PX = 2048
+"""Width of the panorama, pixels: 0.18 degrees each, enough for a blurred sky."""
 
 _CLEAR_ZENITH, _CLEAR_HORIZON = np.array([70, 118, 190]), np.array([196, 214, 230])
 _GREY_ZENITH, _GREY_HORIZON = np.array([196, 200, 206]), np.array([226, 229, 230])
@@ -15,12 +16,12 @@ _WALLS = ((150, 128, 110), (172, 160, 144), (128, 116, 108), (186, 182, 172), (1
 
 
 def draw_sky(rng: np.random.Generator, overcast: float, *, town: bool) -> NDArray[np.uint8]:
-    """A panorama (1024, 2048, 3), sRGB, the zenith first.
+    """Draw a panorama (1024, 2048, 3), sRGB, the zenith first.
 
     Args:
-        rng: of the clouds and houses.
-        overcast: 0 blue to 1 grey.
-        town: whether there is a skyline on the horizon.
+        rng: source of the randomness, for the clouds and the houses.
+        overcast: cover by clouds, from 0 for a blue sky to 1 for a grey one.
+        town: whether houses and trees stand on the horizon.
     """
     rows, columns = WIDTH_PX // 2, WIDTH_PX
     height = np.linspace(1, 0, rows // 2)[:, None, None] ** 0.6
@@ -39,7 +40,7 @@ def draw_sky(rng: np.random.Generator, overcast: float, *, town: bool) -> NDArra
 
 
 def _houses(sky: NDArray[np.uint8], rng: np.random.Generator) -> None:
-    """House fronts with windows, and round trees before them, on the horizon."""
+    """Draw house fronts with windows on the horizon, and round trees in front of them."""
     horizon, x = sky.shape[0] // 2, 0
     while x < sky.shape[1]:
         width, high = int(rng.integers(50, 170)), int(rng.integers(18, 120))

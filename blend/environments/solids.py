@@ -14,7 +14,7 @@ Faces = tuple[NDArray[np.int64], ...]
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """Points (N, 3) in metres and faces as index arrays (M, K)."""
+    """A solid: points (N, 3) in metres, faces as index arrays (M, K), and whether they are shaded as if curved."""
 
     points: Points
     faces: Faces
@@ -23,7 +23,14 @@ class Solid:
 
 @dataclass(frozen=True, slots=True)
 class BoxTemplate:
-    """A box of any size: signs (N, 3) of its corners, and along which axis each lies right outside (N, 3)."""
+    """A box of any size.
+
+    Attributes:
+        signs: signs of the corners' coordinates, (N, 3).
+        outer: whether a corner reaches the box's full extent along each axis, (N, 3); along the others a chamfer
+            sets it back.
+        faces: index arrays (M, K).
+    """
 
     signs: Points
     outer: NDArray[np.bool_]
@@ -31,7 +38,7 @@ class BoxTemplate:
 
 
 def _outward(points: Points, face: Sequence[int]) -> list[int]:
-    """A convex face of a solid about the origin, its corners in the order that makes it face outwards."""
+    """Order the corners of a convex face so that it faces away from the origin, which lies inside the solid."""
     corners = points[list(face)]
     middle = corners.mean(axis=0)
     across = np.linalg.svd(corners - middle)[2]
@@ -79,7 +86,7 @@ CHAMFERED = _box_template(chamfered=True)
 
 
 def turned(x: float, y: float, z: float, turn: float = 0.0, lean: float = 0.0) -> Points:
-    """A frame (4, 4) at a place, turned about the vertical, then leaned about its own x axis; degrees."""
+    """A matrix (4, 4): lean about x, then turn about the vertical, then move to x, y, z; degrees and metres."""
     c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
     cl, sl = math.cos(math.radians(lean)), math.sin(math.radians(lean))
     return np.array(
@@ -88,12 +95,12 @@ def turned(x: float, y: float, z: float, turn: float = 0.0, lean: float = 0.0) -
 
 
 def lathed(profile: Sequence[tuple[float, float]], axis: str, sides: int) -> Iterator[Solid]:
-    """A body of revolution, its mantle smooth, its flat ends apart.
+    """Make a body of revolution: a smooth mantle, and its flat ends as solids of their own.
 
     Args:
-        profile: radius and distance along the axis.
+        profile: radius and distance along the axis of each ring, metres.
         axis: "x", "y" or "z".
-        sides: of the polygon that stands for the circle.
+        sides: number of sides of the polygon that stands for the circle.
     """
     angle = np.arange(sides) * 2 * np.pi / sides
     circle = np.column_stack([np.cos(angle), np.sin(angle)])
@@ -115,7 +122,7 @@ def lathed(profile: Sequence[tuple[float, float]], axis: str, sides: int) -> Ite
 
 
 def swept(points: Points, radius: float, sides: int = 7) -> Solid:
-    """A tube along points (N, 3), whose ring is carried along without twist."""
+    """Make a tube along points (N, 3); its rings follow one another without twist."""
     along = np.gradient(points, axis=0)
     along /= np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
     side = np.cross(along[0], [0.0, 0.0, 1.0] if abs(along[0, 2]) < 0.9 else [1.0, 0.0, 0.0])
@@ -136,7 +143,7 @@ def swept(points: Points, radius: float, sides: int = 7) -> Solid:
 
 
 def hanging(start: Sequence[float], end: Sequence[float], sag: float, count: int = 9) -> Points:
-    """Points (count, 3) of a cable that sags between two ends."""
+    """Points (count, 3) of a cable that sags by `sag` metres in the middle between two ends."""
     share = np.linspace(0.0, 1.0, count)[:, None]
     points: Points = np.array(start) * (1 - share) + np.array(end) * share
     points[:, 2] -= 4 * sag * (share * (1 - share))[:, 0]

@@ -1,4 +1,4 @@
-"""Cupboards, shelving, racks and pallets, filled."""
+"""Filled cupboards, shelving, racks and pallets."""
 
 from collections.abc import Sequence
 
@@ -27,7 +27,7 @@ Rng = np.random.Generator
 
 
 def steel_cupboard(a: Assembly, rng: Rng) -> None:
-    """A two-door steel cupboard, things on its top."""
+    """A two-door steel cupboard with things on top."""
     tint, width, high = vary(rng, pick(rng, STEEL_FURNITURE)), 0.95, 1.95
     a.box((0, 0.22, 0.06), (width, 0.42, high - 0.06), "paint", tint, bevel=0.008)
     a.box((0, 0.2, 0), (width - 0.06, 0.36, 0.06), "paint", BLACK)
@@ -65,7 +65,7 @@ def lockers(a: Assembly, rng: Rng) -> None:
 def steel_shelf(
     a: Assembly, rng: Rng, pieces: Sequence[Piece] = STORED, *, width: float = 1.2, high: float = 2.1, boards: int = 5
 ) -> None:
-    """Open shelving of angle steel, filled."""
+    """Filled open shelving of angle steel."""
     post = pick(rng, (STEEL, LIGHT_GREY, BLUE, DARK_GREY))
     for x in (-0.5 * width, 0.5 * width):
         for y in (0.03, 0.47):
@@ -79,7 +79,7 @@ def steel_shelf(
 
 
 def book_case(a: Assembly, rng: Rng) -> None:
-    """A wooden case of shelves with binders, books and oddments."""
+    """A wooden bookcase with binders, books and oddments."""
     wood, width, high = pick(rng, (*WOODS, WHITE, LIGHT_GREY)), 0.9, rng.choice([1.2, 2.0])
     for x in (-0.5 * width, 0.5 * width):
         a.box((x, 0.17, 0), (0.022, 0.34, high), "wood", wood, bevel=0.003)
@@ -95,7 +95,7 @@ def book_case(a: Assembly, rng: Rng) -> None:
 def pallet_rack(
     a: Assembly, rng: Rng, pieces: Sequence[Piece] = STORED, *, width: float = 2.7, levels: int = 3, gap: float = 1.25
 ) -> None:
-    """Heavy racking: blue uprights, orange beams, loaded."""
+    """Loaded heavy racking with painted uprights and orange beams."""
     deep, upright = 0.95, pick(rng, (BLUE, (0.02, 0.1, 0.05), (0.3, 0.32, 0.34)))
     high = gap * levels
     for x in (-0.5 * width, 0.5 * width):
@@ -121,7 +121,7 @@ def pallet_rack(
 
 
 def _loaded(a: Assembly, rng: Rng, pieces: Sequence[Piece], width: float, high: float) -> None:
-    """One level's goods: two rows deep of loose things, or pallets stacked with cartons."""
+    """The goods on one level: loose things in two rows, or two pallets of cartons."""
     if rng.random() < 0.45:
         for x in (-0.25, 0.25):
             with a.at(x * width, 0.0):
@@ -134,7 +134,7 @@ def _loaded(a: Assembly, rng: Rng, pieces: Sequence[Piece], width: float, high: 
 
 
 def pallet(a: Assembly, rng: Rng, layers: int = 3) -> None:
-    """A pallet, with layers of like cartons."""
+    """A pallet with `layers` layers of equal cartons."""
     wood = pick(rng, WOODS)
     for y in (0.06, 0.4, 0.74):
         a.box((0, y, 0), (1.15, 0.09, 0.1), "wood", vary(rng, wood))

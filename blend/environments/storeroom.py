@@ -24,10 +24,11 @@ from blend.environments.scene import Light
 
 Rng = np.random.Generator
 TRUCKS = (ORANGE, YELLOW, RED, *palette("2a6a3a 1c5aa0"))
+"""Colours of lift trucks and pallet trucks."""
 
 
 def lift_truck(a: Assembly, rng: Rng) -> None:
-    """A counterbalanced truck; its forks point to +y."""
+    """A counterbalanced lift truck with its forks towards +y."""
     tint = pick(rng, TRUCKS)
     a.box((0, 0.75, 0.22), (1.05, 1.5, 0.5), "paint", tint, bevel=0.06)
     a.box((0, 0.35, 0.7), (1.0, 0.7, 0.42), "paint", tint, bevel=0.08)
@@ -87,7 +88,7 @@ def packing_table(a: Assembly, rng: Rng) -> None:
 
 
 def build(a: Assembly, rng: Rng, variant: int) -> Light:
-    """Build one: a tall warehouse, or a storeroom with shelving close by."""
+    """Build a storeroom: a tall warehouse, or a small room with shelving close to the camera."""
     return _warehouse(a, rng) if variant % 2 else _storeroom(a, rng)
 
 

@@ -32,11 +32,13 @@ from blend.environments.tools import BENCH, meter
 
 Rng = np.random.Generator
 CABINETS = palette("c9cac5 b5b8b6 d6d3c6 8d979c a9aca4")
+"""Colours of electrical cabinets."""
 WIRES = palette("1c3f9a 141414 8a5a30 7a7c7e b02020 2a8a3a d8c020 e8e8e4 d8701c 1c3f9a 141414")
+"""Colours of wires in cabinets; blue and black are listed twice, since they are the most common."""
 
 
 def breakers(a: Assembly, rng: Rng, width: float, z: float) -> None:
-    """A rail with devices side by side, from -width/2 to width/2, its lower edge at z."""
+    """A rail with circuit breakers and other devices side by side, `width` long, with its lower edge at z."""
     a.box((0, 0.02, z + 0.055), (width, 0.02, 0.035), "metal", STEEL)
     x = -0.5 * width + 0.01
     while x < 0.5 * width - 0.03:
@@ -69,7 +71,7 @@ def terminals(a: Assembly, rng: Rng, width: float, z: float) -> None:
 
 
 def wire_duct(a: Assembly, place: tuple[float, float, float], size: tuple[float, float]) -> None:
-    """A slotted duct, `size` along x and z."""
+    """A slotted wire duct; `size` is its extent along x and z."""
     x, y, z = place
     a.box((x, y + 0.03, z), (size[0], 0.06, size[1]), "plastic", (0.34, 0.36, 0.36))
     a.box((x, y + 0.063, z), (size[0], 0.006, size[1]), "plastic", (0.42, 0.44, 0.44))
@@ -87,7 +89,7 @@ def wire_duct(a: Assembly, place: tuple[float, float, float], size: tuple[float,
 
 
 def looms(a: Assembly, rng: Rng, width: float, low: float, high: float, count: int) -> None:
-    """Loose wires between two levels."""
+    """`count` loose wires between the heights `low` and `high`."""
     for _ in range(count):
         x = rng.uniform(-0.48, 0.48) * width
         other = x + rng.normal(0, 0.08)
@@ -101,7 +103,7 @@ def looms(a: Assembly, rng: Rng, width: float, low: float, high: float, count: i
 
 
 def mounting_plate(a: Assembly, rng: Rng, width: float, low: float, high: float) -> None:
-    """A plate with rails of devices, ducts between them, drives, and wires all over."""
+    """A plate with rails of devices, wire ducts between them, drives, and many loose wires."""
     a.box((0, 0.005, low), (width, 0.01, high - low), "metal" if rng.random() < 0.5 else "paint", (0.62, 0.62, 0.58))
     for side in (-0.5, 0.5):
         wire_duct(a, (side * (width - 0.06), 0.01, low), (0.05, high - low))
@@ -148,7 +150,7 @@ def mounting_plate(a: Assembly, rng: Rng, width: float, low: float, high: float)
 
 
 def open_cabinet(a: Assembly, rng: Rng) -> None:
-    """A cabinet with its door off or swung open."""
+    """A cabinet whose door is off or swung open."""
     width, deep, high, tint = 1.0, 0.5, 2.0, vary(rng, pick(rng, CABINETS), 0.05)
     a.box((0, 0.02, 0.1), (width, 0.03, high - 0.1), "paint", tint)
     for side in (-0.5, 0.5):
@@ -196,7 +198,7 @@ def closed_cabinet(a: Assembly, rng: Rng) -> None:
 
 
 def transformer(a: Assembly, rng: Rng) -> None:
-    """A dry transformer with copper bars, behind a rail."""
+    """A dry-type transformer with copper bars, behind a guard rail."""
     for x in (-0.45, 0.0, 0.45):
         a.cylinder((x, 0.4, 0.25), 0.2, 0.85, "paint", pick(rng, ((0.35, 0.08, 0.04), (0.1, 0.14, 0.3))), sides=20)
         a.cylinder((x, 0.4, 0.2), 0.1, 1.0, "metal", DARK_GREY)
@@ -211,11 +213,13 @@ def transformer(a: Assembly, rng: Rng) -> None:
 
 
 CLOSED = Piece(closed_cabinet, 0.81, 0.5)
+"""A closed cabinet, to be lined up."""
 OPEN = Piece(open_cabinet, 1.01, 0.5)
+"""An open cabinet, to be lined up."""
 
 
 def build(a: Assembly, rng: Rng, variant: int) -> Light:
-    """Build one: a room with rows of cabinets, or a place close before open ones."""
+    """Build a switch room: a narrow one with the camera close to open cabinets, or a larger one with rows of them."""
     close = variant % 2 == 0
     style = Style(
         wall="wall" if close else "blocks",
@@ -277,7 +281,7 @@ def build(a: Assembly, rng: Rng, variant: int) -> Light:
 
 
 def _loose(a: Assembly, rng: Rng, room: Room, *, close: bool) -> None:
-    """Tools, reels and papers about, and what hangs on the free walls."""
+    """Add tools, coils and papers that lie about, and the things that hang on the free wall."""
     if close:
         with a.at(-1.5, -0.7, turn=60):
             furniture.trolley(a, rng)

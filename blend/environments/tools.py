@@ -1,4 +1,7 @@
-"""Tools and what lies about on benches. Each as `layout.Build` has it."""
+"""Tools and other things that lie on benches.
+
+Each function is a `layout.Build`: the thing's back is at y = 0, its foot at z = 0, its middle at x = 0.
+"""
 
 import numpy as np
 
@@ -23,7 +26,7 @@ Rng = np.random.Generator
 
 
 def drill(a: Assembly, rng: Rng) -> None:
-    """A cordless drill, lying on its side."""
+    """A cordless drill that lies on its side."""
     tint = pick(rng, PLASTICS)
     a.cylinder((-0.09, 0.12, 0.035), 0.033, 0.15, "plastic", tint, axis="x")
     a.cylinder((0.06, 0.12, 0.035), 0.022, 0.05, "metal", DARK_GREY, axis="x", top=0.012)
@@ -101,3 +104,4 @@ BENCH = (
     Piece(small_carton, 0.26, 0.24),
     Piece(reel, 0.3, 0.36),
 )
+"""Things that lie on workbenches."""

@@ -25,7 +25,9 @@ from blend.environments.tools import BENCH
 Rng = np.random.Generator
 
 UPPER = palette("d8d4c4 c8ccc8 dcd8d0 b8c0bc")
+"""Colours of painted walls above the dado."""
 LOWER = palette("4a6a5a 5a6a78 8a8478 6a7a70 3f5668")
+"""Colours of painted walls below the dado."""
 
 FLOOR_PIECES = (
     Piece(furniture.workbench, 2.05, 0.8),
@@ -41,10 +43,11 @@ FLOOR_PIECES = (
     Piece(furniture.trolley, 0.95, 0.6),
     Piece(furniture.ladder, 0.6, 0.6),
 )
+"""Things that stand along a workshop's walls."""
 
 
 def build(a: Assembly, rng: Rng, variant: int) -> Light:
-    """Build one; the variants differ in size, walls and light."""
+    """Build a workshop; the two variants differ in height, walls and light."""
     old = variant % 2 == 0
     style = Style(
         wall="brick" if old else "blocks",
@@ -125,7 +128,7 @@ def _walls(a: Assembly, rng: Rng, room: Room) -> None:
 
 
 def _middle(a: Assembly, rng: Rng) -> None:
-    """What stands free: an assembly table, stools, a pallet, a machine on its own."""
+    """Add the things that stand free: an assembly table, stools, trolleys, a pallet, a drum, a machine."""
     with a.at(2.0, -1.9, turn=rng.normal(90, 6)):
         a.box((0, 0.45, 0.82), (1.9, 0.9, 0.06), "surface:birch_veneer", (0.8, 0.7, 0.6), bevel=0.01)
         furniture.legs(a, (1.9, 0.9, 0.82), "paint", vary(rng, pick(rng, MACHINES)))

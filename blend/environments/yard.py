@@ -1,4 +1,4 @@
-"""Outdoors: a works yard, and a street."""
+"""Outdoor environments: a works yard and a street."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ Rng = np.random.Generator
 
 
 def build(a: Assembly, rng: Rng, variant: int) -> Light:
-    """Build one: a works yard, or a street."""
+    """Build an outdoor environment: a works yard or a street."""
     return _works(a, rng) if variant % 2 else _street(a, rng)
 
 

@@ -10,7 +10,7 @@ from assets.surfaces.kit.maps import SurfaceMaps
 from assets.surfaces.recipe import recipe_generator
 
 PIXELS = 768
-"""Joints half a millimetre wide show, and those of 2, 3 or 4 tiles across fall alike on the texels."""
+"""Edge of the small builds, texels: joints half a millimetre wide show, and 2, 3 or 4 tiles fit evenly."""
 
 
 @cache
@@ -21,7 +21,7 @@ def built(name: str) -> SurfaceMaps:
 
 
 def steps(image: npt.NDArray[np.generic], axis: int) -> npt.NDArray[np.float64]:
-    """Mean difference between each row (axis 0) or column (axis 1) and the one before it; the first is the seam."""
+    """Mean difference between each row (axis 0) or column (axis 1) and the one before; the first is the seam's."""
     values = np.asarray(image, np.float64)
     difference = np.abs(values - np.roll(values, 1, axis))
     return np.asarray(difference.mean(axis=tuple(i for i in range(values.ndim) if i != axis)))

@@ -30,7 +30,7 @@ def folder(tmp_path: Path) -> Path:
 
 
 def write(folder: Path, **changed: object) -> Path:
-    """Put an environment there, its record changed; returns the record's path."""
+    """Put an environment there with a changed record; returns the record's path."""
     directory = environment_directory(folder, NAME)
     directory.mkdir(parents=True, exist_ok=True)
     (directory / "panorama.exr").write_bytes(CONTENT)
@@ -48,7 +48,7 @@ def write(folder: Path, **changed: object) -> Path:
 
 
 def test_every_kind_comes_in_two_variants() -> None:
-    """Seven kinds, fourteen environments, each under its own name."""
+    """There are seven kinds and fourteen environments, each with its own name."""
     assert len(ENVIRONMENTS) == 14
     assert {name: recipe.name for name, recipe in ENVIRONMENTS.items()} == {name: name for name in ENVIRONMENTS}
     for kind in EnvironmentKind:
@@ -56,7 +56,7 @@ def test_every_kind_comes_in_two_variants() -> None:
 
 
 def test_each_draws_from_its_own_generator() -> None:
-    """No two share their random numbers, and the same recipe has the same ones again."""
+    """No two environments share random numbers, and a recipe has the same ones each time."""
     first = {name: float(environment_generator(recipe).random()) for name, recipe in ENVIRONMENTS.items()}
     again = {name: float(environment_generator(recipe).random()) for name, recipe in ENVIRONMENTS.items()}
     assert first == again
@@ -64,7 +64,7 @@ def test_each_draws_from_its_own_generator() -> None:
 
 
 def test_a_version_keeps_the_room_and_another_seed_is_another() -> None:
-    """What was looked at stays when a recipe's finish changes."""
+    """A new version keeps the layout of a room, and another seed changes it."""
     recipe = ENVIRONMENTS[NAME]
     newer = recipe.model_copy(update={"version": recipe.version + 1})
     other = recipe.model_copy(update={"seed": recipe.seed + 2})
@@ -73,7 +73,7 @@ def test_a_version_keeps_the_room_and_another_seed_is_another() -> None:
 
 
 def test_an_environment_is_found(folder: Path) -> None:
-    """By its name, with its record."""
+    """An environment is found by its name, with its record."""
     found = load_environment(folder, NAME)
     assert found.path == folder / "environments" / NAME / "panorama.exr"
     assert found.record.mean_luminance == 0.8
@@ -86,14 +86,14 @@ def test_one_that_is_not_rendered_says_what_to_run(folder: Path) -> None:
 
 
 def test_a_changed_panorama_is_refused(folder: Path) -> None:
-    """Its checksum tells."""
+    """A panorama with another checksum is refused."""
     (environment_directory(folder, NAME) / "panorama.exr").write_bytes(CONTENT + b".")
     with pytest.raises(AssetError, match=r"panorama\.exr: differs from its checksum"):
         load_environment(folder, NAME)
 
 
 def test_a_missing_panorama_is_refused(folder: Path) -> None:
-    """A record alone is not enough."""
+    """An environment with a record but no panorama is refused."""
     (environment_directory(folder, NAME) / "panorama.exr").unlink()
     with pytest.raises(AssetError, match=r"panorama\.exr: is missing"):
         load_environment(folder, NAME)
@@ -112,7 +112,7 @@ def test_a_missing_panorama_is_refused(folder: Path) -> None:
     ],
 )
 def test_a_record_that_lies_is_refused(folder: Path, changed: dict[str, object], told: str) -> None:
-    """Every field is checked, and the error names it and the file."""
+    """Every field of a record is checked, and the error names the field and the file."""
     write(folder, **changed)
     with pytest.raises(AssetError, match=rf"environment\.json: .*{told}"):
         load_environment(folder, NAME)
@@ -120,13 +120,13 @@ def test_a_record_that_lies_is_refused(folder: Path, changed: dict[str, object],
 
 @pytest.mark.parametrize("name", ["", ".", "..", "../secret", "a/b", "/etc", "a\0b"])
 def test_no_name_leads_out_of_the_folder(folder: Path, name: str) -> None:
-    """A header may come from anybody."""
+    """A name in a header from a stranger leads to no file outside the folder."""
     with pytest.raises(AssetError, match="can't name an environment"):
         load_environment(folder, name)
 
 
 def test_only_what_is_there_and_current_counts(folder: Path) -> None:
-    """Another size or an older version is rendered anew; any size will do where none is asked for."""
+    """A panorama of another size or an older version is rendered again; without a size, any size will do."""
     others = set(ENVIRONMENTS) - {NAME}
     assert {recipe.name for recipe in missing_environments(folder, None)} == others
     assert {recipe.name for recipe in missing_environments(folder, 512)} == others
@@ -136,11 +136,11 @@ def test_only_what_is_there_and_current_counts(folder: Path) -> None:
 
 
 def test_names_keep_the_registrys_order() -> None:
-    """Whatever the order in which they are asked for."""
+    """Names come in the registry's order, whatever the order in which they are asked for."""
     assert [recipe.name for recipe in chosen_environments(("yard_1", NAME))] == [NAME, "yard_1"]
 
 
 def test_an_unknown_name_is_refused() -> None:
-    """The error lists what there is."""
+    """The error lists the known names."""
     with pytest.raises(AssetError, match=r"'cave'; there are workshop_1"):
         chosen_environments(("cave",))

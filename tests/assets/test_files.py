@@ -8,7 +8,7 @@ from farm.errors import AssetError
 
 
 def test_a_file_is_read_whole(tmp_path: Path) -> None:
-    """The bytes come back."""
+    """All bytes of a file are read."""
     path = tmp_path / "file"
     path.write_bytes(b"abc")
     assert read_bounded(path) == b"abc"
@@ -24,25 +24,25 @@ def test_an_oversized_file_is_not_read(tmp_path: Path) -> None:
 
 
 def test_an_empty_file_is_refused(tmp_path: Path) -> None:
-    """Nothing can be decoded from nothing."""
+    """An empty file is refused, as nothing can be decoded from it."""
     (tmp_path / "file").touch()
     with pytest.raises(AssetError, match="the file is empty"):
         read_bounded(tmp_path / "file")
 
 
 def test_a_missing_file_is_an_asset_error(tmp_path: Path) -> None:
-    """The system's reason is passed on."""
+    """The error holds the system's reason."""
     with pytest.raises(AssetError, match="No such file"):
         read_bounded(tmp_path / "file")
 
 
 def test_the_checksum_is_sha256() -> None:
-    """The published value for 'abc'."""
+    """The checksum of 'abc' is the published one."""
     assert sha256(b"abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
 
 
 def test_a_write_replaces_the_file_and_leaves_nothing_else(tmp_path: Path) -> None:
-    """After a write there is only the file, with the new content."""
+    """After a write there is only the file with the new content."""
     path = tmp_path / "file"
     write_atomically(path, b"old")
     write_atomically(path, b"new")

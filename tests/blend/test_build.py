@@ -16,19 +16,19 @@ pytestmark = pytest.mark.blender
 
 
 def content_of(path: Path) -> object:
-    """All that a file holds."""
+    """A description of everything in a file."""
     open_template(path)
     return describe_content()
 
 
 def test_a_fresh_build_equals_the_shipped_template_in_content(tmp_path: Path) -> None:
-    """Building again gives the same scenes, settings and names, whatever addresses Blender writes into the bytes."""
+    """Building again gives the same scenes, settings and names, although bytes of the file differ."""
     build_template(tmp_path / "again.blend")
     assert content_of(tmp_path / "again.blend") == content_of(TEMPLATE)
 
 
 def test_the_description_sees_a_changed_setting(tmp_path: Path) -> None:
-    """The comparison is no empty one: one changed number shows."""
+    """One changed number shows in the comparison."""
     before = content_of(TEMPLATE)
     bpy.data.objects[names.POINT_LAMP].data.energy += 1.0
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "changed.blend"), copy=True)
@@ -36,7 +36,7 @@ def test_the_description_sees_a_changed_setting(tmp_path: Path) -> None:
 
 
 def test_the_shipped_template_lacks_nothing() -> None:
-    """The contract holds for the template that comes with the farm."""
+    """The template that comes with the farm fulfils the contract."""
     open_template(TEMPLATE)
     assert list(find_missing()) == []
 
@@ -46,7 +46,7 @@ def test_the_shipped_template_lacks_nothing() -> None:
     [names.CABLE, names.FLOOR, names.CAMERA, names.POINT_LAMP, names.AREA_LAMP],
 )
 def test_a_template_without_an_object_is_refused_by_its_name(tmp_path: Path, name: str) -> None:
-    """What is missing is named."""
+    """The error names what is missing."""
     open_template(TEMPLATE)
     bpy.data.objects.remove(bpy.data.objects[name])
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "less.blend"), copy=True)
@@ -64,7 +64,7 @@ def test_a_template_without_an_object_is_refused_by_its_name(tmp_path: Path, nam
     ],
 )
 def test_a_material_without_a_node_is_refused(tmp_path: Path, material: str, node: str) -> None:
-    """The materials' nodes are part of the contract."""
+    """A material that lacks one of the contract's nodes is refused."""
     open_template(TEMPLATE)
     nodes = bpy.data.materials[material].node_tree.nodes
     nodes.remove(nodes[node])
@@ -74,7 +74,7 @@ def test_a_material_without_a_node_is_refused(tmp_path: Path, material: str, nod
 
 
 def test_a_floor_that_was_moved_is_refused(tmp_path: Path) -> None:
-    """The masks and the fall take it to be at z = 0."""
+    """A floor that isn't at z = 0 is refused, as masks and falls rely on it."""
     open_template(TEMPLATE)
     bpy.data.objects[names.FLOOR].location.z = 0.01
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "moved.blend"), copy=True)
@@ -83,7 +83,7 @@ def test_a_floor_that_was_moved_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_dirt_ramp_of_three_stops_is_refused(tmp_path: Path) -> None:
-    """The worker sets a clean and a dirty stop."""
+    """A dirt ramp must have two stops, as the worker sets a clean and a dirty one."""
     open_template(TEMPLATE)
     ramp = bpy.data.materials[names.CABLE].node_tree.nodes[names.CABLE_COLOUR_RAMP].color_ramp
     ramp.elements.new(0.5)
@@ -101,7 +101,7 @@ def test_a_file_that_is_no_blend_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_template_that_is_not_there_is_refused(tmp_path: Path) -> None:
-    """The error says which file was looked for."""
+    """The error names the file."""
     with pytest.raises(TemplateError, match=r"nowhere\.blend"):
         open_template(tmp_path / "nowhere.blend")
 
@@ -116,7 +116,7 @@ def test_a_template_without_a_scene_of_the_fall_is_accepted(tmp_path: Path) -> N
 
 
 def test_scripts_in_a_template_do_not_run(tmp_path: Path) -> None:
-    """A text block registered to run at load is left alone."""
+    """A text block that is registered to run at load doesn't run."""
     open_template(TEMPLATE)
     marker = tmp_path / "ran"
     text = bpy.data.texts.new("attack.py")

@@ -1,4 +1,4 @@
-"""Templates that try to run code or write files: what Blender and the farm's check make of them, in real processes."""
+"""Templates that try to run code or write files, in real processes of Blender and of the farm's check."""
 
 import subprocess
 import sys
@@ -21,14 +21,14 @@ CODE = ["text", "handler", "driver", "freestyle"]
 
 
 def run(*arguments: str) -> None:
-    """Run the program that makes and renders templates, to its end."""
+    """Run the program that makes and renders templates."""
     command = [sys.executable, "-P", str(PROGRAM), *arguments]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
 def make(kind: str, folder: Path) -> Path:
-    """A template of a kind; its marker, which making it may have left, is gone."""
+    """Make a template of a kind, and remove the marker that making it may have left."""
     run(kind, str(folder / "template.blend"), str(folder / "marker"))
     for marker in folder.glob("marker"):
         marker.unlink()
@@ -51,13 +51,13 @@ def ask_worker(command: list[str], template: Path) -> "subprocess.CompletedProce
 
 
 def markers(template: Path) -> list[str]:
-    """Files that the template's code, or its nodes, have written."""
+    """The files that the template's code or nodes have written."""
     return [path.name for path in template.parent.glob("marker*")]
 
 
 @pytest.mark.parametrize("kind", CODE)
 def test_code_in_a_template_is_refused_and_does_not_run(tmp_path: Path, kind: str) -> None:
-    """The check names it in one line; neither the check nor a preview runs it. With scripts on, it does run."""
+    """The check names the code in one line, and neither check nor preview runs it. With scripts on, it runs."""
     template = make(kind, tmp_path)
     for command in (["check"], ["preview", "--job", "far-000000", "--out", str(tmp_path / "picture.png")]):
         told = ask_worker(command, template)
@@ -71,7 +71,7 @@ def test_code_in_a_template_is_refused_and_does_not_run(tmp_path: Path, kind: st
 
 @pytest.mark.parametrize("kind", CODE)
 def test_code_does_not_run_even_in_a_render_without_the_check(tmp_path: Path, kind: str) -> None:
-    """Opening with the scripts off, as the farm does, is a defence of its own."""
+    """The farm opens files with scripts off, which alone keeps code from running."""
     template = make(kind, tmp_path)
     run("careful", str(template), str(tmp_path / "own.png"))
     assert (tmp_path / "own.png").exists()
@@ -80,21 +80,21 @@ def test_code_does_not_run_even_in_a_render_without_the_check(tmp_path: Path, ki
 
 @pytest.mark.parametrize(("kind", "words"), [("script_node", "script node"), ("image", "outside file")])
 def test_files_beside_a_template_are_refused(tmp_path: Path, kind: str, words: str) -> None:
-    """A picture must not depend on what no checksum stands for."""
+    """A file beside the template is refused, as no checksum covers it."""
     told = ask_worker(["check"], make(kind, tmp_path))
     assert told.returncode == TemplateError.exit_code
     assert words in told.stderr
 
 
 def test_a_linked_library_is_refused(tmp_path: Path) -> None:
-    """Even where it lies at an absolute path of this machine."""
+    """A linked library is refused, even at an absolute path of this machine."""
     told = ask_worker(["check"], make("library", tmp_path))
     assert told.returncode == TemplateError.exit_code
     assert "library.blend" in told.stderr
 
 
 def test_nodes_that_write_files_write_none(tmp_path: Path) -> None:
-    """The compositor's file output needs no script; the farm renders without the compositor. Blender itself writes."""
+    """The farm renders without the compositor, whose file output needs no script. Blender alone writes the file."""
     template = make("file_output", tmp_path)
     told = ask_worker(["preview", "--job", "far-000000", "--out", str(tmp_path / "picture.png")], template)
     assert told.returncode == 0, told.stderr
@@ -104,6 +104,6 @@ def test_nodes_that_write_files_write_none(tmp_path: Path) -> None:
 
 
 def test_arithmetic_in_drivers_is_allowed(tmp_path: Path) -> None:
-    """Blender works it out by itself, without Python."""
+    """Drivers with plain arithmetic are allowed, as Blender evaluates them without Python."""
     told = ask_worker(["check"], make("arithmetic", tmp_path))
     assert told.returncode == 0, told.stderr

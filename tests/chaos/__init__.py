@@ -1,1 +1,4 @@
-"""Seeded faults against a whole farm: real Redis, real Celery workers, a real coordinator; `python -m tests.chaos`."""
+"""Seeded faults against a whole farm, with real Redis, real Celery workers and a real coordinator.
+
+`python -m tests.chaos` runs them.
+"""

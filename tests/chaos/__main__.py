@@ -1,4 +1,4 @@
-"""`python -m tests.chaos --seed 0 --out results`: faults against a whole farm, and whether it holds.
+"""`python -m tests.chaos --seed 0 --out results`: faults against a whole farm, and whether it withstands them.
 
 Ends with 0 if every scenario held, else with 1. The files of those that did not are left, and told.
 """
@@ -88,7 +88,7 @@ def _play_stand_ins(
         outcome = play(plan, claims, events, folder, scenario.patience_s)
         return _tell(replace(outcome, notes=left_out + outcome.notes), console)
 
-    # The threads live until all is played: a farm's processes end with the thread that started them.
+    # The threads live until all is played, since a farm's processes end with the thread that started them.
     with ThreadPoolExecutor(side_by_side) as threads:
         return list(threads.map(play_one, scenarios))
 

@@ -1,4 +1,4 @@
-"""The scenarios' farm with real Blender workers: tiny pictures, and a texture of its own, so nothing need be baked."""
+"""The scenarios' farm with real Blender workers: tiny pictures, and its own texture, so that nothing need be baked."""
 
 import importlib.util
 from pathlib import Path
@@ -21,17 +21,17 @@ _RESOLUTION = 96
 
 
 def blender_is_there() -> bool:
-    """Whether Blender can be imported; it is not done here."""
+    """Whether Blender can be imported; this doesn't import it."""
     return importlib.util.find_spec("bpy") is not None
 
 
 def tiny_header(images: int, seed: int, folder: Path) -> DatasetHeader:
-    """A dataset of all categories.
+    """Make a header of a dataset of all categories.
 
     Args:
-        images: in all.
-        seed: of the dataset.
-        folder: takes the texture.
+        images: number of images in all.
+        seed: seed of the dataset.
+        folder: folder that receives the texture.
     """
     folder.mkdir(parents=True, exist_ok=True)
     rng = np.random.default_rng(0)
@@ -43,5 +43,5 @@ def tiny_header(images: int, seed: int, folder: Path) -> DatasetHeader:
 
 
 def for_blender(scenario: Scenario, header: DatasetHeader, expected: Expected) -> tuple[Plan, Claims]:
-    """The farm with Blender, and what must come of it."""
+    """The plan of the farm with Blender workers, and the claims on its end."""
     return Plan(scenario.name, header, WORKER_COMMAND, scenario.workers), Claims(expected)

@@ -1,4 +1,4 @@
-"""A clock that can be set wrong while processes look at it: Debian's libfaketime, preloaded into them."""
+"""A clock that can be set wrong for running processes: Debian's libfaketime, preloaded into them."""
 
 import os
 from collections.abc import Mapping
@@ -12,7 +12,7 @@ HOUR_S = 3600
 
 
 def find_faketime() -> Path | None:
-    """The library, if the package `libfaketime` is installed."""
+    """The path of the library; None if the package `libfaketime` isn't installed."""
     for place in _PLACES:
         for found in sorted(Path("/").glob(f"{place.removeprefix('/')}/{_LIBRARY}")):
             return found
@@ -23,8 +23,8 @@ class WrongClock:
     """The wall clock of those processes that are started with its environment; monotonic clocks stay right.
 
     Args:
-        library: see `find_faketime`.
-        file: tells the processes how wrong the clock is.
+        library: path of the library, from `find_faketime`.
+        file: file that tells the processes how wrong the clock is.
     """
 
     def __init__(self, library: Path, file: Path) -> None:
@@ -34,14 +34,14 @@ class WrongClock:
         self.set(0)
 
     def set(self, offset_s: int) -> None:
-        """Let the clock be so many seconds ahead, or behind if negative, from now on."""
+        """Set the clock ahead by this many seconds from now on, or behind if negative."""
         self.offset_s = offset_s
         fresh = self._file.with_suffix(".new")
         fresh.write_text(f"{offset_s:+d}\n")
-        fresh.replace(self._file)  # whole at any time, as it is read at every look at the clock
+        fresh.replace(self._file)  # written atomically, since the processes read it at every look at the clock
 
     def environment(self) -> Mapping[str, str]:
-        """What makes a process look at this clock."""
+        """The environment variables with which a process uses this clock."""
         return {
             "LD_PRELOAD": str(self._library),
             "FAKETIME_TIMESTAMP_FILE": str(self._file),

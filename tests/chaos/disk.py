@@ -1,4 +1,4 @@
-"""A small disk of memory for a store, to be really full."""
+"""A small disk in memory for a store, which can be filled up for real."""
 
 import errno
 import os
@@ -17,7 +17,7 @@ class SmallDisk:
     """A mounted folder that can be filled up.
 
     Args:
-        folder: the mount point.
+        folder: mount point of the disk.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -26,13 +26,13 @@ class SmallDisk:
 
     @property
     def is_full(self) -> bool:
-        """Whether it was filled up and not freed."""
+        """Whether the disk was filled up and not freed."""
         return self._filler.exists()
 
     def fill(self) -> None:
-        """Take all space that is left."""
+        """Take all free space."""
         with self._filler.open("wb", buffering=0) as file:
-            # The last pages are taken one by one, or a small file would still find room.
+            # The last pages are taken one by one; otherwise a small file would still fit.
             for piece in (_BLOCK, _PAGE):
                 _write_until_full(file.fileno(), piece)
 
@@ -54,10 +54,10 @@ def _write_until_full(descriptor: int, piece: bytes) -> None:
 
 @contextmanager
 def small_disk(folder: Path, mebibytes: int) -> Iterator[SmallDisk | str]:
-    """Mount a disk in a folder inside `with`.
+    """Mount a disk in a folder within the context.
 
     Yields:
-        The disk; or why there is none, where this user may not mount.
+        The disk; or the reason why there is none, if this user may not mount one.
     """
     why_not = _mount(folder, mebibytes)
     if why_not is not None:
@@ -66,7 +66,7 @@ def small_disk(folder: Path, mebibytes: int) -> Iterator[SmallDisk | str]:
     try:
         yield SmallDisk(folder)
     finally:
-        # Lazily: a process that was just killed may still be on its way out of a file.
+        # The mount goes lazily: a process that was just killed may still be closing a file.
         subprocess.run([_program("umount"), "--lazy", str(folder)], check=True, stdin=subprocess.DEVNULL)
 
 

@@ -1,4 +1,4 @@
-"""The bytes that each job's files must have, whatever befell the farm."""
+"""The bytes that each job's files must have, whatever happened to the farm."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -13,7 +13,7 @@ Expected = Callable[[Job], Mapping[Output, bytes]]
 
 
 def drawn_by_stand_in(header: DatasetHeader) -> Expected:
-    """What a stand-in draws: noise from the job's own seed, so that no two jobs have the same."""
+    """The files of a stand-in renderer: noise from the job's own seed, so that no two jobs have the same."""
 
     def expected(job: Job) -> Mapping[Output, bytes]:
         files = stand_in_files(job, header)

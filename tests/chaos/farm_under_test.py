@@ -1,4 +1,4 @@
-"""A whole farm: Redis behind a proxy, workers, a coordinator; and what surrounds it, to be spoilt."""
+"""A whole farm with Redis behind a proxy, workers and a coordinator, and with surroundings that can be spoilt."""
 
 import signal
 from collections.abc import Iterator, Mapping, Sequence
@@ -21,7 +21,7 @@ from tests.chaos.redis_service import RedisService
 from tests.chaos.service import Service
 
 CLAIM_S = 3.0
-"""Claims are so short here, that a stopped worker loses its own within seconds."""
+"""Term of a claim, seconds: so short that a stopped worker loses its own within seconds."""
 
 _END_S = 20.0
 _DISK_MIB = 24
@@ -30,16 +30,16 @@ _MIN_FREE_MIB = 1
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """How a farm is set up.
+    """The plan of a farm.
 
     Attributes:
-        dataset: its name, also that of the scenario.
-        header: of the dataset.
-        worker: the program that is a worker.
-        workers: how many.
-        environment: of the workers, beside that of this process.
-        with_clock: its processes look at a clock that can be set wrong.
-        with_disk: its store is on a small disk of its own.
+        dataset: name of the dataset and of the scenario.
+        header: header of the dataset.
+        worker: program of a worker.
+        workers: number of workers.
+        environment: environment variables of the workers, in addition to those of this process.
+        with_clock: whether the processes use a clock that can be set wrong.
+        with_disk: whether the store is on a small disk of its own.
     """
 
     dataset: str
@@ -52,7 +52,7 @@ class Plan:
 
 
 class FarmUnderTest:
-    """All parts of a running farm. The faults lay hands on them; `supervise` restarts what fails, called often."""
+    """All parts of a running farm. Faults act on them; `supervise`, called often, restarts those that fail."""
 
     def __init__(self, root: Path, plan: Plan, proxy: Proxy, redis: RedisService, clock: WrongClock | None) -> None:
         self.root = root
@@ -61,7 +61,7 @@ class FarmUnderTest:
         self.redis = redis
         self.clock = clock
         self.disk: SmallDisk | None = None
-        self.known_messages: dict[str, tuple[str, str]] = {}  # job id to its list's key and a message
+        self.known_messages: dict[str, tuple[str, str]] = {}  # by job id: the key of the list, and a message
         self.journal = root / "starts.txt"
         self.store = root / "store"
         self.logs = root / "logs"
@@ -98,19 +98,19 @@ class FarmUnderTest:
 
     @property
     def services(self) -> list[Service]:
-        """What is supervised."""
+        """The supervised services."""
         return [*self.workers, self.coordinator]
 
     def supervise(self) -> None:
-        """Restart what failed."""
+        """Restart the services that failed."""
         for service in self.services:
             service.supervise()
 
     def end(self) -> list[str]:
-        """Let workers and coordinator end.
+        """Ask workers and coordinator to end.
 
         Returns:
-            The names of those that did not do so when asked.
+            The names of those that didn't end when asked.
         """
         for service in self.services:
             service.send(signal.SIGTERM)
@@ -119,19 +119,19 @@ class FarmUnderTest:
 
 @contextmanager
 def farm_under_test(root: Path, plan: Plan) -> Iterator[FarmUnderTest]:
-    """Run a farm inside `with`; everything started is gone after it.
+    """Run a farm within the context; afterwards nothing that it started is left.
 
     Args:
-        root: a new folder for all of its files. Its path is in the arguments of each of its processes.
-        plan: how it is set up.
+        root: a new folder for all files of the farm. Its path is in the arguments of each of the farm's processes.
+        plan: plan of the farm.
 
     Raises:
-        OSError: if this machine lacks what it needs; see `tests.chaos.means`.
+        OSError: if this machine lacks a means that `tests.chaos.means` asks for.
     """
     (root / "store").mkdir(parents=True)
     with ExitStack() as stack:
         clock = _clock(root) if plan.with_clock else None
-        # Not below the root: a socket's path must be short.
+        # It is outside the root, since a socket's path must be short.
         socket = Path(stack.enter_context(TemporaryDirectory(prefix="farm-", dir="/tmp"))) / "redis.sock"
         proxy = stack.enter_context(Proxy(socket))
         environment = clock.environment() if clock else {}

@@ -1,4 +1,4 @@
-"""The faults themselves. Each strikes at once and, where it lasts, returns what undoes it."""
+"""The faults themselves. Each strikes at once and, if it lasts, returns the function that undoes it."""
 
 import signal
 from collections.abc import Callable, Mapping, Sequence
@@ -21,26 +21,27 @@ Strike = Callable[[FarmUnderTest, np.random.Generator], Undo | None]
 _Thing = TypeVar("_Thing")
 
 _JUMP_HOURS = (3, 9)
-"""Beyond Celery's visibility timeout of 2 h, so that messages are given to other workers, too."""
+"""Least and largest jump of the clock, hours: beyond Celery's visibility timeout of 2 h, so that messages are
+delivered to other workers, too."""
 
 
 class NotNowError(Exception):
-    """There is nothing for this fault to strike at this moment; a little later there may be."""
+    """This fault has nothing to strike at this moment, but may have later."""
 
 
 def strike(event: Event, farm: FarmUnderTest) -> Undo | None:
-    """Do it.
+    """Let a fault strike.
 
     Returns:
-        What undoes it; None for what is done in an instant.
+        A function that undoes the fault; None for a fault without duration.
 
     Raises:
-        NotNowError: if it can't be done at this moment.
+        NotNowError: if the fault has nothing to strike at this moment.
     """
     try:
         return _STRIKES[event.fault](farm, event.generator())
     except (redis.RedisError, FileNotFoundError, NotADirectoryError) as error:
-        # Redis is down, or the folder away, by another fault.
+        # Another fault has taken Redis down or the folder away.
         raise NotNowError(str(error)) from error
 
 
@@ -73,7 +74,7 @@ def _kill_child(farm: FarmUnderTest, rng: np.random.Generator) -> None:
 
 
 def _kill_worker(farm: FarmUnderTest, rng: np.random.Generator) -> None:
-    # One that has a child is past its start.
+    # A process that has a child has finished its start.
     _one_of([worker for worker in farm.workers if worker.children()], rng).send(signal.SIGKILL)
 
 

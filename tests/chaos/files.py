@@ -1,4 +1,4 @@
-"""Spoiling a dataset's files, as a disk, a copy program or a person may."""
+"""Spoil a dataset's files as a disk, a copy program or a person may."""
 
 import ctypes
 import os
@@ -17,12 +17,12 @@ _RENAME_EXCHANGE = 2  # from linux/fs.h
 
 
 def exchange_for_a_file(folder: Path) -> Callable[[], None]:
-    """Put a file where a folder was, so that nothing can be written below it.
+    """Replace a folder by a file, so that nothing can be written below it.
 
     Returns:
-        What puts the folder back.
+        A function that puts the folder back.
     """
-    # Beside the dataset, as nothing else belongs into it.
+    # The folder is kept beside the dataset, since nothing else belongs inside it.
     aside = folder.parent.parent / f"aside-{folder.name}"
     aside.write_bytes(b"")
     _exchange(folder, aside)
@@ -35,7 +35,7 @@ def exchange_for_a_file(folder: Path) -> Callable[[], None]:
 
 
 def _exchange(one: Path, other: Path) -> None:
-    # In one step: between two, a worker would make the folder anew.
+    # The exchange is atomic; between two steps a worker would make the folder again.
     libc = ctypes.CDLL(None, use_errno=True)
     if libc.renameat2(_AT_FDCWD, os.fsencode(one), _AT_FDCWD, os.fsencode(other), _RENAME_EXCHANGE) != 0:
         raise OSError(ctypes.get_errno(), "renameat2 failed")
@@ -53,7 +53,7 @@ def truncate(farm: FarmUnderTest, job_id: str, rng: np.random.Generator) -> None
 
 
 def alter(farm: FarmUnderTest, job_id: str, rng: np.random.Generator) -> None:
-    """Turn one byte of one of the job's files into another; its size stays."""
+    """Change one byte of one of the job's files; its size stays."""
     path = _some_file(farm, job_id, rng)
     with path.open("r+b") as file:
         place = int(rng.integers(path.stat().st_size))

@@ -1,4 +1,4 @@
-"""What must hold when a farm has come to its end, whatever befell it."""
+"""Judge a farm that has come to its end: what must hold, whatever happened to it."""
 
 import json
 import os
@@ -22,7 +22,7 @@ from tests.chaos.queue_keys import unacknowledged, waiting
 from tests.chaos.service import living_with
 
 QUARANTINE = "quarantine"
-"""Folder of a dataset with a record of each job that was given up, where the farm writes such."""
+"""Folder of a dataset that holds a record of each job that was given up."""
 
 _DRAIN_S = 20.0
 _STATUS_S = 60.0
@@ -31,12 +31,12 @@ _SHOWN = 5
 
 @dataclass(frozen=True, slots=True)
 class Claims:
-    """What a scenario demands.
+    """The demands of a scenario.
 
     Attributes:
-        expected: the bytes of each job's files.
-        quarantined: the jobs that must be given up, and no others.
-        starts_of_quarantined: how often those must have been begun; None where other faults take part in it.
+        expected: bytes of each job's files.
+        quarantined: the only jobs that must be given up.
+        starts_of_quarantined: number of times that each of them must have been begun; None if other faults affect it.
     """
 
     expected: Expected
@@ -46,13 +46,13 @@ class Claims:
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """What was found.
+    """The result of a judgement.
 
     Attributes:
-        findings: what does not hold; none if all does.
-        notes: what is worth knowing and no fault.
+        findings: sentences on what doesn't hold; empty if everything does.
+        notes: sentences on remarkable things that aren't faults.
         quarantined: jobs that were given up.
-        done: jobs whose files are all as their manifest tells.
+        done: jobs whose files all agree with their manifest.
     """
 
     findings: tuple[str, ...]
@@ -62,7 +62,7 @@ class Judgement:
 
 
 def judge(farm: FarmUnderTest, claims: Claims) -> Judgement:
-    """Look at a farm whose coordinator has ended. Ends the farm's other processes on the way.
+    """Judge a farm whose coordinator has ended, and end its other processes.
 
     Every finding is one sentence.
     """
@@ -98,14 +98,14 @@ def given_up(farm: FarmUnderTest, status: Mapping[str, Any]) -> set[str]:
 
 
 def starts(farm: FarmUnderTest) -> Counter[str]:
-    """How often each job was begun; empty where workers keep no journal."""
+    """Number of times that each job was begun; empty if workers keep no journal."""
     if not farm.journal.exists():
         return Counter()
     return Counter(line.split()[0] for line in farm.journal.read_text().splitlines() if line)
 
 
 def _drain(farm: FarmUnderTest) -> Iterator[str]:
-    """Let workers take what is left in the queue, duplicates mostly."""
+    """Let workers take the rest of the queue, which is mostly duplicates."""
     give_up_s = time.monotonic() + _DRAIN_S
     while True:
         farm.supervise()
@@ -120,7 +120,7 @@ def _drain(farm: FarmUnderTest) -> Iterator[str]:
 
 def _status(farm: FarmUnderTest) -> Mapping[str, Any]:
     command = [sys.executable, "-P", "-m", "farm", "status", str(farm.folder), "--json", "--broker", farm.proxy.url]
-    # Without the clock of the farm under test: it was put right long ago.
+    # They run without the clock of the farm under test, which was put right long before.
     told = subprocess.run(command, check=False, capture_output=True, text=True, timeout=_STATUS_S, env=os.environ)
     if told.returncode != 0:
         return {"error": told.stderr.strip()}

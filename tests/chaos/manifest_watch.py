@@ -1,4 +1,4 @@
-"""Sees every manifest that is put in place, also those that are replaced at once: inotify, by way of libc."""
+"""A watch that sees every manifest put in place, even one that is replaced at once, by inotify through libc."""
 
 import ctypes
 import hashlib
@@ -15,7 +15,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-# From linux/inotify.h.
+# These values are from linux/inotify.h.
 _IN_CLOSE_WRITE = 0x08
 _IN_MOVED_TO = 0x80
 _EVENT = struct.Struct("iIII")
@@ -25,10 +25,10 @@ _BUFFER_BYTES = 65536
 
 
 class ManifestWatch:
-    """Watches folders of manifests from a thread of its own, inside `with`.
+    """Watches folders of manifests from its own thread, within the context.
 
     Args:
-        folders: made if they are not there; they may be moved away and back meanwhile.
+        folders: folders to watch, made if missing; they may be moved away and back meanwhile.
     """
 
     def __init__(self, folders: Iterable[Path]) -> None:
@@ -38,7 +38,7 @@ class ManifestWatch:
         for folder in folders:
             folder.mkdir(parents=True, exist_ok=True)
             number = self._libc.inotify_add_watch(self._inotify, os.fsencode(folder), _IN_CLOSE_WRITE | _IN_MOVED_TO)
-            # Held open, as its path may lead elsewhere for a while.
+            # The folders are held open, since their paths may lead elsewhere for a while.
             self._folders[self._checked(number)] = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
         self._contents: dict[str, list[str]] = defaultdict(list)
         self._ending = threading.Event()
@@ -53,7 +53,7 @@ class ManifestWatch:
         return result
 
     def __enter__(self) -> Self:
-        """Start."""
+        """Start to watch."""
         self._start_s = time.monotonic()
         self._thread.start()
         return self
@@ -61,7 +61,7 @@ class ManifestWatch:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        """End, having seen all that happened before."""
+        """Stop, after taking in everything that happened before."""
         self._ending.set()
         self._thread.join()
         for descriptor in (self._inotify, *self._folders.values()):
@@ -87,7 +87,7 @@ class ManifestWatch:
                 self._note(name.removesuffix(".json"), number)
 
     def _note(self, job_id: str, number: int) -> None:
-        # A manifest may be removed again at once, by a fault.
+        # A fault may have removed the manifest again at once.
         with suppress(FileNotFoundError):
             descriptor = os.open(f"{job_id}.json", os.O_RDONLY, dir_fd=self._folders[number])
             with os.fdopen(descriptor, "rb") as file:
@@ -95,21 +95,21 @@ class ManifestWatch:
             self.growth.append((time.monotonic() - self._start_s, len(self._contents)))
 
     def seen(self) -> list[str]:
-        """Ids of the jobs whose manifest was put in place, in the order of their first."""
+        """Ids of the jobs whose manifest was put in place, in the order of their first one."""
         return list(self._contents)
 
     @property
     def again(self) -> int:
-        """How many manifests were put in place beyond each job's first."""
+        """Number of manifests that were put in place beyond each job's first."""
         return sum(len(contents) - 1 for contents in list(self._contents.values()))
 
     def contradictions(self) -> list[str]:
-        """Jobs of which two manifests differ in more than the time that they took."""
+        """Jobs of which two manifests differ in more than their timings."""
         return sorted(job_id for job_id, contents in list(self._contents.items()) if len(set(contents)) > 1)
 
 
 def fingerprint(manifest: bytes) -> str:
-    """A checksum of all that must be the same whenever a job is made: everything but the timings."""
+    """A checksum of everything in a manifest that is the same whenever the job is made, so without the timings."""
     try:
         counts = {name: value for name, value in json.loads(manifest).items() if name != "timings_s"}
         return hashlib.sha256(json.dumps(counts, sort_keys=True).encode()).hexdigest()

@@ -1,4 +1,4 @@
-"""What this machine lacks for some faults; a scenario is played without them, or not at all if nothing is left."""
+"""The means that this machine lacks for some faults; a scenario is played without those, or not at all."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -12,7 +12,7 @@ from tests.chaos.schedule import Fault
 
 
 def lacking() -> Mapping[Fault, str]:
-    """The faults that this machine has no means for, and why."""
+    """The faults that this machine has no means for, each with the reason."""
     found = {}
     if find_faketime() is None:
         found[Fault.JUMP_CLOCK] = "setting clocks wrong needs Debian's package libfaketime"
@@ -23,10 +23,10 @@ def lacking() -> Mapping[Fault, str]:
 
 
 def within_means(scenario: Scenario, lacks: Mapping[Fault, str]) -> tuple[Scenario | None, tuple[str, ...]]:
-    """The scenario without the faults that can't be done here.
+    """Reduce a scenario to the faults that this machine can play.
 
     Returns:
-        The scenario, None if nothing is left of it; and what was left out, and why.
+        The scenario, None if nothing is left of it; and the faults that were left out, each with the reason.
     """
     left_out = [recipe.fault for recipe in scenario.recipes if recipe.fault in lacks]
     if not left_out:

@@ -1,4 +1,4 @@
-"""Tampering with the messages that wait; each change tells whether there was anything to change."""
+"""Tamper with waiting messages; each function tells whether there was anything to change."""
 
 import numpy as np
 
@@ -11,10 +11,10 @@ _LOST_AT_ONCE = 20
 
 
 def remember(farm: FarmUnderTest) -> None:
-    """Keep a copy of each message that waits, to deliver it again when its job is done.
+    """Keep a copy of each waiting message, to deliver it again when its job is done.
 
     Raises:
-        redis.RedisError: if Redis is not there.
+        redis.RedisError: if Redis can't be reached.
     """
     for key, found in waiting(farm.redis.client).items():
         for message in found:
@@ -24,7 +24,7 @@ def remember(farm: FarmUnderTest) -> None:
 
 
 def duplicate(farm: FarmUnderTest, rng: np.random.Generator) -> bool:
-    """Put every message that waits into its list again, every second one as the very same delivery."""
+    """Put a copy of every waiting message into its list, every second one as the very same delivery."""
     lists = waiting(farm.redis.client)
     for key, found in lists.items():
         copies = [redelivered(message) if number % 2 else message for number, message in enumerate(found)]
@@ -33,7 +33,7 @@ def duplicate(farm: FarmUnderTest, rng: np.random.Generator) -> bool:
 
 
 def redeliver_done(farm: FarmUnderTest, rng: np.random.Generator) -> bool:
-    """Deliver the messages of all done jobs again, before those that wait."""
+    """Deliver the messages of all done jobs again, before the waiting ones."""
     del rng
     done = [farm.known_messages[job_id] for job_id in farm.manifests.seen() if job_id in farm.known_messages]
     for key, message in done:
@@ -42,7 +42,7 @@ def redeliver_done(farm: FarmUnderTest, rng: np.random.Generator) -> bool:
 
 
 def lose(farm: FarmUnderTest, rng: np.random.Generator) -> bool:
-    """Remove some of the messages that wait."""
+    """Remove some of the waiting messages."""
     lost = 0
     for key, found in waiting(farm.redis.client).items():
         for place in rng.permutation(len(found))[:_LOST_AT_ONCE]:
@@ -51,7 +51,7 @@ def lose(farm: FarmUnderTest, rng: np.random.Generator) -> bool:
 
 
 def poison(farm: FarmUnderTest, rng: np.random.Generator) -> bool:
-    """Put what no worker understands before the messages that wait, so that it is taken next."""
+    """Put messages that no worker understands before the waiting ones, so that they are taken next."""
     if not farm.known_messages:
         return False
     key, message = next(iter(farm.known_messages.values()))

@@ -1,4 +1,4 @@
-"""Playing one scenario: the farm starts, faults strike as scheduled, and what comes of it is judged."""
+"""Play one scenario: start the farm, let faults strike as scheduled, and judge the result."""
 
 import shutil
 import time
@@ -21,7 +21,7 @@ _LOOK_S = 0.02
 
 @dataclass(frozen=True, slots=True)
 class Struck:
-    """A fault that was injected: when, in seconds from the farm's start, and after how many done jobs."""
+    """A fault that was injected: its time, in seconds from the farm's start, and the number of jobs done by then."""
 
     event: Event
     at_s: float
@@ -30,17 +30,17 @@ class Struck:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What came of a scenario.
+    """The result of a scenario.
 
     Attributes:
-        findings: what did not hold; none if all did.
-        skipped: why it could not be played; None if it was.
-        seconds: from the farm's start until its coordinator ended.
-        starts: how often a job was begun; None where workers keep no journal.
-        written_again: manifests put in place beyond each job's first.
-        restarts: how often supervisors had to start something again.
-        growth: seconds and done jobs, at each manifest.
-        left: where the logs lie, if something did not hold.
+        findings: sentences on what didn't hold; empty if everything did.
+        skipped: reason why the scenario wasn't played; None if it was.
+        seconds: duration from the farm's start to its coordinator's end.
+        starts: number of starts of all jobs; None if workers keep no journal.
+        written_again: number of manifests put in place beyond each job's first.
+        restarts: number of times that supervisors restarted a process.
+        growth: seconds, and number of done jobs, at each manifest.
+        left: folder of the logs; None if everything held.
     """
 
     scenario: str
@@ -60,13 +60,13 @@ class Outcome:
 
     @property
     def held(self) -> bool:
-        """Whether all held."""
+        """Whether everything held."""
         return not self.findings
 
 
 @dataclass(slots=True)
 class _Course:
-    """How far a scenario is."""
+    """The progress of a scenario."""
 
     waiting: list[Event]
     start_s: float = field(default_factory=time.monotonic)
@@ -80,12 +80,12 @@ def play(
     """Play a scenario.
 
     Args:
-        plan: of the farm.
-        claims: what must hold at the end.
-        events: the faults, by the time at which they strike.
-        folder: takes everything in a folder of the dataset's name, which remains if something did not hold.
-        patience_s: how long all of it may take.
-        keep: leave the folder in any case.
+        plan: plan of the farm.
+        claims: demands on the farm's end.
+        events: the faults, ordered by the time at which they strike.
+        folder: folder that receives a folder named after the dataset, which stays if something didn't hold.
+        patience_s: longest time that the scenario may take.
+        keep: whether that folder stays in any case.
     """
     root = folder / plan.dataset
     with farm_under_test(root, plan) as farm:
@@ -98,7 +98,7 @@ def play(
         verdict = judge(farm, claims)
         findings += verdict.findings
         if findings and farm.disk is not None:
-            shutil.copytree(farm.store, root / "store-kept")  # the disk goes with the farm
+            shutil.copytree(farm.store, root / "store-kept")  # The disk is removed with the farm.
     outcome = _outcome(farm, course, verdict, tuple(findings), seconds)
     if outcome.held and not keep:
         shutil.rmtree(root)
@@ -127,7 +127,7 @@ def _outcome(
 
 
 def _run(farm: FarmUnderTest, course: _Course, patience_s: float) -> bool:
-    """Let the farm work, and the faults strike, until its coordinator says that it is done; whether it does in time."""
+    """Run the farm and its faults until the coordinator ends; returns whether it ended in time."""
     try:
         while time.monotonic() - course.start_s < patience_s:
             farm.supervise()
@@ -147,7 +147,7 @@ def _run(farm: FarmUnderTest, course: _Course, patience_s: float) -> bool:
 
 
 def _remember_early(farm: FarmUnderTest) -> None:
-    """Take copies of the messages until a few jobs are done; from then on all have been in the queue."""
+    """Copy messages until a few jobs are done; by then all messages have been in the queue."""
     if len(farm.manifests.seen()) < 3:
         remember(farm)
 

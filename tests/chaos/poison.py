@@ -1,4 +1,4 @@
-"""Messages that no worker can make sense of."""
+"""Messages that no worker can understand."""
 
 import base64
 import json
@@ -28,7 +28,7 @@ def _no_headers(envelope: Envelope) -> None:
 
 
 def _pickle(envelope: Envelope) -> None:
-    # Bytes that are no pickle: a worker that tried to read them would fail, one that refuses them passes.
+    # These bytes aren't a pickle: a worker that tried to unpickle them would fail, and one that refuses them passes.
     envelope["content-type"] = "application/x-python-serialize"
 
 
@@ -50,7 +50,7 @@ _GARBAGE = ("", "no JSON", "{}", "[1, 2, 3]", "null", "17", '{"body": 1, "proper
 
 
 def poisons(message: str) -> list[str]:
-    """Every kind of poison, those that look most like messages made from a real one."""
+    """Every kind of poison; those that look most like messages are made from a real one."""
     found = list(_GARBAGE)
     for spoil in _SPOILT:
         envelope = json.loads(message)

@@ -1,4 +1,4 @@
-"""A TCP proxy before Redis, whose connections can be cut, refused, or swallowed for a while."""
+"""A TCP proxy in front of Redis that can cut, refuse or stall connections for a while."""
 
 import asyncio
 import threading
@@ -13,10 +13,10 @@ _HOST = "127.0.0.1"
 
 
 class Proxy:
-    """Forwards a port of this machine to a Unix socket, inside `with`. Its methods may be called from any thread.
+    """Forwards a port of this machine to a Unix socket within the context. Any thread may call its methods.
 
     Args:
-        target: the socket; it may come and go.
+        target: path of the socket, which needn't exist all the time.
     """
 
     def __init__(self, target: Path) -> None:
@@ -31,11 +31,11 @@ class Proxy:
 
     @property
     def url(self) -> str:
-        """Redis's address by way of this proxy."""
+        """Address of Redis through this proxy."""
         return f"redis://{_HOST}:{self.port}/0"
 
     def __enter__(self) -> Self:
-        """Listen."""
+        """Start to listen."""
         self._thread.start()
         self._flowing.set()
         self.accept()
@@ -44,35 +44,35 @@ class Proxy:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        """Cut everything and end."""
+        """Cut every connection and stop."""
         self._call(self._end())
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join()
         self._loop.close()
 
     def cut(self) -> None:
-        """End every connection that there is, at once; new ones are welcome."""
+        """Cut every present connection at once; new ones are accepted."""
         self._call(self._cut())
 
     def refuse(self) -> None:
-        """Cut, and refuse new connections until `accept`."""
+        """Cut every connection, and refuse new ones until `accept`."""
         self._call(self._refuse())
 
     def accept(self) -> None:
-        """Take connections, on the same port as ever."""
+        """Accept connections again, on the same port."""
         self._call(self._accept())
 
     @property
     def accepts(self) -> bool:
-        """Whether connections are taken."""
+        """Whether connections are accepted."""
         return self._server is not None
 
     def swallow(self) -> None:
-        """Let no byte through until `flow`; connections stay, and new ones are taken, but nothing answers."""
+        """Let no byte through until `flow`; connections stay and new ones are accepted, but nothing answers."""
         self._loop.call_soon_threadsafe(self._flowing.clear)
 
     def flow(self) -> None:
-        """Let bytes through again, those held back first."""
+        """Let bytes through again, the ones held back first."""
         self._loop.call_soon_threadsafe(self._flowing.set)
 
     @property
@@ -124,7 +124,7 @@ class Proxy:
 
     def _start_pump(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, end: Callable[[], None]) -> None:
         pump = self._loop.create_task(self._pump(reader, writer, end))
-        self._pumps.add(pump)  # the loop itself keeps tasks by weak references only
+        self._pumps.add(pump)  # The event loop itself keeps only weak references to tasks.
         pump.add_done_callback(self._pumps.discard)
 
     async def _pump(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter, end: Callable[[], None]) -> None:

@@ -1,4 +1,4 @@
-"""A Redis that keeps its data in a file, and can be killed and started again with it or without."""
+"""A Redis that keeps its data in a file, and can be killed and started again with or without it."""
 
 import shutil
 import time
@@ -17,10 +17,10 @@ class RedisService:
     """One redis-server on a Unix socket.
 
     Args:
-        folder: takes its data.
-        socket: where it listens; a path of less than 100 bytes.
-        environment: beside that of this process.
-        log: takes what it prints.
+        folder: folder that receives the server's data.
+        socket: path of the socket, less than 100 bytes long.
+        environment: environment variables in addition to those of this process.
+        log: file that receives the server's output.
     """
 
     def __init__(self, folder: Path, socket: Path, environment: Mapping[str, str], log: Path) -> None:
@@ -35,17 +35,17 @@ class RedisService:
 
     @property
     def runs(self) -> bool:
-        """Whether it runs."""
+        """Whether the server runs."""
         return self._service.pid is not None
 
     def start(self, *, empty: bool = False) -> None:
-        """Start it, and wait until it answers.
+        """Start the server, and wait until it answers.
 
         Args:
-            empty: forget all that it kept.
+            empty: whether the server forgets all earlier data.
 
         Raises:
-            redis.RedisError: if it does not.
+            redis.RedisError: if it doesn't answer.
         """
         if empty:
             shutil.rmtree(self._folder, ignore_errors=True)
@@ -57,11 +57,11 @@ class RedisService:
                 self.client.ping()
                 return
             except redis.RedisError:
-                # It refuses while it loads its data.
+                # The server refuses connections while it loads its data.
                 if time.monotonic() > give_up_s or not self.runs:
                     raise
                 time.sleep(0.02)
 
     def kill(self) -> None:
-        """End it with SIGKILL."""
+        """End the server with SIGKILL."""
         self._service.kill()

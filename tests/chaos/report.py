@@ -1,4 +1,4 @@
-"""Table, JSON and the plot that come of played scenarios."""
+"""The table, the JSON file and the plot of played scenarios."""
 
 import json
 import platform
@@ -25,7 +25,7 @@ _COLUMNS = ("scenario", "jobs", "faults", "seconds", "begun again", "quarantined
 
 
 def table(outcomes: Sequence[Outcome]) -> Table:
-    """A line for each scenario."""
+    """A table with a line for each scenario."""
     grid = Table(title="faults, and whether the farm held", box=box.SIMPLE_HEAD)
     for name in _COLUMNS:
         grid.add_column(name, justify="left" if name in {"scenario", "verdict"} else "right", no_wrap=True)
@@ -61,12 +61,12 @@ def _cells(outcome: Outcome) -> list[str]:
 
 
 def _again(outcome: Outcome) -> int:
-    """Starts beyond each job's first; where workers keep no journal of them, manifests beyond the first."""
+    """Starts beyond each job's first; if workers keep no journal of them, manifests beyond the first."""
     return outcome.written_again if outcome.starts is None else max(0, outcome.starts - outcome.jobs)
 
 
 def remarks(outcomes: Sequence[Outcome]) -> list[str]:
-    """What did not hold and where its logs lie, what was skipped and why, and what else is worth knowing."""
+    """Sentences on failures and their logs, on skipped faults and their reasons, and on other remarkable things."""
     lines = []
     for outcome in outcomes:
         if outcome.skipped is not None:
@@ -79,13 +79,13 @@ def remarks(outcomes: Sequence[Outcome]) -> list[str]:
 
 
 def write_json(path: Path, outcomes: Sequence[Outcome], seed: int, seconds: float) -> None:
-    """Write all that was measured.
+    """Write all measurements.
 
     Args:
-        path: the file.
-        outcomes: of all scenarios.
-        seed: which replays the faults.
-        seconds: that the whole run took.
+        path: path of the file.
+        outcomes: outcomes of all scenarios.
+        seed: seed that replays the faults.
+        seconds: duration of the whole run.
     """
     content = {
         "seed": seed,
@@ -121,7 +121,7 @@ def _as_json(outcome: Outcome) -> dict[str, Any]:
 
 
 def write_plot(path: Path, outcomes: Sequence[Outcome]) -> None:
-    """Draw how each dataset grew, and when what struck; nothing if no scenario was played."""
+    """Draw the growth of each dataset and the moments of the faults; nothing if no scenario was played."""
     played = [outcome for outcome in outcomes if outcome.skipped is None]
     if not played:
         return

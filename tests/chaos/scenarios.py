@@ -1,4 +1,4 @@
-"""The scenarios: each a dataset of its own, and what strikes while it is made."""
+"""The scenarios: each has a dataset of its own, and faults that strike while it is made."""
 
 import sys
 from collections.abc import Sequence
@@ -17,29 +17,29 @@ STAND_IN = (sys.executable, "-P", str(Path(__file__).parents[1] / "stand_in.py")
 _SHORT_S = (0.3, 3.0)
 _OVER_A_CLAIM_S = (CLAIM_S + 1.0, 2 * CLAIM_S)
 _OVER_ITS_MENDING_S = (CLAIM_S + 13.0, CLAIM_S + 15.0)
-"""Longer than a claim lives and a coordinator waits, so that another worker makes the job meanwhile."""
+"""Seconds longer than a claim's term and a coordinator's patience together, so that another worker makes the job."""
 
 _OVER_A_RESTORING_S = (11.0, 13.0)
-"""Celery looks every 10 s for messages that were not acknowledged in time."""
+"""Seconds longer than the 10 s between two of Celery's looks for messages that weren't acknowledged in time."""
 
 _ATTEMPTS = 3
-"""A job that takes its process with it is begun so often."""
+"""Starts of a job that always takes its process with it, before it is given up."""
 
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
-    """What is made, and what strikes meanwhile.
+    """A dataset to make, and the faults that strike meanwhile.
 
     Attributes:
-        name: also the dataset's.
-        jobs: images of the dataset, over all categories.
-        recipes: what strikes.
-        workers: of concurrency one.
-        delay_s: how long a stand-in takes for an image, at least.
-        lethal: how many jobs take their process with them, by a segmentation fault.
-        with_clock: it needs a clock that can be set wrong.
-        with_disk: it needs a small disk.
-        patience_s: it must be over after so long.
+        name: name of the scenario and of its dataset.
+        jobs: number of images of the dataset, over all categories.
+        recipes: the faults.
+        workers: number of workers, each with a concurrency of one.
+        delay_s: least time that a stand-in takes for an image.
+        lethal: number of jobs that take their process with them, by a segmentation fault.
+        with_clock: whether the scenario needs a clock that can be set wrong.
+        with_disk: whether the scenario needs a small disk.
+        patience_s: longest time that the scenario may take.
     """
 
     name: str
@@ -53,11 +53,11 @@ class Scenario:
     patience_s: float = 120.0
 
     def for_stand_ins(self, seed: int) -> tuple[Plan, Claims]:
-        """The farm with stand-in workers, and what must come of it."""
+        """The plan of the farm with stand-in workers, and the claims on its end."""
         quotas = {str(category): quota for category, quota in split_total(self.jobs).items()}
         header = stand_in_header(seed=seed, **quotas)
         jobs = list(header.spec.jobs())
-        # Among the first, so that others are left to do while they are tried again.
+        # These jobs are among the first, so that others are left to do while they are tried again.
         chosen = scenario_generator(seed, f"lethal {self.name}").choice(len(jobs) // 2, self.lethal, replace=False)
         lethal = frozenset(jobs[place].id for place in chosen)
         fails = " ".join(f"{job_id}=segfault" for job_id in sorted(lethal))
@@ -136,7 +136,7 @@ SCENARIOS: Sequence[Scenario] = (
     ),
     Scenario("queue-poisoned", 120, [Recipe(Fault.POISON, 6)]),
 )
-"""With stand-in workers; the longest first, so that scenarios side by side end together."""
+"""Scenarios with stand-in workers; the longest comes first, so that scenarios side by side end together."""
 
 SMALL_STORM = Scenario(
     "small-storm",
@@ -154,7 +154,7 @@ SMALL_STORM = Scenario(
     ],
     delay_s=0.05,
 )
-"""For the ordinary test suite."""
+"""Scenario for the ordinary test suite."""
 
 BLENDER_SCENARIOS: Sequence[Scenario] = tuple(
     Scenario(f"blender-{name}", 10, recipes, patience_s=180.0)
@@ -182,4 +182,4 @@ BLENDER_SCENARIOS: Sequence[Scenario] = tuple(
         ],
     }.items()
 )
-"""With real Blender; the first is calm, and the others must make the same bytes."""
+"""Scenarios with real Blender; the first has no faults, and the others must make the same bytes."""

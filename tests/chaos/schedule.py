@@ -1,4 +1,4 @@
-"""Which faults strike when: drawn from a seed alone, so that a seed replays a run's faults."""
+"""The schedule of faults, drawn from a seed alone, so that the seed replays a run's faults."""
 
 import zlib
 from collections.abc import Sequence
@@ -8,11 +8,11 @@ from enum import StrEnum
 import numpy as np
 
 EARLIEST, LATEST = 0.05, 0.8
-"""Faults strike while this fraction of a dataset is done: in the middle of the work, and early enough to matter."""
+"""Fractions of a dataset that are done when the first and the last fault may strike: in the middle of the work."""
 
 
 class Fault(StrEnum):
-    """What can be done to a farm."""
+    """The kinds of faults."""
 
     KILL_CHILD = "kill child"
     KILL_WORKER = "kill worker"
@@ -38,11 +38,12 @@ class Fault(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Recipe:
-    """How often a fault strikes in a scenario, and for how long each time.
+    """The number of times that a fault strikes in a scenario, and how long it lasts.
 
     Attributes:
-        times: >= 1.
-        lasts_s: least and most seconds until it is undone; both 0 for what is done in an instant.
+        fault: kind of the fault.
+        times: number of times that the fault strikes, at least 1.
+        lasts_s: least and most seconds until the fault is undone; both 0 for a fault without duration.
     """
 
     fault: Fault
@@ -52,12 +53,13 @@ class Recipe:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """One fault.
+    """One scheduled fault.
 
     Attributes:
-        after: it strikes once this fraction of the dataset's jobs is done.
-        lasts_s: seconds until it is undone; 0 for what is done in an instant.
-        choice: seed of whatever else is chosen when it strikes, such as the victim among those there are.
+        fault: kind of the fault.
+        after: fraction of the dataset's jobs that are done when the fault strikes.
+        lasts_s: seconds until the fault is undone; 0 for a fault without duration.
+        choice: seed of everything else that is chosen when it strikes, such as the victim.
     """
 
     after: float
@@ -66,21 +68,21 @@ class Event:
     choice: int
 
     def generator(self) -> np.random.Generator:
-        """Draws the choices."""
+        """The generator from which the fault's choices are drawn."""
         return np.random.default_rng(self.choice)
 
 
 def draw_schedule(seed: int, scenario: str, recipes: Sequence[Recipe], *, latest: float = LATEST) -> tuple[Event, ...]:
-    """Draw when the faults of a scenario strike.
+    """Draw the moments at which the faults of a scenario strike.
 
     Args:
-        seed: of the whole chaos run, >= 0.
-        scenario: its name, which keeps its draws apart from those of the others.
-        recipes: what is to strike.
+        seed: seed of the whole chaos run, at least 0.
+        scenario: name of the scenario, which keeps its draws apart from those of the others.
+        recipes: the faults and their numbers.
         latest: fraction of done jobs by which all have struck, > `EARLIEST`.
 
     Returns:
-        As many events of each fault as its recipes ask for, by the time at which they strike.
+        The events that the recipes ask for, ordered by the time at which they strike.
     """
     rng = scenario_generator(seed, scenario)
     events = [

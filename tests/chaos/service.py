@@ -1,4 +1,4 @@
-"""A process with a supervisor: restarted when it fails, as `restart: on-failure` of a compose file does."""
+"""A process with a supervisor, restarted when it fails, as by `restart: on-failure` in a compose file."""
 
 import os
 import signal
@@ -15,14 +15,14 @@ RESTART_AFTER_S = 0.3
 
 
 class Service:
-    """One process at a time, the leader of a group of its own.
+    """One process at a time, the leader of its own process group.
 
     Args:
-        name: for people.
-        command: its program and arguments.
-        environment: beside that of this process.
-        log: takes all that it prints.
-        final_codes: exit codes after which it is not started again.
+        name: name of the service in reports.
+        command: program and arguments.
+        environment: environment variables in addition to those of this process.
+        log: file that receives the process's output.
+        final_codes: exit codes after which the process isn't restarted.
     """
 
     def __init__(
@@ -46,11 +46,11 @@ class Service:
 
     @property
     def pid(self) -> int | None:
-        """Of the running process; None while there is none."""
+        """Process id of the running process; None without one."""
         return None if self._process is None or self._process.poll() is not None else self._process.pid
 
     def start(self) -> None:
-        """Start it."""
+        """Start the process."""
         self._log.parent.mkdir(parents=True, exist_ok=True)
         with self._log.open("ab") as log:
             self._process = subprocess.Popen(
@@ -65,7 +65,7 @@ class Service:
         self._died_s = None
 
     def supervise(self) -> None:
-        """Restart it some time after it failed; to be called often."""
+        """Restart the process some time after it failed; call this often."""
         if self._process is None or self.ended_with is not None:
             return
         code = self._process.poll()
@@ -81,24 +81,24 @@ class Service:
             self.start()
 
     def send(self, number: signal.Signals) -> None:
-        """Signal the process alone."""
+        """Send a signal to the process alone."""
         if self.pid is not None:
             os.kill(self.pid, number)
 
     def send_group(self, number: signal.Signals) -> None:
-        """Signal the process and all that it started."""
+        """Send a signal to the process and all that it started."""
         if self._process is not None:
             with suppress(ProcessLookupError):
                 os.killpg(self._process.pid, number)
 
     def kill(self) -> None:
-        """End it at once, and leave it ended."""
+        """Kill the process at once, and don't restart it."""
         if self._process is not None:
             stop([self._process], grace_s=0.0)
             self._process = None
 
     def ended_within(self, grace_s: float) -> bool:
-        """Wait for it to end, then see to it, and leave it ended; whether it ended by itself within so many seconds."""
+        """Wait this many seconds for the process to end, then kill it; returns whether it ended by itself."""
         if self._process is None:
             return True
         try:
@@ -110,21 +110,21 @@ class Service:
         return True
 
     def children(self) -> list[int]:
-        """Ids of its living children."""
+        """Process ids of its living children."""
         parent = self.pid
         return [] if parent is None else sorted(pid for pid, above in living().items() if above == parent)
 
     def last_words(self) -> str:
-        """The last line that it printed."""
+        """The last line that the process printed."""
         lines = self._log.read_text(errors="replace").strip().splitlines() if self._log.exists() else []
         return lines[-1][:300] if lines else "nothing"
 
 
 def living() -> dict[int, int]:
-    """Living processes of this machine, zombies aside: id to the parent's."""
+    """Living processes of this machine without zombies: process id to the parent's."""
     found = {}
     for folder in Path("/proc").iterdir():
-        # A process may end while it is looked at; other folders have no such file.
+        # A process may end while its folder is being read; other folders have no such file.
         with suppress(OSError, ValueError):
             state, parent = (folder / "stat").read_text().rpartition(")")[2].split()[:2]
             if state not in {"Z", "X"}:
@@ -133,7 +133,7 @@ def living() -> dict[int, int]:
 
 
 def living_with(text: str) -> dict[int, str]:
-    """Living processes, this one aside, whose arguments hold a text: id to arguments."""
+    """Living processes but this one whose arguments hold a text: process id to arguments."""
     found = {}
     for pid in living():
         with suppress(OSError):

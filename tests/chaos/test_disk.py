@@ -7,7 +7,7 @@ from tests.chaos.disk import small_disk
 
 
 def test_full_and_freed(tmp_path: Path) -> None:
-    """Nothing can be written to a full disk, and all of it again once it is freed."""
+    """Nothing can be written to a full disk, and everything again once it is freed."""
     with small_disk(tmp_path, 1) as disk:
         if isinstance(disk, str):
             pytest.skip(disk)

@@ -16,17 +16,17 @@ def test_timings_do_not_count() -> None:
 
 
 def test_all_else_counts() -> None:
-    """Manifests that differ in anything else don't."""
+    """Manifests that differ in anything but timings have different fingerprints."""
     assert fingerprint(_manifest(seed=1)) != fingerprint(_manifest(seed=2))
 
 
 def test_damage_has_a_fingerprint() -> None:
-    """What is no manifest is told from another of the kind."""
+    """Different damaged manifests have different fingerprints."""
     assert len({fingerprint(content) for content in (b"", b"[]", b"{", _manifest())}) == 4
 
 
 def test_replaced_at_once(tmp_path: Path) -> None:
-    """Manifests that follow each other at once are all seen, and those that contradict each other are told."""
+    """Manifests in quick succession are all seen, and those that contradict each other are reported."""
     storage = LocalStorage(tmp_path)
     with ManifestWatch([tmp_path / "manifests"]) as watch:
         for seed in (1, 1, 2):
@@ -38,7 +38,7 @@ def test_replaced_at_once(tmp_path: Path) -> None:
 
 
 def test_folder_moved_away(tmp_path: Path) -> None:
-    """A folder that was away for a while is still watched, and holds what it held."""
+    """A folder that was away for a while is still watched, and holds its files."""
     storage = LocalStorage(tmp_path / "cables")
     with ManifestWatch([tmp_path / "cables/far/manifests"]) as watch:
         storage.write("far/manifests/far-000000.json", _manifest())

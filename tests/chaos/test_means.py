@@ -6,13 +6,13 @@ _LACKS = {Fault.FILL_DISK: "no root"}
 
 
 def test_nothing_lacks() -> None:
-    """A scenario that needs nothing of what lacks stays as it is."""
+    """A scenario that needs nothing that the machine lacks stays as it is."""
     scenario = Scenario("any", 6, [Recipe(Fault.CUT, 1)])
     assert within_means(scenario, _LACKS) == (scenario, ())
 
 
 def test_something_lacks() -> None:
-    """What can't be done is left out and told; the rest is played, without the disk that it no longer needs."""
+    """Impossible faults are left out and reported; the rest is played, without the disk that it no longer needs."""
     scenario = Scenario("any", 6, [Recipe(Fault.CUT, 1), Recipe(Fault.FILL_DISK, 1)], with_disk=True)
     reduced, left_out = within_means(scenario, _LACKS)
     assert reduced is not None
@@ -22,5 +22,5 @@ def test_something_lacks() -> None:
 
 
 def test_everything_lacks() -> None:
-    """Of a scenario that is about what lacks nothing is left."""
+    """A scenario all of whose faults are impossible is left out."""
     assert within_means(Scenario("any", 6, [Recipe(Fault.FILL_DISK, 3)], with_disk=True), _LACKS)[0] is None

@@ -13,7 +13,7 @@ _ANSWER_S = 10.0
 
 @pytest.fixture
 def echo(tmp_path: Path) -> Iterator[Path]:
-    """A Unix socket that sends back what it gets."""
+    """A Unix socket that echoes its input."""
     path = tmp_path / "echo"
     with socket.socket(socket.AF_UNIX) as server:
         server.bind(str(path))
@@ -52,7 +52,7 @@ def _is_over(connection: socket.socket) -> bool:
 
 
 def test_cut(echo: Path) -> None:
-    """A cut ends what is connected, and nothing else."""
+    """A cut ends the present connections, and nothing else."""
     with Proxy(echo) as proxy, _connect(proxy) as old:
         assert _answers(old)
         proxy.cut()
@@ -62,7 +62,7 @@ def test_cut(echo: Path) -> None:
 
 
 def test_refuse_and_accept(echo: Path) -> None:
-    """Refused for a while, and taken again on the same port."""
+    """Connections are refused for a while, and accepted again on the same port."""
     with Proxy(echo) as proxy:
         port = proxy.port
         proxy.refuse()
@@ -75,7 +75,7 @@ def test_refuse_and_accept(echo: Path) -> None:
 
 
 def test_swallow_and_flow(echo: Path) -> None:
-    """Nothing gets through for a while, and all of it afterwards, in order."""
+    """Nothing gets through for a while, and everything afterwards, in order."""
     with Proxy(echo) as proxy, _connect(proxy) as connection:
         assert _answers(connection)
         proxy.swallow()
@@ -89,6 +89,6 @@ def test_swallow_and_flow(echo: Path) -> None:
 
 
 def test_nothing_behind_it(tmp_path: Path) -> None:
-    """Where nothing listens behind the proxy, a connection ends at once."""
+    """If nothing listens behind the proxy, a connection ends at once."""
     with Proxy(tmp_path / "none") as proxy, _connect(proxy) as connection:
         assert _is_over(connection)

@@ -20,7 +20,7 @@ _MESSAGE = json.dumps(
     "key", ["farm", "farm\x06\x163", "farm.cables:0123456789ab", "farm.cables:0123456789ab\x06\x163"]
 )
 def test_lists_of_messages(key: str) -> None:
-    """One queue for all datasets or one for each, with and without priorities, are known by their keys."""
+    """Queues of all datasets or of one, with and without priorities, are known by their keys."""
     assert is_queue(key)
 
 
@@ -28,7 +28,7 @@ def test_lists_of_messages(key: str) -> None:
     "key", [f"farm:{queue_key('farm', 'a' * 64)}:finished", "unacked", "farmer", "_kombu.binding.farm"]
 )
 def test_other_keys(key: str) -> None:
-    """A ledger's lists and Celery's other keys are no queues."""
+    """A ledger's lists and Celery's other keys aren't queues."""
     assert not is_queue(key)
 
 
@@ -38,12 +38,12 @@ def test_job_of_a_message() -> None:
 
 
 def test_job_of_garbage() -> None:
-    """What is no message has no job."""
+    """A text that isn't a message has no job."""
     assert [job_of(garbage) for garbage in ("", "null", "{}", "[1]", "no JSON")] == [None] * 5
 
 
 def test_redelivery_is_the_same_task() -> None:
-    """All but the delivery's own tag stays."""
+    """Only the tag of the delivery changes."""
     again = json.loads(redelivered(_MESSAGE))
     first = json.loads(_MESSAGE)
     assert again["properties"].pop("delivery_tag") != first["properties"].pop("delivery_tag")
@@ -51,6 +51,6 @@ def test_redelivery_is_the_same_task() -> None:
 
 
 def test_poisons_are_no_copies() -> None:
-    """Every kind of poison differs from the others and from the message that it was made of."""
+    """Every kind of poison differs from the others and from the message that it was made from."""
     made = poisons(_MESSAGE)
     assert len({*made, _MESSAGE}) == len(made) + 1

@@ -35,7 +35,7 @@ def test_faults_strike_in_the_middle_and_in_order(seed: int, recipes: list[Recip
 
 @given(_SEEDS, st.sampled_from(Fault), _LASTS_S)
 def test_faults_last_as_long_as_asked(seed: int, fault: Fault, lasts_s: tuple[float, float]) -> None:
-    """Each lasts between the least and the most of its recipe."""
+    """Each fault lasts between the least and the most of its recipe."""
     least, most = lasts_s
     assert all(least <= event.lasts_s <= most for event in draw_schedule(seed, "any", [Recipe(fault, 5, lasts_s)]))
 

@@ -1,4 +1,4 @@
-"""What the images and the compose file promise, read from the files; nothing here starts a container."""
+"""The promises of the images and the compose file, checked in the files; no test starts a container."""
 
 import re
 import tomllib
@@ -37,7 +37,7 @@ def service(request: pytest.FixtureRequest) -> dict[str, Any]:
 
 
 def test_a_service_has_no_rights_to_spare(service: dict[str, Any]) -> None:
-    """Not root, no capabilities, none to gain, nothing to write but volumes and /tmp."""
+    """A service isn't root, has no capabilities and can't gain any, and writes only to volumes and /tmp."""
     assert re.fullmatch(r"[1-9]\d*:[1-9]\d*", service["user"])
     assert service["cap_drop"] == ["ALL"]
     assert "no-new-privileges:true" in service["security_opt"]
@@ -51,12 +51,12 @@ def test_a_service_is_published_to_this_host_alone(service: dict[str, Any]) -> N
 
 
 def test_an_image_is_pinned(service: dict[str, Any]) -> None:
-    """No image changes unnoticed: each names a full version."""
+    """Each image names a full version, so that none changes unnoticed."""
     assert re.search(r":\d+\.\d+\.\d+", service["image"])
 
 
 def test_redis_is_out_of_reach_from_outside() -> None:
-    """Redis publishes nothing, asks for a password and sits in a network without a way out."""
+    """Redis publishes no port, asks for a password and sits in a network without a way out."""
     redis = _COMPOSE["services"]["redis"]
     assert "ports" not in redis
     assert "--requirepass" in redis["command"]
@@ -65,7 +65,7 @@ def test_redis_is_out_of_reach_from_outside() -> None:
 
 
 def test_passwords_come_from_the_environment_alone() -> None:
-    """Compose refuses to start where one is not set; none has a default, and none is in the example."""
+    """Compose refuses to start without a password; there is no default, and none in the example."""
     services = _COMPOSE["services"]
     command = services["redis"]["command"]
     redis_password, flower_password = r"\$\{FARM_REDIS_PASSWORD:\?[^}]+\}", r"\$\{FARM_FLOWER_PASSWORD:\?[^}]+\}"
@@ -82,13 +82,13 @@ def test_passwords_come_from_the_environment_alone() -> None:
 
 
 def test_workers_scale() -> None:
-    """Nothing of a worker is fixed that two of them would fight over."""
+    """A worker has no fixed name or port over which two workers would conflict."""
     worker = _COMPOSE["services"]["worker"]
     assert not {"container_name", "hostname", "ports"} & worker.keys()
 
 
 def test_the_gpu_file_only_adds_to_the_worker() -> None:
-    """The override leaves the worker's rights as they are."""
+    """The override for GPUs leaves the worker's rights as they are."""
     assert _GPU["services"].keys() == {"worker"}
     assert _GPU["services"]["worker"].keys() == {"command", "environment", "deploy"}
 
@@ -101,7 +101,7 @@ def test_our_images_carry_our_version() -> None:
 
 
 def test_the_base_image_is_pinned() -> None:
-    """Every stage stands on one Python image, named with its full version, or on another stage."""
+    """Every stage is based on one Python image with its full version, or on another stage."""
     stages = _stages()
     outside = {lines[0].split()[1] for lines in stages.values()} - stages.keys()
     assert len(outside) == 1
@@ -110,7 +110,7 @@ def test_the_base_image_is_pinned() -> None:
 
 @pytest.mark.parametrize("name", ["coordinator", "worker"])
 def test_an_image_runs_as_the_farms_user(name: str) -> None:
-    """Also without compose no image runs as root, or by way of a shell."""
+    """Even without compose, no image runs as root or through a shell."""
     lines = _stages()[name]
     assert "USER 10001:10001" in lines
     started = [line for line in lines if re.match(r"\s*(CMD|ENTRYPOINT) ", line)]
@@ -119,7 +119,7 @@ def test_an_image_runs_as_the_farms_user(name: str) -> None:
 
 
 def test_the_worker_image_takes_the_list_of_packages() -> None:
-    """The list that `make setup` checks is the one that the image installs, and the builder gets to see it."""
+    """The image installs the list that `make setup` checks, and the builder can read the list."""
     installs = [line for line in _instructions() if "apt-get install" in line]
     stages = _stages()
     assert len(installs) == 2
@@ -132,7 +132,7 @@ def test_the_worker_image_takes_the_list_of_packages() -> None:
 
 
 def test_every_install_is_held_to_the_constraints() -> None:
-    """No dependency is installed in another version than the tested one."""
+    """Every dependency is installed in its tested version."""
     installs = [line for line in _instructions() if "pip install" in line]
     assert installs
     assert all("-c constraints.txt" in line or "--no-deps" in line for line in installs)

@@ -18,7 +18,7 @@ _DASHBOARD = Path(__file__).parents[2] / "docker/grafana/cable-farm.json"
 
 
 def test_every_metric_of_the_dashboard_is_served(dataset: Dataset) -> None:
-    """Each name in a panel's query is one that the collector names."""
+    """Each name in a panel's query is a metric of the collector."""
     run = Run(dataset=dataset.name, spec_sha256=dataset.header.spec_sha256)
     handle = RunHandle(run=run, ledger=MemoryLedger(), queue=MemoryQueue(), registry=MemoryRegistry())
     registry = CollectorRegistry(auto_describe=False)
@@ -33,7 +33,7 @@ def test_every_metric_of_the_dashboard_is_served(dataset: Dataset) -> None:
 
 
 def test_panels_do_not_overlap() -> None:
-    """Each panel has a place of its own on the grid of 24 columns."""
+    """Each panel has its own place on the grid of 24 columns."""
     taken: set[tuple[int, int]] = set()
     for panel in json.loads(_DASHBOARD.read_text())["panels"]:
         at = panel["gridPos"]

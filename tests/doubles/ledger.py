@@ -23,7 +23,7 @@ class MemoryLedger:
         self._last_picture: str | None = None
 
     def claim(self, job_id: str, owner: str, ttl_s: float = CLAIM_S) -> int | None:
-        """See `Ledger.claim`."""
+        """Implement `Ledger.claim`."""
         if self.claims().get(job_id, owner) not in {owner, RETRY_OWNER}:
             return None
         self._claims[job_id] = (owner, self._clock() + ttl_s)
@@ -31,7 +31,7 @@ class MemoryLedger:
         return self._starts[job_id]
 
     def refresh(self, job_id: str, owner: str, ttl_s: float = CLAIM_S) -> bool:
-        """See `Ledger.refresh`."""
+        """Implement `Ledger.refresh`."""
         if not self._holds(job_id, owner):
             return False
         self._claims[job_id] = (owner, self._clock() + ttl_s)
@@ -42,29 +42,29 @@ class MemoryLedger:
         return job_id in self._claims and self._claims[job_id][0] == owner
 
     def release(self, job_id: str, owner: str) -> None:
-        """See `Ledger.release`."""
+        """Implement `Ledger.release`."""
         if self._holds(job_id, owner):
             del self._claims[job_id]
 
     def give_back(self, job_id: str, owner: str) -> None:
-        """See `Ledger.give_back`."""
+        """Implement `Ledger.give_back`."""
         if self._holds(job_id, owner):
             del self._claims[job_id]
             self._starts[job_id] -= 1
 
     def postpone(self, job_id: str, owner: str, delay_s: float) -> None:
-        """See `Ledger.postpone`."""
+        """Implement `Ledger.postpone`."""
         if self._holds(job_id, owner):
             self._claims[job_id] = (RETRY_OWNER, self._clock() + delay_s)
             self._starts[job_id] -= 1
 
     def claims(self) -> Mapping[str, str]:
-        """See `Ledger.claims`."""
+        """Implement `Ledger.claims`."""
         now = self._clock()
         return {job_id: owner for job_id, (owner, until) in self._claims.items() if until > now}
 
     def finish(self, job_id: str, owner: str, picture: str) -> bool:
-        """See `Ledger.finish`."""
+        """Implement `Ledger.finish`."""
         if not self._holds(job_id, owner):
             return False
         del self._claims[job_id]
@@ -74,60 +74,60 @@ class MemoryLedger:
         return True
 
     def count_trouble(self, job_id: str) -> int:
-        """See `Ledger.count_trouble`."""
+        """Implement `Ledger.count_trouble`."""
         self._troubles[job_id] += 1
         return self._troubles[job_id]
 
     def count_absence(self) -> int:
-        """See `Ledger.count_absence`."""
+        """Implement `Ledger.count_absence`."""
         self._absences += 1
         return self._absences
 
     def absences(self) -> int:
-        """See `Ledger.absences`."""
+        """Implement `Ledger.absences`."""
         return self._absences
 
     def keep_log(self, job_id: str, text: str) -> None:
-        """See `Ledger.keep_log`."""
+        """Implement `Ledger.keep_log`."""
         self._logs[job_id] = text
 
     def log_of(self, job_id: str) -> str:
-        """See `Ledger.log_of`."""
+        """Implement `Ledger.log_of`."""
         return self._logs.get(job_id, "")
 
     def forgive(self, job_ids: Iterable[str]) -> None:
-        """See `Ledger.forgive`."""
+        """Implement `Ledger.forgive`."""
         for job_id in job_ids:
             for counted in (self._starts, self._troubles, self._logs):
                 counted.pop(job_id, None)
         self._absences = 0
 
     def lead(self, owner: str, ttl_s: float) -> bool:
-        """See `Ledger.lead`."""
+        """Implement `Ledger.lead`."""
         if self.leader() not in {None, owner}:
             return False
         self._leader = (owner, self._clock() + ttl_s)
         return True
 
     def leader(self) -> str | None:
-        """See `Ledger.leader`."""
+        """Implement `Ledger.leader`."""
         return self._leader[0] if self._leader is not None and self._leader[1] > self._clock() else None
 
     def resign(self, owner: str) -> None:
-        """See `Ledger.resign`."""
+        """Implement `Ledger.resign`."""
         if self.leader() == owner:
             self._leader = None
 
     def add_figures(self, figures: Mapping[str, float]) -> None:
-        """See `Ledger.add_figures`."""
+        """Implement `Ledger.add_figures`."""
         self._figures.update(figures)
 
     def figures(self) -> Mapping[str, float]:
-        """See `Ledger.figures`."""
+        """Implement `Ledger.figures`."""
         return dict(self._figures)
 
     def activity(self) -> Activity:
-        """See `Ledger.activity`."""
+        """Implement `Ledger.activity`."""
         return Activity(
             images_per_hour=images_per_hour(list(self._finished_s), self._clock()),
             last_picture=self._last_picture,

@@ -14,22 +14,22 @@ class MemoryQueue:
         self.messages: deque[JobMessage] = deque()
 
     def submit(self, run: Run, messages: Iterable[JobMessage]) -> int:
-        """See `JobQueue.submit`."""
+        """Implement `JobQueue.submit`."""
         before = self.length(run)
         self.messages.extend(messages)
         return self.length(run) - before
 
     def length(self, run: Run) -> int:
-        """See `JobQueue.length`."""
+        """Implement `JobQueue.length`."""
         return len(list(self.queued(run)))
 
     def queued(self, run: Run) -> Iterable[Job]:
-        """See `JobQueue.queued`."""
+        """Implement `JobQueue.queued`."""
         asked = (run.dataset, run.spec_sha256)
         return [message.job for message in self.messages if (message.dataset, message.spec_sha256) == asked]
 
     def clear(self, run: Run) -> int:
-        """See `JobQueue.clear`."""
+        """Implement `JobQueue.clear`."""
         count = self.length(run)
         asked = (run.dataset, run.spec_sha256)
         self.messages = deque(message for message in self.messages if (message.dataset, message.spec_sha256) != asked)

@@ -1,4 +1,4 @@
-"""A board in this process's memory: the twin of the one in Redis, for tests."""
+"""A run registry in this process's memory: the twin of the one in Redis, for tests."""
 
 from collections.abc import Mapping
 
@@ -13,29 +13,29 @@ class MemoryRegistry:
         self._workers: dict[str, WorkerReport] = {}
 
     def register(self, run: Run) -> Run:
-        """See `RunRegistry.register`."""
+        """Implement `RunRegistry.register`."""
         return self._runs.setdefault(run.key, run)
 
     def replace(self, run: Run) -> None:
-        """See `RunRegistry.replace`."""
+        """Implement `RunRegistry.replace`."""
         self._runs[run.key] = run
 
     def remove(self, key: str) -> None:
-        """See `RunRegistry.remove`."""
+        """Implement `RunRegistry.remove`."""
         self._runs.pop(key, None)
 
     def runs(self) -> Mapping[str, Run]:
-        """See `RunRegistry.runs`."""
+        """Implement `RunRegistry.runs`."""
         return dict(self._runs)
 
     def report(self, report: WorkerReport) -> None:
-        """See `RunRegistry.report`."""
+        """Implement `RunRegistry.report`."""
         self._workers[report.name] = report
 
     def sign_off(self, name: str) -> None:
-        """See `RunRegistry.sign_off`."""
+        """Implement `RunRegistry.sign_off`."""
         self._workers.pop(name, None)
 
     def workers(self) -> tuple[WorkerReport, ...]:
-        """See `RunRegistry.workers`."""
+        """Implement `RunRegistry.workers`."""
         return tuple(self._workers[name] for name in sorted(self._workers))

@@ -1,4 +1,4 @@
-"""A run with queue, ledger, board and worker in memory."""
+"""A run with queue, ledger, registry and worker in memory."""
 
 from pathlib import Path
 
@@ -19,15 +19,16 @@ from worker.service.runner import JobRunner
 
 
 class Bench:
-    """A coordinator with its surroundings, and a worker that works when told to.
+    """A coordinator with its surroundings, and a worker that works when asked to.
 
     Args:
         dataset: the dataset.
-        store: where the worker looks for it; by default where it is.
-        ledger: in place of a plain one.
-        queue: likewise.
-        window: see `farm.run.feeder.WINDOW`.
-        lost_after_s: see `farm.run.feeder.LOST_AFTER_S`; by default what is lost is missed at once.
+        store: folder in which the worker looks for the dataset; by default the one that holds it.
+        ledger: ledger of the run; by default a plain one.
+        queue: queue of the run; by default a plain one.
+        window: largest number of the dataset's jobs in the queue, as `farm.run.feeder.WINDOW`.
+        lost_after_s: seconds after which a missing job counts as lost, as `farm.run.feeder.LOST_AFTER_S`; by default
+            it does at once.
     """
 
     def __init__(
@@ -52,7 +53,7 @@ class Bench:
         self.runs: list[str] = []
 
     def work(self, count: int = 1) -> None:
-        """Take some messages and do what they ask."""
+        """Take some messages and make their jobs."""
         for _ in range(min(count, len(self.queue.messages))):
             try:
                 self.runs.append(self.runner.run(self.queue.messages.popleft().encode()).said)
@@ -65,19 +66,19 @@ class Bench:
         return sum(" done in " in line for line in self.runs)
 
     def finish(self) -> Progress:
-        """Watch to the end, with the worker taking one message at each look."""
+        """Watch to the end; the worker takes one message at each look."""
         return self.coordinator.watch(supervise=self.work)
 
     def want(self, state: RunState) -> None:
-        """Say what a person wants of the run."""
+        """Set a person's wish for the run."""
         self.registry.replace(self.handle.run.model_copy(update={"state": state}))
 
     def queued(self) -> list[str]:
-        """The jobs that wait."""
+        """The waiting jobs."""
         return sorted(job.id for job in self.queue.queued(self.handle.run))
 
     def empty_redis(self) -> None:
-        """Forget all that is not in the folder."""
+        """Forget everything that isn't in the folder."""
         self.queue.messages.clear()
         vars(self.ledger).update(vars(MemoryLedger()))
         vars(self.registry).update(vars(MemoryRegistry()))

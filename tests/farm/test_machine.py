@@ -1,4 +1,4 @@
-"""Machines are told apart."""
+"""The identity of machines."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,7 +12,7 @@ from farm.run.ledger.owner import is_gone, this_process
 
 @pytest.fixture(autouse=True)
 def fresh() -> Iterator[None]:
-    """A machine keeps its name; here it changes."""
+    """Forget the machine's name, which is cached, as it changes here."""
     machine_name.cache_clear()
     yield
     machine_name.cache_clear()
@@ -20,7 +20,7 @@ def fresh() -> Iterator[None]:
 
 @pytest.mark.parametrize("what", ["_MACHINE_ID", "_PROCESSES"])
 def test_namesakes_are_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, what: str) -> None:
-    """One host name with another machine id, or another pid namespace, is another machine: its dead are unknown."""
+    """A host of the same name with another machine id or pid namespace is another machine, whose dead are unknown."""
     dead = f"{this_process().rpartition(':')[0]}:{2**22 + 1}"
     assert is_gone(dead)
     (tmp_path / "other").write_text("0123456789abcdef\n")
@@ -30,7 +30,7 @@ def test_namesakes_are_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, wh
 
 
 def test_name_of_last_resort(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where nothing can be read, the host name remains."""
+    """If nothing can be read, the host name identifies the machine."""
     monkeypatch.setattr(machine, "_MACHINE_ID", tmp_path / "none")
     monkeypatch.setattr(machine, "_PROCESSES", tmp_path / "none")
     monkeypatch.setattr("socket.gethostname", lambda: "here")

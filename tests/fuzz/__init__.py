@@ -1,1 +1,1 @@
-"""Hostile bytes for everything that the farm parses."""
+"""Hostile bytes for all parsers of the farm."""

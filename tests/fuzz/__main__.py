@@ -15,7 +15,7 @@ from pathlib import Path
 
 MOST_BYTES = 8192
 _STATE = re.compile(r"^#(\d+)\s+\w+\s+cov: (\d+) ft: \d+ corp: (\d+)/", re.MULTILINE)
-_TIME_S = 60.0  # over its seconds a target has so many to start and end
+_TIME_S = 60.0  # seconds that a target may take to start and end, beyond the time that it is fuzzed
 
 
 @dataclass(frozen=True)
@@ -23,10 +23,11 @@ class Result:
     """What fuzzing one target showed.
 
     Attributes:
-        inputs: tried.
-        coverage: branches of the farm's code that were reached.
-        corpus: inputs kept as each reached something new.
-        failures: one of each kind: the error, where it was raised, and the input in hexadecimal digits.
+        target: name of the target.
+        inputs: number of inputs that were tried.
+        coverage: number of branches of the farm's code that were reached.
+        corpus: number of inputs that were kept since each reached something new.
+        failures: one failure of each kind: the error, where it was raised, and the input in hexadecimal digits.
     """
 
     target: str
@@ -37,7 +38,7 @@ class Result:
 
 
 def fuzz(target: str, *, runs: int, seconds: int, seed: int) -> Result:
-    """Fuzz one target in a process of its own, as the fuzzer ends the one it runs in."""
+    """Fuzz one target in a process of its own, since the fuzzer ends its process."""
     with tempfile.TemporaryDirectory(prefix="farm-fuzz-") as folder:
         limits = [f"-runs={runs}", f"-max_total_time={seconds}", f"-seed={seed}", f"-max_len={MOST_BYTES}"]
         command = [sys.executable, "-m", "tests.fuzz.one", target, folder, *limits]
@@ -48,14 +49,14 @@ def fuzz(target: str, *, runs: int, seconds: int, seed: int) -> Result:
         found = Path(folder) / "failures.jsonl"
         failures = [json.loads(line) for line in found.read_text().splitlines()] if found.exists() else []
         if done.returncode != 0 or not states:
-            # A crash of the interpreter, an input that takes too long, or too much memory.
+            # Other codes are a crash of the interpreter, an input that takes too long, or too much memory.
             failures.append({"error": done.stderr.strip()[-500:], "where": f"exit code {done.returncode}", "input": ""})
         inputs, coverage, corpus = map(int, states[-1]) if states else (0, 0, 0)
     return Result(target, inputs, coverage, corpus, tuple(failures))
 
 
 def main(arguments: list[str]) -> int:
-    """Fuzz all targets, or those named; returns the exit code."""
+    """Fuzz all targets, or the named ones; returns the exit code."""
     parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__)
     parser.add_argument("--runs", type=int, default=-1, help="inputs for each target; default: as many as time allows")
     parser.add_argument("--seconds", type=int, default=30, help="for each target")

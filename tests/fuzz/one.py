@@ -14,7 +14,7 @@ from farm.errors import FarmError
 
 
 def main(arguments: list[str]) -> None:
-    """Run libFuzzer on the target. Each kind of failure is written down once, and does not end it."""
+    """Run libFuzzer on the target. Each kind of failure is recorded once, and doesn't end the run."""
     name, folder = arguments[0], Path(arguments[1])
     target = targets()[name]
     corpus = folder / "corpus"
@@ -28,7 +28,7 @@ def main(arguments: list[str]) -> None:
             target.parse(data)
         except FarmError:
             pass
-        except Exception as error:  # any other is what is looked for
+        except Exception as error:  # any other error is a finding
             frame = traceback.extract_tb(error.__traceback__)[-1]
             kind = (type(error).__name__, f"{frame.filename}:{frame.lineno}")
             if kind not in known:

@@ -1,4 +1,4 @@
-"""What is fuzzed: each target takes bytes, and may raise nothing but a FarmError."""
+"""The fuzzed parsers: each target takes bytes, and may raise nothing but a FarmError."""
 
 import atexit
 import base64
@@ -46,11 +46,11 @@ strength = [0.0, 1.0]
 
 @dataclass(frozen=True)
 class Target:
-    """Something that parses.
+    """A target of the fuzzer.
 
     Attributes:
-        parse: is given the bytes.
-        seeds: good inputs to begin with.
+        parse: function that parses the bytes.
+        seeds: good inputs from which the fuzzer starts.
     """
 
     parse: Callable[[bytes], object]
@@ -72,7 +72,7 @@ def _dataset() -> Dataset:
 
 
 def _one_line(parse: Callable[[bytes], object]) -> Callable[[bytes], object]:
-    """Messages about what came from afar go into logs: none may begin a line of its own there."""
+    """Assert that a message is one line, since messages about foreign input go into logs."""
 
     def parse_and_look(data: bytes) -> None:
         try:
@@ -145,7 +145,7 @@ def _quotas(data: bytes) -> None:
 def _address(data: bytes) -> None:
     text = _text(data)
     masked(text)
-    # An empty one stands for the environment's.
+    # An empty registry would be replaced by the environment's.
     url = broker_url(text or "redis://there")
     assert not url.startswith("rediss") or "ssl_cert_reqs=required" in url
 
@@ -168,19 +168,19 @@ def _good_envelope() -> bytes:
 
 def _photograph(kind: str) -> bytes:
     note = Image.Exif()
-    note[0x0112] = 8  # turned
+    note[0x0112] = 8  # a picture that is turned
     buffer = BytesIO()
     Image.new("RGB", (260, 256), "teal").save(buffer, kind, exif=note)
     return buffer.getvalue()
 
 
 def _registry_seed() -> bytes:
-    """The farm's own, down to its first asset."""
+    """The farm's own registry up to its first asset."""
     return b"[[asset]]".join(OWN_REGISTRY.read_bytes().split(b"[[asset]]")[:2])
 
 
 def targets() -> dict[str, Target]:
-    """All of them, by name."""
+    """All targets by name."""
     dataset = _dataset()
     message = json.dumps(dataset.message(JOB).encode()).encode()
     exr = cv2.imencode(".exr", np.zeros((4, 8, 3), np.float32))[1].tobytes()

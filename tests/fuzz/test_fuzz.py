@@ -1,4 +1,4 @@
-"""A short look by the fuzzer's own targets, with hypothesis in place of coverage; and what long runs have found."""
+"""A short run of the fuzzer's targets with hypothesis instead of coverage, and the findings of long runs."""
 
 import json
 import subprocess
@@ -42,13 +42,13 @@ FOUND = {
 
 
 def parse(target: Target, data: bytes) -> None:
-    """Every error but the farm's own fails the test."""
+    """Parse an input; any error but the farm's own fails the test."""
     with suppress(FarmError):
         target.parse(data)
 
 
 def mutations(seed: bytes) -> st.SearchStrategy[bytes]:
-    """A good input with a piece replaced by any other."""
+    """A good input with a piece replaced."""
     place = st.integers(0, len(seed))
     return st.tuples(place, place, st.binary(max_size=16)).map(
         lambda cut: seed[: min(cut[:2])] + cut[2] + seed[max(cut[:2]) :]
@@ -57,7 +57,7 @@ def mutations(seed: bytes) -> st.SearchStrategy[bytes]:
 
 @pytest.mark.parametrize("name", TARGETS)
 def test_nothing_but_a_farm_error(name: str) -> None:
-    """Any bytes, and good inputs with a piece replaced."""
+    """Any bytes, and good inputs with a piece replaced, raise nothing but a FarmError."""
     target = TARGETS[name]
     altered = st.one_of([mutations(seed) for seed in target.seeds])
 
@@ -71,21 +71,21 @@ def test_nothing_but_a_farm_error(name: str) -> None:
 
 @pytest.mark.parametrize(("name", "data"), [(name, data) for name, found in FOUND.items() for data in found])
 def test_what_was_found_stays_mended(name: str, data: bytes) -> None:
-    """Inputs that raised something else once, or were feared to."""
+    """Inputs that raised another error once, or might have, raise none."""
     parse(TARGETS[name], data)
 
 
 @pytest.mark.parametrize("name", TARGETS)
 def test_the_good_inputs_are_good(name: str) -> None:
-    """Or the fuzzer would begin with nothing."""
+    """The good inputs are accepted, so that the fuzzer begins with something."""
     for seed in TARGETS[name].seeds:
         if name == "job id" and b"/" in seed:
-            continue  # a manifest's path, for the other of the two that this target calls
+            continue  # this target calls two parsers, and the input is for the other one
         TARGETS[name].parse(seed)
 
 
 def test_the_fuzzer_finds_a_defect(tmp_path: Path) -> None:
-    """One that is put in: it is in the table, in the file, and in the exit code; the farm's own errors aren't."""
+    """A defect that is put in appears in the table, the file and the exit code; the farm's own errors don't."""
     pytest.importorskip("atheris")
     program = (
         "import tests.fuzz.targets as t\n"
@@ -110,7 +110,7 @@ def test_the_fuzzer_finds_a_defect(tmp_path: Path) -> None:
 
 
 def test_a_short_run_ends_well(tmp_path: Path) -> None:
-    """The whole program over two targets: a line for each, a report, and exit code 0."""
+    """The whole program over two targets prints a line for each, writes a report, and ends with 0."""
     pytest.importorskip("atheris")
     options = ["--runs", "300", "--seconds", "20", "--target", "job id", "--target", "quotas", "--out", str(tmp_path)]
     done = subprocess.run([sys.executable, "-m", "tests.fuzz", *options], capture_output=True, text=True, check=False)

@@ -1,1 +1,1 @@
-"""What the queue costs, measured with a stand-in renderer: `python -m tests.load jobs|submit --out DIR`."""
+"""Measure the cost of the queue with a stand-in renderer: `python -m tests.load jobs|submit --out DIR`."""

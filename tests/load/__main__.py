@@ -12,7 +12,7 @@ from tests.load.submission import measure_submission
 
 
 def main(arguments: list[str]) -> int:
-    """Run one benchmark; 0 if its results are right."""
+    """Run one benchmark and return its exit code: 0 if its results are right."""
     parser = argparse.ArgumentParser(prog="python -m tests.load", description=__doc__)
     commands = parser.add_subparsers(dest="benchmark", required=True)
     shared = argparse.ArgumentParser(add_help=False)

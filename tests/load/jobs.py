@@ -1,4 +1,4 @@
-"""Jobs a second through real Redis and real Celery workers whose renderer does next to nothing."""
+"""Measure jobs per second through real Redis and real Celery workers whose renderer does almost nothing."""
 
 import os
 import subprocess
@@ -31,14 +31,16 @@ _IDLE_S = 20.0
 
 @dataclass(frozen=True, slots=True)
 class JobCost:
-    """What a number of workers do and take.
+    """The cost of a run with a number of workers.
 
     Attributes:
-        wall_s: from the first job's submission to the last one's end.
-        workers_s: processor seconds of the workers, their children included, without what the stand-in itself takes.
-        redis_s: of Redis.
-        coordinator_s: of the submitting and watching process.
-        idle_redis_s: of Redis in a second without any job, from workers that listen and report.
+        workers: number of workers.
+        jobs: number of the dataset's jobs.
+        wall_s: wall seconds from the first job's submission to the last one's end.
+        workers_s: processor seconds of the workers and their children, without those of the stand-in renderer.
+        redis_s: processor seconds of Redis.
+        coordinator_s: processor seconds of the process that submits and watches.
+        idle_redis_s: processor seconds of Redis per second without any job, while workers listen and report.
     """
 
     workers: int
@@ -51,21 +53,21 @@ class JobCost:
 
     @property
     def jobs_per_s(self) -> float:
-        """Throughput."""
+        """Finished jobs per second."""
         return self.jobs / self.wall_s
 
     @property
     def cpu_ms(self) -> float:
-        """Overhead in processor milliseconds a job, of all processes."""
+        """CPU time of all processes per job, milliseconds."""
         return 1000.0 * (self.workers_s + self.redis_s + self.coordinator_s) / self.jobs
 
 
 def measure_jobs(workers: int, jobs: int, seed: int) -> JobCost:
-    """Run a dataset of so many jobs.
+    """Run a dataset of this many jobs, and measure it.
 
     Raises:
-        VerificationError: if it is not complete and as its manifests tell.
-        FarmError: that with which the run ended.
+        VerificationError: if the dataset is incomplete or disagrees with its manifests.
+        FarmError: if the run fails.
     """
     with PrivateRedis() as server, tempfile.TemporaryDirectory(prefix="cable-farm-") as folder:
         client = connect(server.url)
@@ -96,7 +98,7 @@ def _idle(redis_process: int) -> float:
 
 
 def _stand_in_s(dataset: Dataset, times: int = 200) -> float:
-    """Processor seconds that the stand-in takes for one picture, which are not the farm's."""
+    """CPU seconds that the stand-in renderer takes for one picture, which aren't the farm's."""
     renderer, jobs = StandInRenderer(), list(dataset.header.spec.jobs())
     standard_output = os.dup(1)
     with Path(os.devnull).open("w") as nowhere:

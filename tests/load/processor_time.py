@@ -1,4 +1,4 @@
-"""Processor time of processes and all that they started, as Linux counts it."""
+"""CPU time of processes and their descendants, as Linux counts it."""
 
 from collections.abc import Iterable
 from contextlib import suppress
@@ -7,10 +7,10 @@ import psutil
 
 
 def processor_s(processes: Iterable[int]) -> float:
-    """User and system seconds of processes, their living descendants, and those that these have waited for."""
+    """User and system seconds of processes, of their living descendants, and of those that these have waited for."""
     total = 0.0
     for number in processes:
-        # A child may end meanwhile; then its parent's sum has it.
+        # A child may end meanwhile; then its parent's sum includes it.
         with suppress(psutil.NoSuchProcess):
             process = psutil.Process(number)
             for each in (process, *process.children(recursive=True)):

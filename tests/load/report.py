@@ -1,4 +1,4 @@
-"""Tables, JSON and plots of the load benchmarks."""
+"""The tables, JSON files and plots of the load benchmarks."""
 
 import json
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from matplotlib import pyplot as plt  # the backend must be chosen first
 
 
 def jobs_table(costs: Sequence[JobCost]) -> Table:
-    """A row a number of workers."""
+    """A table with one row per number of workers."""
     table = Table(title="jobs through the queue, stand-in renderer", title_justify="left")
     for name in (
         "workers",
@@ -39,7 +39,7 @@ def jobs_table(costs: Sequence[JobCost]) -> Table:
 
 
 def submission_table(costs: Sequence[SubmissionCost]) -> Table:
-    """A row a size."""
+    """A table with one row per size."""
     table = Table(title="farm submit", title_justify="left")
     for name in ("images", "seconds", "CPU s", "peak MiB", "waiting", "Redis MiB"):
         table.add_column(name, justify="right")
@@ -56,14 +56,14 @@ def submission_table(costs: Sequence[SubmissionCost]) -> Table:
 
 
 def write_json(path: Path, costs: Sequence[JobCost] | Sequence[SubmissionCost], seed: int) -> None:
-    """Every figure, and the machine."""
+    """Write every figure, and a description of the machine."""
     path.write_text(
         json.dumps({"machine": machine(), "seed": seed, "costs": [asdict(cost) for cost in costs]}, indent=1)
     )
 
 
 def plot_jobs(path: Path, costs: Sequence[JobCost]) -> None:
-    """Throughput and overhead by workers."""
+    """Draw throughput and overhead over the number of workers."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.5), layout="constrained")
     workers = [cost.workers for cost in costs]
     left.plot(workers, [cost.jobs_per_s for cost in costs], "o-")
@@ -81,7 +81,7 @@ def plot_jobs(path: Path, costs: Sequence[JobCost]) -> None:
 
 
 def plot_submissions(path: Path, costs: Sequence[SubmissionCost]) -> None:
-    """Seconds and memory by size."""
+    """Draw seconds and memory over the size."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.5), layout="constrained")
     images = [cost.images for cost in costs]
     left.plot(images, [cost.wall_s for cost in costs], "o-")

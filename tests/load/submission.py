@@ -1,4 +1,4 @@
-"""What a submission costs by its size: `farm submit` as a user calls it."""
+"""Measure the cost of a submission by its size, with `farm submit` as a user calls it."""
 
 import os
 import subprocess
@@ -18,12 +18,15 @@ from farm.run.queue.broker import connect
 
 @dataclass(frozen=True, slots=True)
 class SubmissionCost:
-    """What one `farm submit` took.
+    """The cost of one `farm submit`.
 
     Attributes:
-        waiting: jobs in the queue afterwards.
-        peak_mib: its most resident memory.
-        redis_mib: what Redis holds afterwards.
+        images: number of images of the dataset.
+        wall_s: wall seconds of the command.
+        cpu_s: processor seconds of the command.
+        peak_mib: largest resident memory of the command, MiB.
+        waiting: number of jobs in the queue afterwards.
+        redis_mib: memory that Redis uses afterwards, MiB.
     """
 
     images: int
@@ -38,7 +41,7 @@ def measure_submission(images: int, seed: int) -> SubmissionCost:
     """Submit a fresh dataset to an empty Redis, with no worker.
 
     Raises:
-        VerificationError: if the queue does not hold what it must: every job, or a window of them, once each.
+        VerificationError: if the command fails, or the queue doesn't hold every job, or a window of them, once each.
     """
     with PrivateRedis() as server, tempfile.TemporaryDirectory(prefix="cable-farm-") as folder:
         place = str(Path(folder) / "cables")

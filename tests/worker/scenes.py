@@ -14,7 +14,7 @@ SHA = "0" * 64
 
 
 def make_header(**keys: object) -> DatasetHeader:
-    """A header over two surfaces and two HDRIs, one of them dark; `keys` are those of the spec."""
+    """A header over two surfaces and two HDRIs, one of them dark; `keys` are keys of the description."""
     return DatasetHeader(
         farm_version="0",
         spec=parse_spec({"images": 60, "seed": 0, "style": "published", **keys}, source="test"),
@@ -36,7 +36,7 @@ def make_scene(category: Category = Category.FAR, index: int = 0, attempt: int =
 
 
 def make_skin(**keys: object) -> Skin:
-    """A plain red sheath; `keys` are those of the skin."""
+    """A plain red sheath; `keys` are fields of the skin."""
     plain = Skin(
         sheath=Sheath.PLAIN,
         colour=(200, 30, 30),
@@ -51,5 +51,5 @@ def make_skin(**keys: object) -> Skin:
 
 
 def tubular(curve: Points, radius_m: float, instance: int = 1) -> Tubular:
-    """A cable's one piece."""
+    """The single piece of a cable."""
     return Tubular(instance, curve, radius_m, 0.0, 1.0, 1.0, make_skin())

@@ -1,4 +1,4 @@
-"""Settled shapes whose figures are known."""
+"""Settled shapes with known figures."""
 
 import numpy as np
 
@@ -16,7 +16,7 @@ def rod(*, y: float = 0.0, z: float = RADIUS, along_y: bool = False) -> Points:
 
 
 def looped(*, step: float = 0.0) -> Points:
-    """A cable with a loop of 20 mm that crosses itself once, its end on top by `step` metres."""
+    """A cable with a loop of 20 mm that crosses itself once, with its end on top by `step` metres."""
     t = np.linspace(-1.0, 1.0, 81)
     rise = step * (1 + t / np.sqrt(0.3)) / 2
     return np.stack([0.02 * (t**3 - 0.3 * t) / 0.3, 0.02 * (1 - t**2), RADIUS + np.clip(rise, 0, step)], axis=1)

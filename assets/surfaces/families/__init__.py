@@ -1,1 +1,1 @@
-"""Recipes of floor surfaces, a module a family."""
+"""Recipes of floor surfaces, one module per family."""

@@ -13,11 +13,13 @@ from assets.surfaces.kit.tiled import Face, Joints, set_tiles
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 
 RED = ("8e4a35", "a35a40", "7c3f30", "a5674b", "6b3a31", "96553f")
+"""Colours of red facing bricks, hexadecimal sRGB; each brick has one of them."""
 CLINKER = ("7a4436", "8c5240", "6d4540", "9a6148", "5d4240", "87503a")
+"""Colours of clinker pavers, hexadecimal sRGB; each paver has one of them."""
 
 
 def brick_wall(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Red facing bricks, 190 by 57 mm, in a running bond with pale mortar; some burnt dark, some limy."""
+    """Red facing bricks, 190 by 57 mm, in a running bond with pale mortar; some burnt dark, some white with lime."""
     layout = tiles(grid, 2, 6, 0.5)
     face = _clay(rng, grid, layout, RED, rough_mm=0.35)
     lime = smoothstep(0.6, 2.4, fractal(rng, grid, 70, 0.6, gain=0.7)) * value_each(rng, layout.labels, 0.0, 1.0)
@@ -54,7 +56,7 @@ def brick_paving(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def _clay(rng: np.random.Generator, grid: Grid, layout: Layout, tones: tuple[str, ...], rough_mm: float) -> Face:
-    """Fired clay: every brick of its own tone, sanded, cracked in the kiln, with grit and pits."""
+    """Fired clay: every brick has its own tone, sand on its face, cracks from the kiln, grit and pits."""
     broad = _cut(rng, grid, layout.labels, fractal(rng, grid, 60, 0.8, gain=0.66))
     fine = fractal(rng, grid, 3.5, 0.0, gain=0.85)
     palette = np.stack([rgb(code) for code in tones])

@@ -11,6 +11,7 @@ from assets.surfaces.kit.pile import Pile, pebble
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 
 GREYS = ((0.0, "6b6a67"), (0.35, "8d8b87"), (0.7, "a8a6a1"), (1.0, "c4c1bb"))
+"""Colour ramp of concrete, from damp and dark at 0 to dry and pale at 1, hexadecimal sRGB."""
 
 
 def concrete_smooth(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
@@ -64,7 +65,7 @@ def concrete_cracked(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def concrete_stained(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Workshop floor: oil, rust, dried puddles and splashes of paint."""
+    """Workshop floor with oil, rust, dried puddles and splashes of paint."""
     base = 0.5 + 0.13 * _clouds(rng, grid) + 0.05 * fractal(rng, grid, 6, 0.0, gain=0.85)
     colour = ramp(base, GREYS)
     rough = 0.66 + 0.05 * fractal(rng, grid, 40, 1, gain=0.6)
@@ -105,7 +106,7 @@ def asphalt(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def _clouds(rng: np.random.Generator, grid: Grid) -> Field:
-    """Large patches that carry ever finer ones, standard deviation about 1."""
+    """Large patches overlaid with ever finer ones, standard deviation about 1."""
     return np.asarray(
         0.8 * fractal(rng, grid, 160, 4, gain=0.6) + 0.6 * fractal(rng, grid, 30, 0.6, gain=0.7), np.float32
     )

@@ -4,7 +4,7 @@ import numpy as np
 import numpy.typing as npt
 
 from assets.surfaces.kit.cells import mask_distance
-from assets.surfaces.kit.circuit_layout import VIA_MM, Board, Body, BodyKind, Pad, lay_out
+from assets.surfaces.kit.circuit_layout import VIA_MM, Body, BodyKind, CircuitBoard, Pad, lay_out
 from assets.surfaces.kit.colour import mix, plain, ramp, shade
 from assets.surfaces.kit.grid import Field, Grid
 from assets.surfaces.kit.lettering import stamp, text_patch
@@ -20,16 +20,18 @@ BODY_COLOURS = {
     BodyKind.CAPACITOR: "b1916a",
     BodyKind.HEADER: "232426",
 }
+"""Colour of a component's body, hexadecimal sRGB."""
 BODY_HEIGHTS_MM = {BodyKind.CHIP: 1.2, BodyKind.RESISTOR: 0.5, BodyKind.CAPACITOR: 0.8, BodyKind.HEADER: 1.4}
+"""Height of a component's body over the board, millimetres."""
 
 
 def circuit_board_green(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Green circuit board, most of its parts soldered on, tinned pads."""
+    """Green circuit board with tinned pads; three quarters of its parts are soldered on."""
     return _board(rng, grid, ("16452e", "2b6e46"), "c9cbca", fitted=0.75)
 
 
 def circuit_board_blue(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Blue circuit board, nearly bare, gilded pads."""
+    """Blue circuit board with gilded pads, nearly bare of parts."""
     return _board(rng, grid, ("17386b", "2c5c9c"), "d9b966", fitted=0.12)
 
 
@@ -39,9 +41,9 @@ def _board(rng: np.random.Generator, grid: Grid, mask: tuple[str, str], metal: s
     Args:
         rng: Source of the randomness.
         grid: The tile.
-        mask: Colour of the solder mask over bare laminate and over copper.
-        metal: Colour of the pads.
-        fitted: Share of the components that sit in their places.
+        mask: Colours of the solder mask over bare laminate and over copper, hexadecimal.
+        metal: Colour of the pads, hexadecimal.
+        fitted: Probability that a component is soldered on.
 
     Returns:
         The maps.
@@ -85,7 +87,7 @@ def _board(rng: np.random.Generator, grid: Grid, mask: tuple[str, str], metal: s
 
 
 class _Parts:
-    """The components' bodies: colour (H, W, 3), height in millimetres, mask and bare metal, each (H, W)."""
+    """The bodies of the components drawn so far: colour (H, W, 3); height in mm, mask and bare metal, each (H, W)."""
 
     def __init__(self, grid: Grid) -> None:
         self._grid = grid
@@ -95,7 +97,7 @@ class _Parts:
         self.metal = grid.zeros()
 
     def put(self, body: Body, metal: str) -> None:
-        """Set a body on the board, with its caps, marking and pin 1."""
+        """Draw a body on the board, with its metal caps, its pins or the marking of a chip."""
         texel = self._grid.texel_mm
         wide, high = (max(3, round(edge / texel)) for edge in (body.width, body.height))
         top, left = round(body.y / texel - high / 2), round(body.x / texel - wide / 2)
@@ -123,7 +125,7 @@ class _Parts:
         self.metal[where] = bare
 
     def _mark(self, face: Field, body: Body, wide: int, high: int) -> None:
-        """Print a chip's name on it and press the dot that tells its first pin."""
+        """Print a chip's name on it and press the dot that marks its first pin."""
         label = text_patch(f"{body.name}-{len(body.name) * 37}{wide % 10}", 0.9, self._grid)
         if wide < high:
             label = np.ascontiguousarray(np.rot90(label))
@@ -138,7 +140,7 @@ class _Parts:
         face *= (0.55 + 0.45 * dot)[..., None]
 
 
-def _pads(board: Board, grid: Grid) -> tuple[Field, Field]:
+def _pads(board: CircuitBoard, grid: Grid) -> tuple[Field, Field]:
     """Bare metal and drilled holes, each 0 to 1."""
     metal, holes = np.zeros((2, grid.pixels, grid.pixels), np.uint8)
     for pad in board.pads:
@@ -154,7 +156,7 @@ def _pads(board: Board, grid: Grid) -> tuple[Field, Field]:
     return as_field(metal), as_field(holes)
 
 
-def _copper(rng: np.random.Generator, grid: Grid, board: Board, pads: Field) -> Field:
+def _copper(rng: np.random.Generator, grid: Grid, board: CircuitBoard, pads: Field) -> Field:
     """Copper under the mask: traces, vias, and poured areas that keep clear of them; 0 to 1."""
     lines: Image = np.zeros((grid.pixels, grid.pixels), np.uint8)
     for trace in board.traces:
@@ -167,7 +169,7 @@ def _copper(rng: np.random.Generator, grid: Grid, board: Board, pads: Field) -> 
 
 
 def _poured(rng: np.random.Generator, grid: Grid) -> Field:
-    """Areas filled with copper: overlapping rectangles with their corners cut off, and gaps between some; 0 to 1."""
+    """Mask of the areas filled with copper, 0 to 1: overlapping rectangles with cut corners, some left out."""
     image: Image = np.zeros((grid.pixels, grid.pixels), np.uint8)
     for number in range(34):
         middle, half = rng.uniform(0, grid.size_mm, 2), rng.uniform(9, 42, 2)
@@ -175,12 +177,12 @@ def _poured(rng: np.random.Generator, grid: Grid) -> Field:
         inner = half - cut
         corners = [(half[0], inner[1]), (inner[0], half[1]), (-inner[0], half[1]), (-half[0], inner[1])]
         octagon = np.array(corners + [(-x, -y) for x, y in corners])
-        # Now and then an area is left bare, so that not everything grows together.
+        # Every fourth area is cleared instead, so that the areas don't merge into one.
         polygon(image, octagon + middle, (0.0 if number % 4 == 3 else 255.0,), grid)
     return as_field(image)
 
 
-def _print(board: Board, grid: Grid) -> Field:
+def _print(board: CircuitBoard, grid: Grid) -> Field:
     """The white print: outlines, the first pin's corner, and names beside the components; 0 to 1."""
     image: Image = np.zeros((grid.pixels, grid.pixels), np.uint8)
     for body in board.bodies:

@@ -31,7 +31,7 @@ KEY = (
     "##############.#",
     "...............#",
 )
-"""One repeat of a meander: '.' is the light yarn."""
+"""One repeat of the meander carpet's pattern: '.' is the light yarn, '#' the dark one."""
 
 
 def linen(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
@@ -136,7 +136,7 @@ def felt(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def _light_yarn(points_mm: npt.NDArray[np.float64], grid: Grid) -> npt.NDArray[np.bool_]:
-    """Which loops of the meander are light; turned by 45 degrees the pattern still repeats with the tile."""
+    """Whether each loop of the meander is of light yarn; the pattern is turned by 45 degrees and still tiles."""
     key = np.array([[cell == "." for cell in line] for line in KEY])
     cell = grid.size_mm / 3 / len(KEY)
     rows = np.floor((points_mm[:, 1] - points_mm[:, 0]) / cell).astype(np.int64) % len(KEY)
@@ -154,7 +154,7 @@ def _yarn(
 
 
 def _cloth(rng: np.random.Generator, grid: Grid, cloth: Weave, colour: Field, gap: str, depth: float) -> SurfaceMaps:
-    """Finish a woven cloth: dark valleys, creases, faint soiling."""
+    """Finish a woven cloth: darken the valleys and add creases and faint soiling."""
     colour = shade(colour, (1 - depth) + depth * smoothstep(0.05, 0.85, cloth.light))
     colour = mix(colour, gap, 0.85 * cloth.gap)
     soil = smoothstep(-0.2, 2.2, fractal(rng, grid, 110, 2, gain=0.62))
@@ -190,7 +190,7 @@ def _loops(rng: np.random.Generator, grid: Grid, points: npt.NDArray[np.float64]
 
 
 def _hairs(rng: np.random.Generator, grid: Grid, count: int, width_mm: float, length_mm: float) -> Field:
-    """Loose fibres lying every way; 0 to 1, shape (H, W)."""
+    """Mask of loose fibres that lie in every direction; 0 to 1, shape (H, W)."""
     image = np.zeros((grid.pixels, grid.pixels), np.uint8)
     for _ in range(count):
         start = rng.uniform(0, grid.size_mm, 2).tolist()

@@ -13,7 +13,9 @@ from assets.surfaces.kit.strokes import as_field, polylines
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 
 EARTH = ((0.0, "2e2219"), (0.4, "4f3c2b"), (0.75, "715840"), (1.0, "937758"))
+"""Colour ramp of bare earth, from damp and dark at 0 to dry and pale at 1, hexadecimal sRGB."""
 GREENS = ("5f7a2e", "6f8a38", "4f6b2a", "86964a", "a39a58", "58702f")
+"""Colours of growing grass, hexadecimal sRGB; each blade has one of them."""
 
 
 def soil(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
@@ -38,7 +40,7 @@ def gravel(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def pebbles(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Rounded river pebbles, 8 to 30 mm, of many rocks."""
+    """Rounded river pebbles of many kinds of rock, 8 to 30 mm."""
     tones = ("9a9389", "b9ad98", "6c6964", "86705c", "cdc5b5", "5b5f63", "9c7a63", "7d837f")
     return _stones(rng, grid, tones, 0.0, ((3.5, 2200), (6.5, 700), (10.0, 260), (13.0, 80)))
 
@@ -65,7 +67,7 @@ def sand(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def grass(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Trodden lawn: blades of every green, some dry, over thatch."""
+    """Trodden lawn: green blades and some dry ones over thatch."""
     thatch = fractal(rng, grid, 14, 0.0, gain=0.75)
     colour = as_image(ramp(0.35 + 0.16 * thatch, EARTH))
     height = np.full((grid.pixels, grid.pixels), 10, np.uint8)
@@ -121,7 +123,7 @@ def leaf_litter(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def _crumbs(rng: np.random.Generator, grid: Grid) -> Pile:
-    """Bare crumbly earth."""
+    """Bare crumbly earth with clods and a few stones, for other things to be laid on."""
     broad = fractal(rng, grid, 60, 0.6, gain=0.66)
     fine = fractal(rng, grid, 5, 0.0, gain=0.85)
     pile = Pile(grid, ramp(0.36 + 0.10 * broad + 0.12 * fine, EARTH), 0.8 * broad + 0.2 * fine)
@@ -141,7 +143,7 @@ def _stones(
     angular: float,
     sizes: tuple[tuple[float, int], ...],
 ) -> SurfaceMaps:
-    """Loose stones on earth: `sizes` gives the radius in millimetres and the number of each sort, laid in turn."""
+    """Loose stones on earth; `sizes` holds the radius in millimetres and the number of each sort, laid in turn."""
     fine = fractal(rng, grid, 6, 0.0, gain=0.8)
     pile = Pile(grid, ramp(0.4 + 0.14 * fine, ((0.0, "2c2823"), (1.0, "6b6257"))), 0.3 * fine)
     for radius, count in sizes:

@@ -16,14 +16,15 @@ from assets.surfaces.kit.strokes import as_field
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 
 UNIT_MM = 19.05
-"""Pitch of keys: the usual three quarters of an inch."""
+"""Pitch of the keys, millimetres: the usual three quarters of an inch."""
 UNITS = 20
-"""Keys across the tile."""
+"""Pitches of keys along the tile's edge: a row of a full keyboard, with the gap to the next keyboard."""
 AROUND_MM = 6.0
-"""How far round a cap its shadow reaches."""
+"""Margin around a cap within which distances to it are drawn, millimetres: beyond, its shadow has all but faded."""
 BLOCK_GAP_MM = (UNITS - 18) * UNIT_MM / 3
+"""Gap between two keyboards, millimetres: three keyboards of six rows each leave two units of the tile's edge."""
 
-# Widths in units; a negative one is a gap. Each row adds up to 20.
+# Widths of the keys in units; a negative width is a gap. Each row adds up to UNITS.
 ROWS: tuple[tuple[float, ...], ...] = (
     (1, -1, 1, 1, 1, 1, -0.5, 1, 1, 1, 1, -0.5, 1, 1, 1, 1, -0.5, 1, 1, 1, -0.5, 1),
     (1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2, -0.5, 1, 1, 1, -0.5, 1),
@@ -40,21 +41,21 @@ LEGENDS = (
     "Shift Z X C V B N M , . / Shift ^ M5",
     "Ctrl Fn Alt _ Alt Fn Menu Ctrl < v > M6",
 )
-"""What stands on the keys of each row, in turn; an underscore for none."""
+"""Legends of the keys of each row, from left to right; an underscore stands for a blank key."""
 
 
 @dataclass(frozen=True)
 class Style:
-    """How the caps of a keyboard are made.
+    """The look and shape of a keyboard's caps.
 
     Attributes:
-        cap: Colour of the caps.
-        plate: Colour between them.
-        legend: Colour of the letters.
-        gap_mm: Between the feet of two caps.
-        wall_mm: How far a cap's side wall leans in.
+        cap: Colour of the caps, hexadecimal.
+        plate: Colour of the plate between the caps, hexadecimal.
+        legend: Colour of the letters, hexadecimal.
+        gap_mm: Gap between the feet of two caps.
+        wall_mm: Distance by which a cap's side wall leans inwards.
         high_mm: Height of a cap.
-        dish_mm: How far its face is hollowed.
+        dish_mm: Height of the rim of a cap's face over its middle.
     """
 
     cap: str
@@ -67,12 +68,12 @@ class Style:
 
 
 def keyboard_black(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Black keyboard with tall hollowed caps, shiny where fingers strike, dust and crumbs in the gaps."""
+    """Black keyboard with tall hollowed caps, shiny where fingers strike them, and dust and crumbs in the gaps."""
     return _keyboard(rng, grid, Style("434447", "1a1a1b", "d3d4d2", 1.1, 2.9, 5.0, 0.5))
 
 
 def keyboard_white(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """White flat keyboard: low caps with grey letters, shadowed gaps, the grey of hands on the keys."""
+    """White flat keyboard: low caps with grey letters, shadowed gaps, and the grey that hands leave on the keys."""
     return _keyboard(rng, grid, Style("e4e4e1", "a9acad", "66686b", 2.6, 0.9, 1.8, 0.12))
 
 
@@ -110,16 +111,16 @@ def _keyboard(rng: np.random.Generator, grid: Grid, style: Style) -> SurfaceMaps
 
 
 class _Caps:
-    """The caps drawn so far, all of shape (H, W).
+    """The caps drawn so far; every field has shape (H, W).
 
     Attributes:
-        mask: 1 on a cap.
-        face: 0 at the foot of a cap's wall to 1 on its face.
-        legend: Letters, 0 to 1.
-        polish: 1 in the middle of keys that are struck often.
+        mask: Mask of the caps, 1 on a cap.
+        face: Position on a cap, from 0 at the foot of its wall to 1 on its face.
+        legend: Mask of the letters, 0 to 1.
+        polish: Wear by fingers, up to 1 in the middle of the keys that are struck most often.
         tint: Factor for the colour of each cap.
         height_mm: Relief.
-        outside_mm: Between the caps, the distance to the nearest one.
+        outside_mm: Distance from the nearest cap, 0 on a cap.
     """
 
     def __init__(self, grid: Grid, style: Style) -> None:
@@ -130,7 +131,15 @@ class _Caps:
         self.outside_mm = grid.zeros() + np.float32(UNIT_MM)
 
     def put(self, rng: np.random.Generator, x_mm: float, y_mm: float, units: float, name: str) -> None:
-        """Set a cap of some width on the plate."""
+        """Set a cap on the plate.
+
+        Args:
+            rng: Source of the randomness.
+            x_mm: Position of the cap's middle to the right.
+            y_mm: Position of the cap's middle downwards.
+            units: Width of the cap, in pitches of keys.
+            name: Legend of the cap; an underscore for a blank one.
+        """
         style, texel = self._style, self._grid.texel_mm
         wide, high = units * UNIT_MM - style.gap_mm, UNIT_MM - style.gap_mm
         half_x, half_y = int((0.5 * wide + AROUND_MM) / texel), int((0.5 * high + AROUND_MM) / texel)
@@ -160,7 +169,7 @@ class _Caps:
             self._letter(rng, where, u.shape, name)
 
     def _letter(self, rng: np.random.Generator, where: Block, shape: tuple[int, ...], name: str) -> None:
-        """Print a cap's legend towards the back left of its face, more or less rubbed off."""
+        """Print a cap's legend towards the back left of its face, rubbed off to a random degree."""
         patch = as_field(text_patch(name, 3.0 if len(name) == 1 else 1.7, self._grid, 0.15))
         inset = self._style.wall_mm + AROUND_MM
         top, left = int((inset + 0.8) / self._grid.texel_mm), int((inset + 1.8) / self._grid.texel_mm)

@@ -1,4 +1,4 @@
-"""White and light faces of tables and boards: plain at a glance, used at a closer look."""
+"""White and light faces of tables and boards: plain at a glance, with traces of use at a closer look."""
 
 from dataclasses import replace
 
@@ -16,7 +16,7 @@ from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 
 
 def laminate_white(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """White office table: a satin face, wiped but not clean, with smudges, hair scratches and pencil marks."""
+    """White office table: a satin face, wiped but not clean, with smudges, hairline scratches and pencil marks."""
     colour = ramp(0.5 + 0.2 * fractal(rng, grid, 150, 12, gain=0.55), ((0.0, "e6e5e1"), (1.0, "efeeea")))
     return _used(rng, grid, colour, orange_peel=0.004, gloss=0.36)
 
@@ -32,7 +32,7 @@ def laminate_grey(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def melamine_board(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """White melamine boards butted together: a dark seam between two edge bands, one yellowed."""
+    """White melamine boards butted together: a dark seam between two edge bands, one of them yellowed."""
     base = ramp(0.5 + 0.2 * fractal(rng, grid, 130, 10, gain=0.55), ((0.0, "e3e1db"), (1.0, "edebe6")))
     _, y = grid.coordinates()
     from_seam = y - np.float32(0.382 * grid.size_mm) + 0.05 * fractal(rng, grid, 200, 20)
@@ -101,7 +101,7 @@ def _used(
         colour: The print, shape (H, W, 3).
         orange_peel: Depth of the fine ripple pressed into the face, in millimetres.
         gloss: Roughness of the clean face.
-        relief: Seams and the like in millimetres, shape (H, W); none if None.
+        relief: Height of seams and the like, millimetres, shape (H, W); None for a face without them.
 
     Returns:
         The maps.
@@ -130,7 +130,7 @@ def _used(
 
 
 def _pencil(rng: np.random.Generator, grid: Grid, count: int) -> Field:
-    """Short strokes of a pencil or of a pen that was tried out, 0 to 1, shape (H, W)."""
+    """Mask of short strokes of a pencil, or of a pen that somebody tried out, 0 to 1, shape (H, W)."""
     image = np.zeros((grid.pixels, grid.pixels), np.uint8)
     for _ in range(count):
         start = rng.uniform(0, grid.size_mm, 2)

@@ -14,10 +14,11 @@ from assets.surfaces.kit.strokes import Image, as_field, polylines
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 
 CUT_BEND_MM = 0.3
+"""Standard deviation of a knife cut's bow, millimetres: even a cut along a ruler isn't perfectly straight."""
 
 
 def cutting_mat(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Dark green cutting mat: lines every 10 and 50 mm, centimetres along two of them, knife cuts, glue."""
+    """Dark green cutting mat: lines every 10 and 50 mm, numbers of centimetres along some, knife cuts and glue."""
     pebble = fractal(rng, grid, 1.6, 0.5, gain=0.8)
     cloud = fractal(rng, grid, 120, 1.5, gain=0.62)
     colour = ramp(0.5 + 0.14 * cloud + 0.06 * pebble, ((0.0, "1d4a3c"), (0.5, "275a49"), (1.0, "356b58")))
@@ -39,12 +40,12 @@ def cutting_mat(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def antistatic_mat_blue(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Light blue anti-static bench mat, finely embossed, with burns of the soldering iron and flux."""
+    """Light blue anti-static bench mat, finely embossed, with burns of a soldering iron and stains of flux."""
     return _rubber(rng, grid, ((0.0, "5f8bb4"), (0.5, "729dc3"), (1.0, "86aed0")), "c7d8e6", "35506b")
 
 
 def antistatic_mat_green(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Green anti-static bench mat, finely embossed, with burns of the soldering iron and flux."""
+    """Green anti-static bench mat, finely embossed, with burns of a soldering iron and stains of flux."""
     return _rubber(rng, grid, ((0.0, "3f8a6c"), (0.5, "4f9c7d"), (1.0, "63ae90")), "b9d9c9", "26503f")
 
 
@@ -96,7 +97,7 @@ def honeycomb_mat(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 def _rubber(
     rng: np.random.Generator, grid: Grid, stops: tuple[tuple[float, str], ...], pale: str, dark: str
 ) -> SurfaceMaps:
-    """Embossed rubber: a fine pebble, polished by sleeves, scratched pale, stained by flux, burnt in spots."""
+    """Embossed rubber: finely pebbled, polished by sleeves, scratched pale, stained by flux and burnt in spots."""
     labels = voronoi(scatter(rng, grid, 1.25, 0.9), grid)
     pebble = smoothstep(0.0, 0.45, edge_distance(labels, grid, 2.0))
     cloud = fractal(rng, grid, 130, 1.2, gain=0.62)
@@ -122,7 +123,10 @@ def _rubber(
 
 
 def _hexagons(grid: Grid, columns: int, rows: int) -> Field:
-    """Distance to the border of six-sided cells in staggered rows, in millimetres; an even number of rows."""
+    """Distance from each texel to the border of its six-sided cell, in millimetres.
+
+    The cells lie in staggered rows, so that the tile's edges meet only if the number of rows is even.
+    """
     x, y = grid.coordinates()
     across, down = grid.size_mm / columns, grid.size_mm / rows
     nearest = np.full_like(x, np.inf)
@@ -135,12 +139,13 @@ def _hexagons(grid: Grid, columns: int, rows: int) -> Field:
             distance = np.hypot(u + np.float32(step), v)
             second = np.minimum(second, np.maximum(nearest, distance))
             nearest = np.minimum(nearest, distance)
-    # The border is where two centres are equally far: half the difference of the squares, over their distance.
+    # On the border two centres are equally far; the distance to it is half the difference of the squared distances to
+    # the centres, divided by the centres' distance from each other.
     return np.asarray((np.square(second) - np.square(nearest)) / (2 * across), np.float32)
 
 
 def _ruling(grid: Grid) -> Field:
-    """Lines every 10 mm, thin, and every 50 mm, thicker, with millimetre ticks along the latter; 0 to 1."""
+    """Mask of the ruling, 0 to 1: thin lines every 10 mm, thicker ones every 50 mm, ticks every 2 mm along some."""
     x, y = grid.coordinates()
     ink = grid.zeros()
     for along, across in ((x, y), (y, x)):
@@ -153,7 +158,7 @@ def _ruling(grid: Grid) -> Field:
 
 
 def _numbers(grid: Grid) -> Image:
-    """Centimetres beside the lines that carry ticks, 0 to 255, shape (H, W)."""
+    """Image of the centimetres' numbers beside the lines that carry ticks, 0 to 255, shape (H, W)."""
     image = np.zeros((grid.pixels, grid.pixels), np.uint8)
     for line in np.arange(0.0, grid.size_mm, 200.0):
         for centimetre in range(1, int(grid.size_mm / 10)):
@@ -164,7 +169,7 @@ def _numbers(grid: Grid) -> Image:
 
 
 def _cuts(rng: np.random.Generator, grid: Grid, count: int) -> Field:
-    """Knife cuts: long and straight, many along the ruling, each of its own depth; 0 to 1, shape (H, W)."""
+    """Mask of knife cuts: long, nearly straight, many along the ruling, each as deep as its value; 0 to 1, (H, W)."""
     image = np.zeros((grid.pixels, grid.pixels), np.uint8)
     for _ in range(count):
         square = rng.random() < 0.6

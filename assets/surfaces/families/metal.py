@@ -11,6 +11,7 @@ from assets.surfaces.kit.noise import coverage, fractal, smoothstep
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 
 RUST = ((0.0, "2e1a12"), (0.3, "57301c"), (0.6, "8a4b25"), (0.85, "b0703a"), (1.0, "c79459"))
+"""Colour ramp of rust, from dark scale at 0 to pale orange bloom at 1, hexadecimal sRGB."""
 
 
 def brushed_steel(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
@@ -28,7 +29,7 @@ def brushed_steel(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def rusted_steel(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Plate rusted right through: dark scale, orange bloom, pits."""
+    """Steel plate rusted all over, with dark scale, orange bloom and pits."""
     colour, height = _rust(rng, grid)
     scale = coverage(fractal(rng, grid, 70, 0.7, gain=0.62), 0.26, 0.25)
     dark = ramp(0.5 + 0.2 * fractal(rng, grid, 9, 0.0, gain=0.75), ((0.0, "241c1a"), (1.0, "5a453a")))
@@ -62,7 +63,7 @@ def painted_metal_chipped(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def diamond_plate(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Steel tread plate: raised lozenges in alternating directions, worn bright on top, dirty between."""
+    """Steel tread plate: raised lozenges in alternating directions, worn bright on top and dirty between them."""
     pitch = grid.size_mm / 14
     x, y = grid.coordinates()
     column, row = np.floor(x / pitch), np.floor(y / pitch)
@@ -91,7 +92,7 @@ def diamond_plate(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def galvanised_steel(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Hot-dip galvanised sheet: spangles of zinc, white bloom, scratches."""
+    """Hot-dip galvanised sheet with spangles of zinc, white bloom and scratches."""
     labels = voronoi(scatter(rng, grid, 13.0, 1.0), grid)
     dx, dy = (1.0 * fractal(rng, grid, 9, 1.0, gain=0.55) for _ in range(2))
     labels = warp_labels(labels, dx, dy, grid)
@@ -114,7 +115,7 @@ def galvanised_steel(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def enamelled_steel(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Grey-green machine enamel on steel, scratched to bright metal and grimy."""
+    """Grey-green machine enamel on steel, grimy and scratched down to the bright metal."""
     cloud = fractal(rng, grid, 80, 0.8, gain=0.64)
     peel = fractal(rng, grid, 2.6, 0.8, gain=0.6)
     colour = ramp(0.5 + 0.14 * cloud, ((0.0, "48594f"), (0.5, "5d7064"), (1.0, "75877a")))

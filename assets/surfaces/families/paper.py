@@ -16,17 +16,21 @@ from assets.surfaces.kit.strokes import as_field, polygon, polylines
 from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 
 A4_MM = (210.0, 297.0)
+"""Width and height of an A4 sheet, millimetres."""
 A5_MM = (148.0, 210.0)
+"""Width and height of an A5 sheet, millimetres."""
 THICKNESS_MM = 0.12
+"""Thickness of a sheet, millimetres: office paper with a little air beneath it."""
 WHITES = ("f1f0ec", "e9e9e6", "f2efe6", "eaedef", "e2dfd5", "f0f0ee")
+"""Colours of white paper, hexadecimal sRGB; each sheet has one of them."""
 
 
 def paper_sheets(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """White sheets strewn over a table: blank, printed, ruled and squared ones, folded and a little curled."""
+    """White sheets strewn over a table: blank, printed, ruled and squared ones, some folded, all a little curled."""
     kinds = ("plain", "printed", "squared", "printed", "ruled", "plain", "printed", "plain", "printed")
     pile = Pile(grid, np.broadcast_to(rgb("dddbd4"), (grid.pixels, grid.pixels, 3)), grid.zeros())
     step = grid.size_mm / 3
-    # The first round covers the ground, the second lies on top of it at other angles.
+    # The first nine sheets cover the ground, six more lie on top of them.
     places = [(column * step, row * step) for row in range(3) for column in range(3)]
     places += [tuple(place) for place in rng.uniform(0, grid.size_mm, (6, 2))]
     for number, (x, y) in enumerate(places):
@@ -36,14 +40,14 @@ def paper_sheets(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
         tint = np.float32(1.0 + 0.02 * rng.uniform(-1, 0.4)) * np.ones(3, np.float32)
         jitter = rng.uniform(-0.3, 0.3, 2) * step
         pile.lay(sheet, float(x + jitter[0]), float(y + jitter[1]), tint, 1.0)
-    # Beside the edge of a sheet that lies on top, the one below is in its shade.
+    # A sheet that lies on top shades the one below, beside its edge.
     shadow = 0.15 * hollows(pile.height_mm, 1.0, 0.35, grid) + 0.1 * hollows(pile.height_mm, 6.0, 1.6, grid)
     relief = np.tanh(pile.height_mm / 6.0) * 3.0
     return _lit(rng, grid, shade(pile.colour, np.asarray(1 - shadow, np.float32)), np.asarray(relief, np.float32))
 
 
 def squared_paper(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Pages of a squared pad, 5 mm, written on with pencil and ballpoint, with the creases of use."""
+    """Pages of a pad with 5 mm squares, written on with pencil and ballpoint, creased by use."""
     x, y = grid.coordinates()
     colour = np.broadcast_to(rgb("efeee8"), (grid.pixels, grid.pixels, 3)).copy()
     faded = 0.45 + 0.55 * smoothstep(-1.5, 0.8, fractal(rng, grid, 80, 0.6, gain=0.7))
@@ -66,7 +70,7 @@ def squared_paper(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def wiring_plan(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """A large wiring plan on white paper: boxes with names, joined by printed lines in the colours of wires."""
+    """Large wiring plan on white paper: boxes with names, joined by printed lines in the colours of wires."""
     plan = lay_out(rng, grid.size_mm)
     colour = np.broadcast_to(rgb("eeede8"), (grid.pixels, grid.pixels, 3)).copy()
     inks = ("2b2b2e", "b23a34", "3157a0", "3d7d4c", "7a5435", "2b2b2e")
@@ -93,7 +97,7 @@ def wiring_plan(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def _lit(rng: np.random.Generator, grid: Grid, colour: Field, height: Field) -> SurfaceMaps:
-    """What all paper shares: fibres, thumb marks and specks."""
+    """Finish paper with what all of it shares: fibres, thumb marks and specks."""
     pulp = fractal(rng, grid, 3.0, 0.0, gain=0.85)
     colour = shade(colour, 1 + 0.006 * pulp + 0.008 * fractal(rng, grid, 120, 6, gain=0.6))
     thumbed = smoothstep(0.3, 2.6, fractal(rng, grid, 110, 5, gain=0.55))
@@ -125,7 +129,7 @@ def _sheet(rng: np.random.Generator, grid: Grid, size_mm: tuple[float, float], c
     curl = lean[0] * np.square(u / size_mm[0]) + lean[1] * np.square(v / size_mm[1]) + 0.5 * lean[2] * corner
     height = THICKNESS_MM + 1.6 * curl
     if rng.random() < 0.5:
-        # Folded once or twice across, as for an envelope: a ridge, its paper broken and greyed.
+        # The sheet was folded across once or twice, as for an envelope, which leaves a ridge of broken, greyed paper.
         for line in (-0.167, 0.167) if rng.random() < 0.6 else (0.0,):
             distance = np.abs(v - line * size_mm[1])
             height = height + float(rng.choice([-1, 1])) * 1.1 * np.exp(-distance / 9.0)
@@ -134,13 +138,17 @@ def _sheet(rng: np.random.Generator, grid: Grid, size_mm: tuple[float, float], c
 
 
 def _squares(u: Field, v: Field, pitch_mm: float, grid: Grid) -> Field:
-    """Printed squares, 0 to 1."""
+    """Mask of printed squares, 0 to 1, shape of `u`."""
     lines = [filled(np.abs(repeated(axis, pitch_mm)) - np.float32(0.1), grid) for axis in (u, v)]
     return np.maximum(lines[0], lines[1])
 
 
 def _folds(grid: Grid) -> tuple[Field, Field]:
-    """A plan's folds, every 200 mm across and once along, ridge and valley in turn: the lines, and the relief in mm."""
+    """The folds of a plan: two across, one a ridge and one a valley, and one along.
+
+    Returns:
+        The fold lines, 0 to 1, and the relief in millimetres, each shape (H, W).
+    """
     x, y = grid.coordinates()
     along = np.abs(repeated(y, grid.size_mm, 0.2 * grid.size_mm))
     line = np.exp(-along / 0.35)
@@ -153,7 +161,7 @@ def _folds(grid: Grid) -> tuple[Field, Field]:
 
 
 def _crumple(rng: np.random.Generator, grid: Grid) -> tuple[Field, Field]:
-    """Soft creases of handled paper: the lines, 0 to 1, and the relief in millimetres."""
+    """Soft creases of handled paper: the mask of the lines, 0 to 1, and the relief in millimetres."""
     field = fractal(rng, grid, 150, 18, gain=0.5)
     second = fractal(rng, grid, 110, 14, gain=0.5)
     present = smoothstep(0.4, 1.6, fractal(rng, grid, 120, 10))
@@ -164,7 +172,7 @@ def _crumple(rng: np.random.Generator, grid: Grid) -> tuple[Field, Field]:
 
 
 PLAN_M = 700 * CELL_MM / 1000
-"""Edge of the plan's tile: a whole number of cells of the lattice on which it is laid out."""
+"""Edge of the wiring plan's tile, metres: 700 cells of the lattice on which it is laid out, so that its edges meet."""
 
 RECIPES = tuple(
     SurfaceRecipe(name, SurfaceFamily.PAPER, size_m, draw, light=True)

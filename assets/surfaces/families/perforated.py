@@ -1,4 +1,4 @@
-"""Surfaces with openings, dark inside: perforated sheet, cable tray, grating, profiles with T-slots, pegboard."""
+"""Surfaces with dark openings: perforated sheet, cable tray, grating, profiles with T-slots, pegboard."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from assets.surfaces.recipe import SurfaceFamily, SurfaceRecipe
 
 
 def perforated_steel(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Steel sheet with round 5 mm holes, staggered 8 mm apart; a worn face, dark below."""
+    """Steel sheet with round 5 mm holes, staggered 8 mm apart; the face is worn, the holes are dark."""
     x, y = grid.coordinates()
     row_mm = grid.size_mm / 58
     odd = np.mod(np.floor(y / np.float32(row_mm)), 2)
@@ -27,7 +27,7 @@ def perforated_steel(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
     grime = dust(rng, grid, np.asarray(np.exp(-np.maximum(edge, 0) / 0.5), np.float32))
     rust = coverage(fractal(rng, grid, 70, 0.6, gain=0.72), 0.03, 0.5)
     colour = mix(mix(colour, "4c4339", 0.6 * grime), "7c4c2b", 0.6 * rust)
-    # The punch draws the edge down and leaves it bright.
+    # The punch presses the edge of each hole down and leaves it bright.
     rim = np.asarray(np.exp(-np.square((edge - 0.22) / 0.18)), np.float32)
     colour = mix(colour, "d6d6d4", 0.35 * rim * (1 - grime))
     body, stain_rim = stains(rng, grid, 100, 0.08)
@@ -57,7 +57,7 @@ def cable_tray(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def bar_grating(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Galvanised bar grating: bearing bars 33 mm apart, cross rods every 50 mm, and dark depth between."""
+    """Galvanised bar grating: bearing bars 33 mm apart, cross rods every 50 mm, dark between them."""
     x, y = grid.coordinates()
     across = np.abs(repeated(y, grid.size_mm / 12)) - 2.0
     twist = repeated(x, grid.size_mm / 8)
@@ -82,7 +82,7 @@ def bar_grating(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def pegboard_white(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """White pegboard: painted hardboard with 6 mm holes every 25 mm, frayed brown where hooks have hung."""
+    """White pegboard: painted hardboard with 6 mm holes every 25 mm, frayed brown where hooks hung."""
     x, y = grid.coordinates()
     pitch = grid.size_mm / 16
     edge = np.asarray(np.hypot(repeated(x, pitch), repeated(y, pitch)) - 3.0, np.float32)
@@ -106,7 +106,7 @@ def pegboard_white(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def aluminium_profile(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Anodised profiles side by side: 8 mm T-slots every 40 mm, their floors dim, some closed by a cover strip."""
+    """Anodised profiles side by side: 8 mm T-slots with dim floors every 40 mm, some closed by a cover strip."""
     pitch = grid.size_mm / 10
     _, y = grid.coordinates()
     across = repeated(y, pitch)
@@ -144,7 +144,17 @@ def aluminium_profile(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def _slot_floor(rng: np.random.Generator, grid: Grid, across: Field, bar: Labels) -> tuple[Field, Field]:
-    """What shows through the slots: a dim floor between dark undercuts, chips and dust on it, or a cover strip."""
+    """What shows in the slots: a dim floor with chips and dust between dark undercuts, or a cover strip.
+
+    Args:
+        rng: Source of the randomness.
+        grid: The tile.
+        across: Distance from the middle of the nearest profile's slot, millimetres, shape (H, W).
+        bar: Number of the profile, shape (H, W).
+
+    Returns:
+        Colour, shape (H, W, 3), and roughness, shape (H, W).
+    """
     depth = smoothstep(0.6, 4.1, 4.1 - np.abs(across))
     streak = fractal(rng, grid, 3.0, 0.2, gain=0.8, stretch=(40.0, 1.0))
     floor = ramp(np.asarray(0.15 + 0.75 * depth + 0.08 * streak, np.float32), ((0.0, "0d0d0f"), (1.0, "3d4043")))
@@ -162,7 +172,7 @@ def _slot_floor(rng: np.random.Generator, grid: Grid, across: Field, bar: Labels
 
 
 def _zinc(rng: np.random.Generator, grid: Grid) -> tuple[Field, Field, Field, Field]:
-    """Galvanised steel: colour, roughness, height in millimetres and metallic."""
+    """Galvanised steel: colour, roughness, height in millimetres, and bare metal from 0 to 1."""
     labels = voronoi(scatter(rng, grid, 9.0, 1.0), grid)
     dx, dy = (0.8 * fractal(rng, grid, 7, 0.8, gain=0.55) for _ in range(2))
     labels = warp_labels(labels, dx, dy, grid)
@@ -196,24 +206,24 @@ def _opened(
         rng: Source of the randomness.
         grid: The tile.
         edge: Signed distance to the openings in millimetres, negative inside them, shape (H, W).
-        colour: The sheet's own, shape (H, W, 3).
-        rough: Likewise, shape (H, W).
-        height: Likewise, in millimetres.
-        metal: Likewise, 0 to 1.
-        deep: How far into an opening light falls off to the dark, in millimetres.
+        colour: Colour of the sheet, shape (H, W, 3).
+        rough: Roughness of the sheet, shape (H, W).
+        height: Relief of the sheet in millimetres, shape (H, W).
+        metal: Bare metal of the sheet, 0 to 1, shape (H, W).
+        deep: Depth of the openings in millimetres: in a deeper one, light from the wall reaches further in.
 
     Returns:
         The maps.
     """
     below = 0.5 + 0.25 * fractal(rng, grid, 60, 4, gain=0.6) + 0.1 * fractal(rng, grid, 5, 0.6, gain=0.8)
-    # The wall of the opening still catches some light; further in there is hardly any.
+    # The wall of an opening still catches some light; further in there is hardly any.
     wall = np.exp(edge / np.float32(0.25 * min(deep, 4.0)))
     dark = ramp(np.asarray(below, np.float32), ((0.0, "171615"), (1.0, "33302d")))
     dark = mix(dark, "58564f", np.asarray(np.clip(0.55 * wall, 0, 0.55) * (edge < 0), np.float32))
     inside = filled(edge, grid)
     flat = np.asarray(height * (1 - inside), np.float32)
     rough = rough + (0.9 - rough) * inside
-    # A cavity has no sheen of its own. As metal it reflects no more than its dark colour does.
+    # A cavity has no sheen: as metal, it reflects no more than its dark colour does.
     metal = np.asarray(metal + (1 - metal) * inside, np.float32)
     return finish(grid, mix(colour, dark, inside), np.asarray(rough, np.float32), flat, metal)
 

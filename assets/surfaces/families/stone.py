@@ -146,7 +146,7 @@ def cracked_rock(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 def _polished(
     rng: np.random.Generator, grid: Grid, colour: Field, gloss: float, chips: Field | None = None
 ) -> SurfaceMaps:
-    """A ground and polished stone floor in use: fine scratches, dull paths, a few pinholes."""
+    """Finish a ground and polished stone floor: add fine scratches, dull paths and a few pinholes."""
     marks = scratches(rng, grid, 40, 0.18)
     holes = specks(rng, grid, 0.003, 0.5)
     dull = smoothstep(-0.6, 2.0, fractal(rng, grid, 100, 1.5, gain=0.6))

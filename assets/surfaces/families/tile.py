@@ -48,7 +48,7 @@ def slate_tiles(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def terracotta_tiles(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
-    """Hand-made terracotta, 133 mm, pitted, with bloom of lime."""
+    """Hand-made terracotta, 133 mm, pitted, with a bloom of lime."""
     layout = tiles(grid, 3, 3)
     broad = _cut(rng, grid, layout, fractal(rng, grid, 80, 1.2, gain=0.6))
     fine = fractal(rng, grid, 3, 0.0, gain=0.8)
@@ -179,7 +179,7 @@ def _cut(rng: np.random.Generator, grid: Grid, layout: Layout, field: Field) -> 
 
 
 def _from_labels(labels: Labels, grid: Grid) -> Layout:
-    """A layout of cells that have no long axis: u and v are 0, so that they lie level."""
+    """A layout of cells that have no long axis: u and v are 0, so that the cells lie level."""
     flat = grid.zeros()
     return Layout(labels, flat, flat, edge_distance(labels, grid))
 

@@ -20,6 +20,7 @@ GREY_OAK = Species(((0.0, "b5aea4"), (0.5, "978e84"), (1.0, "6f665d")), "4c453e"
 MAPLE = Species(((0.0, "ead9bb"), (0.5, "dfc9a3"), (1.0, "c9aa7c")), "a98a60", 4.5, 0.32, 0.24, 0.02, 3.0, 20.0)
 BEECH = Species(((0.0, "e3c6a0"), (0.5, "d8b48a"), (1.0, "c39a6c")), "8d6440", 3.6, 0.35, 0.24, 0.07, 2.0, 14.0)
 SILVERED = Species(((0.0, "a39c92"), (0.5, "857c72"), (1.0, "5b534b")), "2e2823", 3.2, 0.9, 0.5, 0.05, 14.0, 12.0, 0.6)
+"""Wood that years of rain have turned grey."""
 
 
 def oak_planks(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
@@ -113,7 +114,7 @@ def weathered_boards(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def _bench(rng: np.random.Generator, grid: Grid, layout: Layout, species: Species) -> SurfaceMaps:
-    """A glued bench top sanded to one face: no bevels, thin glue lines, scratches, rings and smudges."""
+    """A glued bench top sanded flat: no bevels, thin glue lines, scratches, rings and smudges."""
     wood = grain(rng, grid, layout, species)
     colour = wood.colour * tint_each(rng, layout.labels, 0.035, 0.009)
     colour = shade(colour, 1 + 0.02 * fractal(rng, grid, 140, 12, gain=0.55))
@@ -137,7 +138,7 @@ def _bench(rng: np.random.Generator, grid: Grid, layout: Layout, species: Specie
 def _floor(
     rng: np.random.Generator, grid: Grid, layout: Layout, species: Species, bevel_mm: float, varnish: float
 ) -> SurfaceMaps:
-    """A laid wooden floor: grain, tint per board, bevelled joints with dirt, wear of the varnish."""
+    """A laid wooden floor: grain, a tint for each board, bevelled joints with dirt, worn varnish."""
     wood = grain(rng, grid, layout, species)
     colour = wood.colour * tint_each(rng, layout.labels, 0.085, 0.022)
     colour = shade(colour, 1 + 0.03 * fractal(rng, grid, 150, 15, gain=0.55))
@@ -154,7 +155,7 @@ def _floor(
     height = 0.022 * wood.relief + 0.45 * bevel_mm * (bevel - 1) - 0.5 * seam - 0.01 * marks
     tilt = value_each(rng, layout.labels, -0.0012, 0.0012) * layout.v_mm
     cup = 0.00002 * np.square(layout.v_mm)
-    # Half-way up the seam.
+    # The joint's edge is taken half-way through the seam's soft border.
     to_joint_mm = layout.edge_mm - np.float32(0.12 + 0.225 * bevel_mm)
     return finish(grid, colour, rough, np.asarray(height + (tilt - cup) * bevel, np.float32), to_joint_mm=to_joint_mm)
 

@@ -1,1 +1,1 @@
-"""What recipes draw with: noise, shapes, layouts, lettering."""
+"""The tools with which recipes draw: noise, shapes, layouts, lettering."""

@@ -14,7 +14,7 @@ def scatter(rng: np.random.Generator, grid: Grid, spacing_mm: float, jitter: flo
         rng: Source of the randomness.
         grid: The tile.
         spacing_mm: Mean distance between neighbours.
-        jitter: 0 keeps them at the squares' centres, 1 lets them reach the edges.
+        jitter: Share of a square over which its point may lie: 0 is the centre alone, 1 the whole square.
 
     Returns:
         Positions x, y in millimetres, shape (n, 2), within the tile.
@@ -86,7 +86,16 @@ def rounded(edge_mm: Field, radius_mm: float, grid: Grid) -> Field:
 
 
 def mask_distance(mask: npt.NDArray[np.bool_], grid: Grid, reach_mm: float = 40.0) -> Field:
-    """Measure how far each texel within a periodic mask is from the outside; 0 outside. Millimetres, (H, W)."""
+    """Measure how far each texel of a periodic mask is from the mask's border.
+
+    Args:
+        mask: True inside, shape (H, W), periodic.
+        grid: The tile.
+        reach_mm: Largest distance that is measured correctly across the tile's edges.
+
+    Returns:
+        Millimetres, 0 outside the mask, shape (H, W).
+    """
     margin = min(grid.pixels, int(reach_mm / grid.texel_mm) + 2)
     tiled = cv2.copyMakeBorder(mask.astype(np.uint8), margin, margin, margin, margin, cv2.BORDER_WRAP)
     distance = cv2.distanceTransform(tiled, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)

@@ -8,8 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 CELL_MM = 0.6
-"""Pitch of the lattice on which pins, traces and vias lie."""
+"""Pitch of the lattice on which pins, traces and vias lie, millimetres."""
 VIA_MM = 0.75
+"""Diameter of a via's copper, millimetres: wider than one cell, narrower than two."""
 OCTANTS = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1))
 """The eight directions of a trace, each 45 degrees after the one before."""
 
@@ -24,7 +25,7 @@ class BodyKind(StrEnum):
 
 
 LETTERS = {BodyKind.CHIP: "U", BodyKind.RESISTOR: "R", BodyKind.CAPACITOR: "C", BodyKind.HEADER: "J"}
-"""What a component's name begins with."""
+"""Letter with which the names of components of each kind begin, as on real boards."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ class Body:
 
 
 @dataclass
-class Board:
+class CircuitBoard:
     """All that lies on a board; positions in millimetres, which wrap round the tile."""
 
     pads: list[Pad] = field(default_factory=list)
@@ -70,7 +71,15 @@ class Board:
 
 @dataclass(frozen=True)
 class _Row:
-    """Pins side by side: their lattice places from the footprint's middle, where they point, and a pad's size."""
+    """Pins side by side.
+
+    Attributes:
+        pins: Lattice cell of each pin, column and line, counted from the footprint's middle.
+        octant: Index into `OCTANTS` of the direction in which the pins point.
+        length: Length of a pad along that direction, millimetres.
+        breadth: Width of a pad across it, millimetres.
+        drill: Diameter of the hole, millimetres; 0 for a pad without a hole.
+    """
 
     pins: tuple[tuple[int, int], ...]
     octant: int
@@ -81,7 +90,14 @@ class _Row:
 
 @dataclass(frozen=True)
 class _Footprint:
-    """What a component needs on the board: half its extent in cells, its rows of pins and its body's size."""
+    """Room that a component takes on the board.
+
+    Attributes:
+        kind: Kind of component.
+        half: Half the extent in lattice cells, columns and lines.
+        rows: Rows of pins.
+        body: Width and height of the component's body, millimetres.
+    """
 
     kind: BodyKind
     half: tuple[int, int]
@@ -89,7 +105,7 @@ class _Footprint:
     body: tuple[float, float]
 
 
-def lay_out(rng: np.random.Generator, size_mm: float) -> Board:
+def lay_out(rng: np.random.Generator, size_mm: float) -> CircuitBoard:
     """Place components on a square board whose edges meet, and route traces from their pins.
 
     Args:
@@ -100,7 +116,7 @@ def lay_out(rng: np.random.Generator, size_mm: float) -> Board:
         The board.
     """
     lattice = _Lattice(round(size_mm / CELL_MM))
-    board = Board()
+    board = CircuitBoard()
     placed: list[tuple[_Footprint, int, int]] = []
     turns = (0, 1)
     wanted = [_square_chip(12)] * 4 + [_square_chip(8)] * 5
@@ -123,14 +139,22 @@ def lay_out(rng: np.random.Generator, size_mm: float) -> Board:
 
 
 class _Lattice:
-    """Which cells of the board are taken; it wraps round."""
+    """The cells of the board and whether each is taken; opposite edges meet."""
 
     def __init__(self, cells: int) -> None:
         self.cells = cells
         self.taken = np.zeros((cells, cells), np.bool_)
 
     def find_room(self, rng: np.random.Generator, half: tuple[int, int]) -> tuple[int, int] | None:
-        """Take a free rectangle with a margin for traces; None if 80 throws find none."""
+        """Take a free rectangle with a margin of three cells for traces.
+
+        Args:
+            rng: Source of the randomness.
+            half: Half the extent of the rectangle in cells, columns and lines.
+
+        Returns:
+            Column and line of the rectangle's middle; None if 80 random places are all taken.
+        """
         for _ in range(80):
             column, line = (int(i) for i in rng.integers(self.cells, size=2))
             if not self.taken[self._block(column, line, half[0] + 3, half[1] + 3)].any():
@@ -142,7 +166,7 @@ class _Lattice:
         """Lead a trace along legs (octant, steps) until it is done or something is in its way.
 
         Returns:
-            The corners in cells, not wrapped; only the start if it couldn't take a step.
+            The corners in cells, not wrapped; the start alone if already the first step is blocked.
         """
         corners = [(column, line)]
         self.taken[line % self.cells, column % self.cells] = True
@@ -172,7 +196,9 @@ class _Lattice:
         return np.ix_(rows, np.arange(column - half_x, column + half_x + 1) % self.cells)
 
 
-def _fan_out(rng: np.random.Generator, lattice: _Lattice, board: Board, row: _Row, column: int, line: int) -> None:
+def _fan_out(
+    rng: np.random.Generator, lattice: _Lattice, board: CircuitBoard, row: _Row, column: int, line: int
+) -> None:
     """Put down a row's pads and lead their traces away side by side, staggered so that they turn together."""
     across, down = OCTANTS[row.octant]
     turn = int(rng.choice([-1, 1]))
@@ -187,7 +213,7 @@ def _fan_out(rng: np.random.Generator, lattice: _Lattice, board: Board, row: _Ro
         board.pads.append(Pad(*_mm(x, y), *size, row.drill))
         if rng.random() < 0.12:
             continue
-        # Pins are counted to the right or downwards; those on the side of the turn turn first.
+        # Pins are numbered to the right or downwards; traces on the inner side of the turn turn first.
         order = count - 1 - number if (turn > 0) == (row.octant in (0, 6)) else number
         legs = ((row.octant, first + order), (row.octant + turn, slant), (row.octant, last))
         start = (x + reach * across, y + reach * down)
@@ -195,7 +221,7 @@ def _fan_out(rng: np.random.Generator, lattice: _Lattice, board: Board, row: _Ro
             _draw(board, [(x, y), *lattice.walk(*start, legs)], width)
 
 
-def _bus(rng: np.random.Generator, lattice: _Lattice, board: Board) -> None:
+def _bus(rng: np.random.Generator, lattice: _Lattice, board: CircuitBoard) -> None:
     """Lead parallel traces over free ground, from via to via."""
     column, line = (int(i) for i in rng.integers(lattice.cells, size=2))
     octant, turn = 2 * int(rng.integers(4)), int(rng.choice([-1, 1]))
@@ -214,7 +240,7 @@ def _bus(rng: np.random.Generator, lattice: _Lattice, board: Board) -> None:
                 _draw(board, corners, width)
 
 
-def _draw(board: Board, corners: list[tuple[int, int]], width: float) -> None:
+def _draw(board: CircuitBoard, corners: list[tuple[int, int]], width: float) -> None:
     """Add a trace through lattice corners, with a via at its end."""
     if len(corners) < 2:
         return

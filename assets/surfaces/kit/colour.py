@@ -8,6 +8,7 @@ import numpy.typing as npt
 from assets.surfaces.kit.grid import Field, Labels
 
 RAMP_STEPS = 1024
+"""Entries of a colour ramp's table: finer than the 256 levels of a finished map, so no steps show."""
 
 
 def rgb(code: str) -> Field:
@@ -67,7 +68,7 @@ def tint_each(rng: np.random.Generator, labels: Labels, brightness: float, hue: 
         rng: Source of the randomness.
         labels: Piece of each texel, shape (H, W).
         brightness: Standard deviation of the factor common to the three channels.
-        hue: Standard deviation of warm against cool.
+        hue: Standard deviation of the shift between warm and cool.
 
     Returns:
         Factors to multiply a colour by, shape (H, W, 3), mean near 1.

@@ -14,6 +14,7 @@ SYLLABLES = (
     *("ca", "ble", "ter", "mi", "nal", "con", "nec", "tor", "sig"),
     *("vol", "ta", "ge", "pin", "re", "lay", "un", "it"),
 )
+"""Syllables from which the made-up words of printed pages are put together."""
 
 
 def written_lines(
@@ -28,11 +29,11 @@ def written_lines(
 
     Args:
         rng: Source of the randomness.
-        image: Shape (H, W), 0 to 255.
+        image: Image of the tile, shape (H, W), 0 to 255.
         grid: The tile.
-        rows_mm: Where the lines stand, from the top, shape (n,).
+        rows_mm: Base line of each line of writing, millimetres from the top, shape (n,).
         height_mm: Height of the small letters.
-        stroke_mm: Width of the pen.
+        stroke_mm: Width of the pen's stroke.
     """
     for y in rows_mm:
         x = rng.uniform(0, grid.size_mm)
@@ -53,7 +54,7 @@ def printed_page(rng: np.random.Generator, size_mm: tuple[float, float], grid: G
     Args:
         rng: Source of the randomness.
         size_mm: Width and height of the page.
-        grid: Gives the texel.
+        grid: Grid that sets the size of a texel.
 
     Returns:
         Ink, 0 to 1, shape (h, w).
@@ -88,7 +89,7 @@ def _word(rng: np.random.Generator, height_mm: float) -> npt.NDArray[np.float64]
 
 
 def _text_line(rng: np.random.Generator, page: Image, left_mm: float, right_mm: float, y_mm: float, grid: Grid) -> None:
-    """Set one line of made-up words, 2.1 mm high."""
+    """Print one line of made-up words, 2.1 mm high."""
     words: list[str] = []
     while sum(len(word) + 1 for word in words) < (right_mm - left_mm) / 1.75:
         words.append("".join(rng.choice(SYLLABLES, int(rng.integers(1, 4)))))
@@ -105,7 +106,7 @@ def _paste(page: Image, patch: Image, left_mm: float, y_mm: float, right_mm: flo
 
 
 def _table(rng: np.random.Generator, page: Image, width_mm: float, y_mm: float, grid: Grid) -> float:
-    """Rule a table with numbers in its cells; returns its height in millimetres."""
+    """Draw a ruled table with numbers in its cells; returns its height in millimetres."""
     rows, columns = int(rng.integers(4, 8)), int(rng.integers(3, 6))
     high, wide = 7.0, width_mm / columns
     for row in range(rows + 1):
@@ -121,7 +122,7 @@ def _table(rng: np.random.Generator, page: Image, width_mm: float, y_mm: float, 
 
 
 def _diagram(rng: np.random.Generator, page: Image, width_mm: float, y_mm: float, grid: Grid) -> float:
-    """Draw boxes joined by wires that run squarely; returns the height in millimetres."""
+    """Draw boxes joined by wires along the page's axes; returns the height in millimetres."""
     high = 46.0
     boxes = [(22 + (width_mm - 30) * (i + 0.2) / 4, y_mm + float(rng.uniform(0, high - 22))) for i in range(4)]
     for x, top in boxes:

@@ -1,4 +1,4 @@
-"""How boards and tiles are laid: which piece holds a texel, where in the piece it lies, how far from its edge."""
+"""Layouts of boards and tiles: the piece that holds a texel, the texel's place in it and its distance to the edge."""
 
 from dataclasses import dataclass
 
@@ -13,8 +13,8 @@ class Layout:
 
     Attributes:
         labels: Piece of each texel, shape (H, W), from 0.
-        u_mm: Distance along the piece's long axis from a point in it, shape (H, W).
-        v_mm: Distance across it from its centre line, shape (H, W).
+        u_mm: Position along the piece's long axis, from a point that is fixed for each piece, shape (H, W).
+        v_mm: Position across the piece, from its centre line, shape (H, W).
         edge_mm: Distance to the nearest edge of the piece, shape (H, W).
     """
 
@@ -28,10 +28,10 @@ def boards(rng: np.random.Generator, grid: Grid, rows: int, joint_share: float =
     """Lay boards along x, longer than the tile; some rows show the joint between two boards' ends.
 
     Args:
-        rng: Chooses which rows have joints, and where.
+        rng: Source of the randomness: it chooses the rows that have a joint, and where the joint is.
         grid: The tile.
-        rows: Boards across the tile.
-        joint_share: Share of the rows that show a joint.
+        rows: Number of boards across the tile.
+        joint_share: Probability that a row shows a joint.
 
     Returns:
         The layout.
@@ -54,8 +54,8 @@ def tiles(grid: Grid, columns: int, rows: int, bond: float = 0.0) -> Layout:
 
     Args:
         grid: The tile.
-        columns: Tiles along x.
-        rows: Tiles along y; even if `bond` isn't 0.
+        columns: Number of tiles along x.
+        rows: Number of tiles along y; even if `bond` isn't 0.
         bond: Share of a tile's length by which every other row is shifted: 0.5 is a brick bond.
 
     Returns:
@@ -77,7 +77,7 @@ def herringbone(grid: Grid, blocks: int, ratio: int = 4) -> Layout:
 
     Args:
         grid: The tile.
-        blocks: Periods of the pattern across the tile.
+        blocks: Number of periods of the pattern across the tile.
         ratio: Length of a block over its width.
 
     Returns:
@@ -110,8 +110,8 @@ def chevron(grid: Grid, columns: int, pieces: int) -> Layout:
 
     Args:
         grid: The tile.
-        columns: Columns across the tile; even, so that the edges meet.
-        pieces: Boards in a column of the tile's height.
+        columns: Number of columns across the tile; even, so that the edges meet.
+        pieces: Number of boards in a column as high as the tile.
 
     Returns:
         The layout; u runs along each board's own length.

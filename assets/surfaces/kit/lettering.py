@@ -9,20 +9,20 @@ from assets.surfaces.kit.strokes import Image
 CAP_HEIGHT = 21
 """Height of a capital of OpenCV's simplex font at scale 1, in texels."""
 OVERSAMPLING = 4
-"""Letters are drawn this much larger than they are printed, so that even small ones have smooth strokes."""
+"""Factor by which letters are drawn larger and then scaled down, so that even small ones have smooth strokes."""
 
 
 def text_patch(text: str, height_mm: float, grid: Grid, weight: float = 0.14) -> Image:
     """Draw a line of text on a patch of its own.
 
     Args:
-        text: ASCII characters.
+        text: Text in ASCII characters.
         height_mm: Height of a capital.
-        grid: Gives the texel.
+        grid: Grid that sets the size of a texel.
         weight: Width of the strokes, as a share of the height.
 
     Returns:
-        0 to 255, shape (h, w); the capitals fill it but for a narrow margin.
+        Ink, 0 to 255, shape (h, w); the capitals fill it but for a narrow margin.
     """
     high = OVERSAMPLING * height_mm / grid.texel_mm
     stroke = max(1, round(weight * high))
@@ -37,13 +37,13 @@ def text_patch(text: str, height_mm: float, grid: Grid, weight: float = 0.14) ->
 
 
 def stamp(image: Image, patch: Image, x_mm: float, y_mm: float, grid: Grid) -> None:
-    """Print a patch on an image of the tile, in place, going on at the other side where it leaves the tile.
+    """Print a patch on an image of the tile, in place; what leaves the tile enters at the opposite edge.
 
     Args:
-        image: Shape (H, W).
-        patch: What to print, shape (h, w), smaller than the tile; the brighter of both stays.
-        x_mm: Where the patch's middle comes to lie, to the right.
-        y_mm: Likewise, down.
+        image: Image of the tile, shape (H, W); each texel keeps the brighter of its value and the patch's.
+        patch: Image to print, shape (h, w), smaller than the tile.
+        x_mm: Position of the patch's middle to the right, millimetres.
+        y_mm: Position of the patch's middle downwards, millimetres.
         grid: The tile.
     """
     high, wide = patch.shape

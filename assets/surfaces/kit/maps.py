@@ -18,7 +18,8 @@ class SurfaceMaps:
         roughness: Shape (H, W), linear, 0 mirror-like to 255 matt.
         normal: Tangent-space normals, shape (H, W, 3), OpenGL convention: green grows towards the top row.
         metallic: 0.0 to 1.0 for the whole surface, or a map of shape (H, W), 0 to 255, linear.
-        joints: Shape (H, W), how far each texel is from where pieces meet, by `joint_levels`; None where none do.
+        joints: Distance of each texel from the nearest joint, shape (H, W), as `joint_levels` stores it; None for a
+            surface without joints.
     """
 
     colour: npt.NDArray[np.uint8]
@@ -29,7 +30,8 @@ class SurfaceMaps:
 
 
 JOINT_REACH_MM = 3.0
-"""Distance from a joint's edge that a map of joints still tells, on either side."""
+"""Largest distance from a joint's edge, on either side, that a map of joints can hold, millimetres: 8 bits then tell
+0.024 mm apart."""
 
 
 def joint_levels(to_joint_mm: Field) -> npt.NDArray[np.uint8]:
@@ -66,7 +68,7 @@ def finish(
         colour: Shape (H, W, 3), sRGB 0 to 1; values outside are clipped.
         roughness: 0 to 1, a field or one value.
         height_mm: Relief in millimetres, shape (H, W).
-        metallic: 0 to 1, one value, or a field of how far metal shows: a texel is of metal or it is not.
+        metallic: 0 to 1, one value, or a field of how far metal shows, whose middle values `_bare` makes narrow.
         to_joint_mm: Distance to the nearest edge of a joint, negative inside it, shape (H, W); None without joints.
 
     Returns:
@@ -83,20 +85,20 @@ def finish(
 
 
 def _bare(metal: Field) -> Field:
-    """Where metal shows, with a narrow edge to what covers it.
+    """Narrow the border between bare metal and what covers it.
 
-    Half a metal is no material, and a renderer shades it twice: with a half-metal map an aluminium floor took 1.18
-    times as long as a plain one, with this 1.02 (`python -m benchmarks surfaces`).
+    No real material is half metal, and the renderer shades such a texel twice: an aluminium floor with a wide border
+    took 1.18 times as long as a plain floor, and with this narrow one 1.02 times (`python -m benchmarks surfaces`).
     """
     return smoothstep(0.35, 0.65, metal)
 
 
 def normal_from_height(height_mm: Field, grid: Grid) -> npt.NDArray[np.uint8]:
-    """Turn relief into tangent-space normals of true slope.
+    """Turn relief into tangent-space normals, with the relief's true slope.
 
     Args:
         height_mm: Height in millimetres, shape (H, W), row 0 at the top.
-        grid: Its grid, which gives the distance between texels.
+        grid: Grid of the height, which gives the distance between texels.
 
     Returns:
         Shape (H, W, 3), OpenGL convention: red for x to the right, green for y towards the top row, blue out
@@ -118,12 +120,12 @@ def hollows(height_mm: Field, radius_mm: float, depth_mm: float, grid: Grid) -> 
 
     Args:
         height_mm: Relief, shape (H, W).
-        radius_mm: How far the surroundings reach.
-        depth_mm: Depth that counts as a full hollow.
-        grid: The grid.
+        radius_mm: Standard deviation of the Gaussian that averages the surroundings.
+        depth_mm: Depth below the surroundings that counts as a full hollow.
+        grid: The tile.
 
     Returns:
-        Shape (H, W), 0 level or raised to 1 hollow.
+        Shape (H, W): 0 where the surface is level or raised, 1 in a full hollow.
     """
     return smoothstep(0.0, depth_mm, blur(height_mm, radius_mm, grid) - height_mm)
 

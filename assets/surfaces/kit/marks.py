@@ -26,7 +26,7 @@ def scratches(rng: np.random.Generator, grid: Grid, count: int, width_mm: float)
 
 
 def dust(rng: np.random.Generator, grid: Grid, where: Field) -> Field:
-    """Patchy dirt: follows `where` (0 to 1), but gathers and thins out at random; 0 to 1, shape (H, W)."""
+    """Patchy dirt, 0 to 1, shape (H, W): it lies where `where` (0 to 1) allows, thicker and thinner at random."""
     patches = smoothstep(-1.2, 1.4, fractal(rng, grid, 60, 0.8, gain=0.7))
     return np.asarray(where * patches, np.float32)
 
@@ -58,7 +58,7 @@ def cracks(rng: np.random.Generator, grid: Grid, spacing_mm: float, width_mm: fl
         grid: The tile.
         spacing_mm: Mean distance between cracks.
         width_mm: Width where a crack gapes.
-        keep: Share of the network that is open at all.
+        keep: Share of the area in which the network's cracks are open.
 
     Returns:
         0 sound to 1 open, shape (H, W).

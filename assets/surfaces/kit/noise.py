@@ -9,7 +9,7 @@ import numpy.typing as npt
 from assets.surfaces.kit.grid import Field, Grid
 
 SMALLEST_WORKING_EDGE = 64
-"""Texels below which a field isn't worth drawing smaller and enlarging."""
+"""Smallest edge, in texels, at which a coarse field is drawn before it is enlarged; below it no time is saved."""
 
 
 def fractal(
@@ -25,9 +25,9 @@ def fractal(
 
     Args:
         rng: Source of the randomness.
-        grid: Where to draw.
+        grid: The tile.
         coarse_mm: Wavelength of the largest features.
-        fine_mm: Wavelength of the smallest; 0 goes down to the texel.
+        fine_mm: Wavelength of the smallest features; 0 allows features as small as a texel.
         gain: Amplitude of each octave relative to the one before it: 1 is equally rough at every scale, 0.5
             is smooth like hills.
         stretch: Factors by which features are longer along x and along y.
@@ -56,7 +56,7 @@ def enlarge(field: Field, pixels: int) -> Field:
     """Enlarge a periodic field by whole factors with cubic interpolation, keeping it periodic.
 
     Args:
-        field: Shape (h, w), each dividing `pixels`.
+        field: Periodic field, shape (h, w); h and w divide `pixels`.
         pixels: Texels along an edge of the result.
 
     Returns:
@@ -93,9 +93,9 @@ def sample(field: Field, x_mm: Field, y_mm: Field, grid: Grid) -> Field:
     """Read a periodic field at any positions, with linear interpolation.
 
     Args:
-        field: Shape (H, W) or (H, W, C).
+        field: Periodic field, shape (H, W) or (H, W, C).
         x_mm: Positions to the right in millimetres, any shape (h, w); outside the tile they wrap round.
-        y_mm: Positions down, likewise.
+        y_mm: Positions downwards in millimetres, shape of `x_mm`; outside the tile they wrap round.
         grid: The grid of `field`.
 
     Returns:

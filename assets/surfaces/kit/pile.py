@@ -51,10 +51,10 @@ class Pile:
 
         Args:
             sprite: The thing.
-            x_mm: Where its centre comes to lie, to the right.
-            y_mm: Likewise, down.
-            tint: Factors for its colour, shape (3,).
-            sink: Where it settles among the heights beneath it: 0 at the lowest, 1 on the highest.
+            x_mm: Position of the sprite's centre to the right, millimetres.
+            y_mm: Position of the sprite's centre downwards, millimetres.
+            tint: Factors for the sprite's colour, shape (3,).
+            sink: Level at which the sprite rests on the heights beneath it: 0 at the lowest, 1 on the highest.
         """
         high, wide = sprite.mask.shape
         top = round(y_mm / self.grid.texel_mm - high / 2)
@@ -91,11 +91,11 @@ class Pile:
 
         Args:
             rng: Source of the randomness.
-            sprites: What to choose from.
-            count: How many to lay.
-            brightness: Standard deviation of their brightness.
-            hue: Standard deviation of warm against cool.
-            sink: See `lay`.
+            sprites: Sprites to choose from.
+            count: Number of sprites to lay.
+            brightness: Standard deviation of the sprites' relative brightness.
+            hue: Standard deviation of the shift between warm and cool.
+            sink: Level at which a sprite rests on the heights beneath it: 0 at the lowest, 1 on the highest.
         """
         for _ in range(count):
             x, y = rng.uniform(0, self.grid.size_mm, 2)
@@ -110,10 +110,10 @@ def pebble(rng: np.random.Generator, grid: Grid, radius_mm: float, code: str, an
 
     Args:
         rng: Source of the randomness.
-        grid: Gives the texel.
+        grid: Grid that sets the size of a texel.
         radius_mm: Mean radius.
-        code: Its colour, hexadecimal.
-        angular: 0 is a rounded river pebble, 1 is broken rock.
+        code: Colour of the stone, hexadecimal.
+        angular: Angularity, from 0 for a rounded river pebble to 1 for broken rock.
 
     Returns:
         The stone, lying at a random angle.
@@ -160,8 +160,8 @@ def local_frame(
 
     Args:
         rng: Source of the randomness.
-        grid: Gives the texel.
-        reach_mm: Distance from the centre to the edges of the square that is covered.
+        grid: Grid that sets the size of a texel.
+        reach_mm: Distance from the centre to the edges of the square that the coordinates cover.
         spread: Largest angle from the x axis in radians.
 
     Returns:

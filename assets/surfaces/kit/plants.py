@@ -17,10 +17,10 @@ def leaf(rng: np.random.Generator, grid: Grid, length_mm: float, code: str, lobe
 
     Args:
         rng: Source of the randomness.
-        grid: Gives the texel.
-        length_mm: From stalk to tip.
-        code: Its colour, hexadecimal.
-        lobes: Lobes of its outline along each side; 0 for a smooth edge.
+        grid: Grid that sets the size of a texel.
+        length_mm: Length from stalk to tip.
+        code: Colour of the leaf, hexadecimal.
+        lobes: Number of lobes of the outline along each side; 0 for a smooth edge.
 
     Returns:
         The leaf.
@@ -69,11 +69,11 @@ def blades(
     Args:
         rng: Source of the randomness.
         grid: The tile.
-        colour: Shape (H, W, 3), sRGB.
-        height: Shape (H, W), 0 to 255.
-        count: Blades.
-        length_mm: Shortest and longest.
-        width_mm: Width at the foot.
+        colour: Colour image of the tile, shape (H, W, 3), sRGB, 0 to 255.
+        height: Height image of the tile, shape (H, W), 0 to 255.
+        count: Number of blades.
+        length_mm: Lengths of the shortest and the longest blade.
+        width_mm: Width of a blade at its foot.
         codes: Colours to choose from, hexadecimal.
     """
     palette = np.stack([rgb(code) for code in codes]) * 255.0

@@ -12,7 +12,7 @@ def repeated(position_mm: Field, pitch_mm: float, shift_mm: Field | float = 0.0)
     Args:
         position_mm: Positions along an axis, shape (H, W).
         pitch_mm: Width of a cell; the tile's edge must be a whole number of cells.
-        shift_mm: Moves the cells to the right.
+        shift_mm: Distance by which the cells are moved along the axis, one value or shape (H, W).
 
     Returns:
         Millimetres from minus to plus half a pitch, shape (H, W).
@@ -24,11 +24,11 @@ def box(u_mm: Field, v_mm: Field, width_mm: Field | float, height_mm: Field | fl
     """Signed distance to a rectangle with round corners, which a large radius turns into a slot or a disc.
 
     Args:
-        u_mm: Positions along its width from its middle, shape (H, W).
-        v_mm: Positions along its height, likewise.
-        width_mm: Its full width.
-        height_mm: Its full height.
-        radius_mm: Radius of its corners, at most half the shorter side.
+        u_mm: Positions along the width, from the rectangle's middle, shape (H, W).
+        v_mm: Positions along the height, from the rectangle's middle, shape (H, W).
+        width_mm: Full width of the rectangle.
+        height_mm: Full height of the rectangle.
+        radius_mm: Radius of the corners, at most half the shorter side.
 
     Returns:
         Millimetres, negative inside, shape (H, W).

@@ -16,10 +16,10 @@ def cleft(field: Field, layers: float) -> tuple[Field, Field]:
 
     Args:
         field: Smooth relief of standard deviation 1.
-        layers: Layers between -2 and 2.
+        layers: Number of layers between the field's values -2 and 2.
 
     Returns:
-        Relief with flats, mean near 0, and the ledges' faces, 0 to 1; each shape (H, W).
+        Relief in units of the field, with flats, mean near 0; and the faces of the ledges, 0 to 1; each shape (H, W).
     """
     scaled = field * np.float32(layers / 4.0)
     whole = np.floor(scaled)
@@ -38,8 +38,8 @@ def marble_face(
     Args:
         rng: Source of the randomness.
         grid: The tile.
-        stops: Ramp of the ground, 0 to 1.
-        vein: Colour of the veins.
+        stops: Colour ramp of the ground: values 0 to 1, and hexadecimal colours.
+        vein: Colour of the veins, hexadecimal.
         strength: Opacity of the strongest vein.
 
     Returns:
@@ -115,12 +115,12 @@ def terrazzo_face(
     Args:
         rng: Source of the randomness.
         grid: The tile.
-        binder: Ramp of the binder.
+        binder: Colour ramp of the binder: values 0 to 1, and hexadecimal colours.
         chips: Colour and share of each kind of chip; the shares sum to 1.
         share: Share of the cells that hold a chip.
 
     Returns:
-        Colour, shape (H, W, 3), and where chips are, 0 to 1, shape (H, W).
+        Colour, shape (H, W, 3), and the mask of the chips, 0 to 1, shape (H, W).
     """
     sand = fractal(rng, grid, 1.2, 0.0, gain=0.9)
     colour = ramp(0.5 + 0.13 * sand + 0.1 * fractal(rng, grid, 60, 1, gain=0.65), binder)

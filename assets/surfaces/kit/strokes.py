@@ -9,7 +9,7 @@ import numpy.typing as npt
 from assets.surfaces.kit.grid import Field, Grid
 
 SUBTEXEL_BITS = 4
-"""Fractional bits of the positions handed to OpenCV's drawing functions."""
+"""Fractional bits of the positions handed to OpenCV's drawing functions: a sixteenth of a texel."""
 
 Image = npt.NDArray[np.uint8]
 Corners = npt.NDArray[np.int32]
@@ -18,13 +18,13 @@ Corners = npt.NDArray[np.int32]
 def polylines(
     image: Image, path_mm: npt.NDArray[np.float64], width_mm: float, value: Sequence[float], grid: Grid
 ) -> None:
-    """Draw an open line on an image of the tile, in place, going on at the other side where it leaves the tile.
+    """Draw an open line on an image of the tile, in place; what leaves the tile enters at the opposite edge.
 
     Args:
-        image: Shape (H, W) or (H, W, C).
-        path_mm: Corners x, y in millimetres, shape (n, 2); shorter than the tile.
+        image: Image of the tile, shape (H, W) or (H, W, C).
+        path_mm: Corners x, y in millimetres, shape (n, 2); the line spans less than the tile.
         width_mm: Width of the line; at least one texel is drawn.
-        value: What to write, 0 to 255, one per channel.
+        value: Value to write, 0 to 255, one per channel.
         grid: The tile.
     """
     thickness = max(1, round(width_mm / grid.texel_mm))
@@ -36,12 +36,12 @@ def polylines(
 
 
 def polygon(image: Image, corners_mm: npt.NDArray[np.float64], value: Sequence[float], grid: Grid) -> None:
-    """Fill a polygon on an image of the tile, in place, going on at the other side where it leaves the tile.
+    """Fill a polygon on an image of the tile, in place; what leaves the tile enters at the opposite edge.
 
     Args:
-        image: Shape (H, W) or (H, W, C).
-        corners_mm: Corners x, y in millimetres, shape (n, 2); smaller than the tile.
-        value: What to write, 0 to 255, one per channel.
+        image: Image of the tile, shape (H, W) or (H, W, C).
+        corners_mm: Corners x, y in millimetres, shape (n, 2); the polygon is smaller than the tile.
+        value: Value to write, 0 to 255, one per channel.
         grid: The tile.
     """
 
@@ -60,8 +60,8 @@ def curve(
         rng: Source of the randomness.
         start_mm: First point x, y.
         length_mm: Length along the curve.
-        bend: Total turn in radians, one standard deviation.
-        points: Corners of the result.
+        bend: Standard deviation of the total turn, radians.
+        points: Number of corners of the result.
 
     Returns:
         Corners in millimetres, shape (points, 2).
@@ -79,9 +79,10 @@ def as_field(image: Image) -> Field:
 def _draw_wrapped(
     image: Image, path: npt.NDArray[np.float64], thickness: int, draw: Callable[[Image, Corners], None]
 ) -> None:
-    """Draw a path given in texels; near the edge on a copy of its surroundings, which is then put back.
+    """Draw a path given in texels.
 
-    OpenCV smooths wrongly in the first row and column of an image, so a path that comes near them isn't clipped.
+    A path near the tile's edge is drawn on a patch that wraps round the edge, and the patch is put back. OpenCV smooths
+    lines wrongly in an image's first row and column, so a path is never drawn right up to the image's edge.
     """
     margin = thickness + 3
     low = np.floor(path.min(axis=0)).astype(np.int64) - margin
@@ -97,5 +98,8 @@ def _draw_wrapped(
 
 
 def _fixed_point(path: npt.NDArray[np.float64]) -> Corners:
-    """Texel coordinates, whose integers lie between texels, as OpenCV's, whose integers are texel centres."""
+    """Convert texel coordinates to OpenCV's fixed point.
+
+    Integers lie between texels here, and on the centres of texels in OpenCV.
+    """
     return np.asarray(np.rint((path - 0.5) * 2**SUBTEXEL_BITS), np.int32)

@@ -17,11 +17,11 @@ class Joints:
 
     Attributes:
         width_mm: Width of the joint between two tiles.
-        depth_mm: How far the grout lies below the faces.
-        stops: Ramp of the grout's colour, 0 to 1, hexadecimal sRGB.
-        round_mm: How far a tile's rounded edge reaches into its face.
-        wander_mm: How uneven the edges are.
-        tilt: Largest slope of a tile that wasn't laid level.
+        depth_mm: Depth of the grout below the faces.
+        stops: Colour ramp of the grout: values 0 to 1, and hexadecimal sRGB colours.
+        round_mm: Distance that a tile's rounded edge reaches into its face.
+        wander_mm: Standard deviation of the edges' unevenness.
+        tilt: Largest slope, along each axis, of a tile that wasn't laid level.
         grime: Strength of the dirt along the joints.
     """
 
@@ -36,12 +36,12 @@ class Joints:
 
 @dataclass(frozen=True)
 class Face:
-    """What the tiles themselves look like, drawn over the whole grid.
+    """The look of the tiles themselves, drawn over the whole grid.
 
     Attributes:
-        colour: Shape (H, W, 3).
-        roughness: Shape (H, W).
-        height_mm: Shape (H, W).
+        colour: sRGB 0 to 1, shape (H, W, 3).
+        roughness: 0 mirror-like to 1 matt, shape (H, W).
+        height_mm: Relief of the faces, shape (H, W).
     """
 
     colour: Field
@@ -66,12 +66,12 @@ def set_tiles(rng: np.random.Generator, grid: Grid, layout: Layout, face: Face, 
     Args:
         rng: Source of the randomness.
         grid: The tile of texels.
-        layout: Where each ceramic or stone tile lies.
-        face: What the tiles look like.
-        joints: How they are set.
+        layout: Layout of the ceramic or stone tiles.
+        face: Look of the tiles.
+        joints: Joints between the tiles.
 
     Returns:
-        Colour, roughness and height of the floor, and where its joints are.
+        Colour, roughness and height of the floor, and the distance to its joints.
     """
     edge = layout.edge_mm + joints.wander_mm * fractal(rng, grid, 30, 1.4, gain=0.5) - 0.5 * joints.width_mm
     inside = smoothstep(-0.12, 0.18, edge)

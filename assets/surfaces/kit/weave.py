@@ -16,10 +16,10 @@ class Weave:
 
     Attributes:
         warp_on_top: True where a thread that runs along y is seen, shape (H, W).
-        thread: Number of the thread seen; the two sets count on from each other, shape (H, W).
-        height_mm: Shape (H, W).
+        thread: Number of the thread seen, shape (H, W): the warp threads first, then the weft threads.
+        height_mm: Relief, shape (H, W).
         fibre: Streaks that follow the threads, standard deviation near 1, shape (H, W).
-        gap: 1 where one sees through between the threads, 0 on a thread, shape (H, W).
+        gap: 1 in a gap between the threads, 0 on a thread, shape (H, W).
         light: Brightness from the roundness of the threads, 0 in the valleys to 1 on the crowns, shape (H, W).
     """
 
@@ -45,10 +45,10 @@ def weave(
     Args:
         rng: Source of the randomness.
         grid: The tile.
-        threads: Threads along y (warp) and along x (weft) across the tile: multiples of the pattern's width
+        threads: Number of threads along y (warp) and along x (weft) on the tile: multiples of the pattern's width
             and height.
         pattern: One repeat, shape (rows, columns): True where the warp passes over.
-        fill: Width of a thread over the distance between two.
+        fill: Width of a thread, as a share of the distance between two threads.
         slub: Relative unevenness of the threads' width.
 
     Returns:
@@ -94,18 +94,18 @@ def weave(
 
 
 def plain_pattern() -> npt.NDArray[np.bool_]:
-    """Each thread over one, under one."""
+    """A plain weave: each thread passes over one thread, then under one."""
     return np.array([[True, False], [False, True]])
 
 
 def twill_pattern(over: int, under: int) -> npt.NDArray[np.bool_]:
-    """Warp over `over` and under `under` wefts, each row shifted by one thread: a diagonal rib."""
+    """A twill: the warp passes over `over` wefts and under `under`; each row is shifted by a thread, so ribs slant."""
     repeat = over + under
     return np.array([[(column + row) % repeat < over for column in range(repeat)] for row in range(repeat)])
 
 
 def basket_pattern(size: int) -> npt.NDArray[np.bool_]:
-    """Groups of `size` threads over and under groups of `size`."""
+    """A basket weave: groups of `size` threads pass over and under groups of `size`."""
     return np.kron(plain_pattern().astype(np.int8), np.ones((size, size), np.int8)).astype(bool)
 
 
@@ -116,7 +116,7 @@ def _round(offset: npt.NDArray[np.floating[Any]]) -> npt.NDArray[np.floating[Any
 def _float_profile(
     over: npt.NDArray[np.bool_], warp: Labels, weft: Labels, across: npt.NDArray[np.floating[Any]], along_rows: bool
 ) -> npt.NDArray[np.floating[Any]]:
-    """How high a thread arches where it crosses others: 1 in the middle of a float, falling to where it dives."""
+    """The height of a thread on top, 0 to 1: 1 along a float, falling to 0 where the thread dives under another."""
     rows, columns = over.shape
     step = (1, 0) if along_rows else (0, 1)
     before = over[(weft - step[0]) % rows, (warp - step[1]) % columns]

@@ -22,8 +22,8 @@ class Species:
         fibre_contrast: Strength of the fine streaks along the grain.
         pore_share: Share of the area that pores cover.
         pore_mm: Length of a pore.
-        figure: How far the rings wander, in millimetres: small is quarter-sawn, large is flat-sawn.
-        knots: Knots per board on average.
+        figure: Distance by which the rings wander, millimetres: small is quarter-sawn, large is flat-sawn.
+        knots: Mean number of knots per board.
     """
 
     stops: tuple[tuple[float, str], ...]
@@ -53,7 +53,7 @@ class Grain:
 
 
 def grain(rng: np.random.Generator, grid: Grid, layout: Layout, species: Species) -> Grain:
-    """Cut every board of a layout from its own place in the wood.
+    """Draw wood over a layout; every board is cut from its own place in the wood.
 
     Args:
         rng: Source of the randomness.
@@ -100,7 +100,7 @@ def grain(rng: np.random.Generator, grid: Grid, layout: Layout, species: Species
 
 
 def _radius(rng: np.random.Generator, layout: Layout, wander: Field, species: Species) -> Field:
-    """Distance from the pith to each texel: the board is a plane that passes the pith at some depth."""
+    """Distance from the tree's pith to each texel, mm: a board is a plane that passes the pith at some depth."""
     count = int(layout.labels.max()) + 1
     depth = rng.uniform(0.6, 3.2, count).astype(np.float32) * species.figure
     centre = rng.uniform(-1.0, 1.0, count) * 42.0
@@ -110,7 +110,7 @@ def _radius(rng: np.random.Generator, layout: Layout, wander: Field, species: Sp
 
 
 def _rings(rng: np.random.Generator, radius: Field, ring_mm: float) -> Field:
-    """Late wood, 0 to 1: builds up slowly through a ring, then ends sharply; rings differ in width."""
+    """Late wood, 0 to 1: it builds up slowly through a ring, then ends sharply; rings differ in width."""
     years = np.cumsum(rng.lognormal(0.0, 0.32, 400)) * ring_mm * 0.95
     strength = rng.uniform(0.5, 1.0, 401).astype(np.float32)
     table_step = 0.02 * ring_mm
@@ -122,7 +122,7 @@ def _rings(rng: np.random.Generator, radius: Field, ring_mm: float) -> Field:
     place = np.clip(radius / np.float32(table_step), 0, len(profile) - 2)
     index = place.astype(np.int32)
     table = profile.astype(np.float32)
-    # Between two entries of the table: nearest ones would leave steps where rings are cut at a shallow angle.
+    # Interpolate between two entries: the nearest entry would show as steps where the cut meets rings at a low angle.
     return np.asarray(table[index] + (place - index) * (table[index + 1] - table[index]), np.float32)
 
 
@@ -136,7 +136,7 @@ def _pores(rng: np.random.Generator, grid: Grid, species: Species) -> Field:
 
 
 def _knots(rng: np.random.Generator, grid: Grid, layout: Layout, species: Species) -> tuple[Field, Field]:
-    """Knots: how far rings swell round them in millimetres, and the knots themselves, 0 to 1."""
+    """Knots: the swelling of the rings around them, millimetres, and the mask of the knots, 0 to 1."""
     swell, inside = grid.zeros(), grid.zeros()
     if species.knots <= 0:
         return swell, inside

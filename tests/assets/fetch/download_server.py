@@ -1,4 +1,4 @@
-"""A web server on this machine for the tests of downloads, and registries of what it holds."""
+"""A web server on this machine for the tests of downloads, and registries of the files that it holds."""
 
 import ssl
 import threading
@@ -20,12 +20,12 @@ Answer = Callable[[BaseHTTPRequestHandler], None]
 
 
 class ShelfServer:
-    """Answers each path by what it was given.
+    """A server that answers each path with the answer it was given for it.
 
     Attributes:
-        answers: Path to what answers it; others are 404.
-        asked: How often each path was asked for.
-        released: Set at the end, so that answers which stall don't outlive the test.
+        answers: answer of each path; any other path is answered with 404.
+        asked: number of requests for each path.
+        released: event that is set at the end, so that answers which stall don't outlive the test.
     """
 
     def __init__(self, scheme: str, port: int) -> None:
@@ -35,12 +35,12 @@ class ShelfServer:
         self.released = threading.Event()
 
     def put(self, path: str, content: bytes) -> str:
-        """Give a file; returns its address."""
+        """Serve a file; returns its address."""
         self.answers[path] = lambda request: send(request, 200, content)
         return self.url + path
 
     def stall(self, content: bytes) -> Answer:
-        """Sends one half and then nothing more."""
+        """Send one half and then nothing more."""
 
         def answer(request: BaseHTTPRequestHandler) -> None:
             send(request, 200, content[: len(content) // 2], claimed=len(content))
@@ -51,7 +51,7 @@ class ShelfServer:
 
 
 def send(request: BaseHTTPRequestHandler, status: int, content: bytes = b"", *, claimed: int | None = None) -> None:
-    """A whole answer, or one that claims another length than it has; None is its own."""
+    """Answer with a whole body, or claim another length than the body's; None claims the body's own."""
     request.send_response(status)
     request.send_header("Content-Length", str(len(content) if claimed is None else claimed))
     request.end_headers()
@@ -59,12 +59,12 @@ def send(request: BaseHTTPRequestHandler, status: int, content: bytes = b"", *, 
 
 
 def missing(request: BaseHTTPRequestHandler) -> None:
-    """What isn't on the shelf."""
+    """The answer for a path that the server doesn't hold."""
     send(request, 404)
 
 
 def redirect(to: str) -> Answer:
-    """Leads elsewhere."""
+    """An answer that redirects to another address."""
 
     def answer(request: BaseHTTPRequestHandler) -> None:
         request.send_response(302)
@@ -76,7 +76,7 @@ def redirect(to: str) -> Answer:
 
 
 def drip(content: bytes, *, pause_s: float) -> Answer:
-    """Sends byte by byte."""
+    """An answer that sends its body byte by byte."""
 
     def answer(request: BaseHTTPRequestHandler) -> None:
         send(request, 200, claimed=len(content))
@@ -90,7 +90,7 @@ def drip(content: bytes, *, pause_s: float) -> Answer:
 
 @contextmanager
 def shelf_server(certificates: Certificates | None = None) -> Iterator[ShelfServer]:
-    """One that lives as long as the block; with certificates it speaks https."""
+    """Run a server within the context; with certificates it speaks https."""
 
     class Handler(BaseHTTPRequestHandler):
         def do_GET(self) -> None:
@@ -98,10 +98,10 @@ def shelf_server(certificates: Certificates | None = None) -> Iterator[ShelfServ
             try:
                 server.answers.get(self.path, missing)(self)
             except ConnectionError:
-                self.close_connection = True  # the client had enough
+                self.close_connection = True  # the client has closed the connection
 
         def log_message(self, *_: object) -> None:
-            """Tests print nothing."""
+            """Print nothing."""
 
     http = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
     if certificates is not None:
@@ -121,7 +121,7 @@ def shelf_server(certificates: Certificates | None = None) -> Iterator[ShelfServ
 
 
 def panorama(folder: Path) -> bytes:
-    """A small HDRI's content."""
+    """The content of a small HDRI."""
     path = folder / "made.hdr"
     cv2.imwrite(str(path), np.random.default_rng(0).random((32, 64, 3), np.float32) + 0.2)
     data = path.read_bytes()
@@ -130,7 +130,7 @@ def panorama(folder: Path) -> bytes:
 
 
 def hdri_asset(content: bytes, name: str = "hall", **place: str) -> Asset:
-    """An HDRI's entry; `place` is its url, or archive and member."""
+    """A registry's entry for an HDRI; `place` holds its url, or its archive and member."""
     file = AssetFile(file=f"{name}.hdr", sha256=sha256(content), bytes=len(content), **place)
     return Asset(
         name=name, kind=Kind.HDRI, licence="CC0-1.0", author="A. Person", source="https://example.org", file=(file,)
@@ -138,5 +138,5 @@ def hdri_asset(content: bytes, name: str = "hall", **place: str) -> Asset:
 
 
 def registry_of(*assets: Asset) -> Registry:
-    """One that has only these."""
+    """A registry with these entries alone."""
     return Registry(asset=assets)

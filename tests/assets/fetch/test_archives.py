@@ -1,4 +1,4 @@
-"""One file out of an archive, friendly or hostile."""
+"""Reading one file out of an archive, friendly or hostile."""
 
 import io
 import tarfile
@@ -18,7 +18,7 @@ KINDS = ["kit.tgz", "kit.whl"]
 
 
 def pack(folder: Path, name: str, members: dict[str, bytes]) -> Path:
-    """An archive of the kind that its name says."""
+    """Write an archive of the kind that its name says."""
     path = folder / name
     if name.endswith(".whl"):
         with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as packed:
@@ -34,7 +34,7 @@ def pack(folder: Path, name: str, members: dict[str, bytes]) -> Path:
 
 
 def tar_of(folder: Path, kind: bytes, target: str = "") -> Path:
-    """A tar with one entry that is no file."""
+    """A tar with one entry that isn't a regular file."""
     path = folder / "kit.tgz"
     with tarfile.open(path, "w:gz") as tar:
         entry = tarfile.TarInfo("a/sky.hdr")
@@ -45,7 +45,7 @@ def tar_of(folder: Path, kind: bytes, target: str = "") -> Path:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_member_is_read(tmp_path: Path, kind: str) -> None:
-    """By its full name, from among others."""
+    """A member is read by its full name, from among others."""
     archive = pack(tmp_path, kind, {"other/sky.hdr": b"dark", "a/sky.hdr": CONTENT})
     assert read_member(archive, kind, "a/sky.hdr", len(CONTENT)) == CONTENT
 
@@ -53,7 +53,7 @@ def test_a_member_is_read(tmp_path: Path, kind: str) -> None:
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", ["../../escaped.hdr", "/escaped.hdr"])
 def test_a_name_that_leads_out_writes_nothing(tmp_path: Path, kind: str, name: str) -> None:
-    """Its content comes back as any other's; where it wants to lie is nobody's business."""
+    """A member whose name leads out of the folder is read like any other, and nothing is written to where it leads."""
     home = tmp_path / "deep" / "deeper"
     home.mkdir(parents=True)
     archive = pack(home, kind, {name: CONTENT})
@@ -74,14 +74,14 @@ def test_a_name_that_leads_out_writes_nothing(tmp_path: Path, kind: str, name: s
 )
 @pytest.mark.parametrize("size", [0, 5])
 def test_what_is_no_file_is_refused(tmp_path: Path, type_: bytes, target: str, size: int) -> None:
-    """Links, folders, pipes and devices, whatever size was registered."""
+    """Links, folders, pipes and devices are refused, whatever size was registered."""
     with pytest.raises(AssetError, match=r"kit\.tgz: a/sky\.hdr isn't a file of"):
         read_member(tar_of(tmp_path, type_, target), "kit.tgz", "a/sky.hdr", size)
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_member_of_another_size_is_refused(tmp_path: Path, kind: str) -> None:
-    """Before it is read."""
+    """A member of another size than registered is refused before it is read."""
     archive = pack(tmp_path, kind, {"a/sky.hdr": CONTENT})
     with pytest.raises(AssetError, match="isn't a file of 7 bytes"):
         read_member(archive, kind, "a/sky.hdr", 7)
@@ -89,7 +89,7 @@ def test_a_member_of_another_size_is_refused(tmp_path: Path, kind: str) -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_member_that_is_missing(tmp_path: Path, kind: str) -> None:
-    """Is named."""
+    """The error names a member that is missing."""
     archive = pack(tmp_path, kind, {"a/sky.hdr": CONTENT})
     with pytest.raises(AssetError, match=r"holds no b/sky\.hdr"):
         read_member(archive, kind, "b/sky.hdr", len(CONTENT))

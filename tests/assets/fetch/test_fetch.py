@@ -1,4 +1,4 @@
-"""Assets put in place, whole or not at all."""
+"""Putting assets in place, whole or not at all."""
 
 import io
 import resource
@@ -25,7 +25,7 @@ MEMBER = "../../package/hall.hdr"
 
 @pytest.fixture
 def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[ShelfServer]:
-    """Asked without a proxy, whatever the environment says."""
+    """A server that is reached without a proxy, whatever the environment says."""
     monkeypatch.setenv("no_proxy", "*")
     with shelf_server() as running:
         yield running
@@ -33,7 +33,7 @@ def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[ShelfServer]:
 
 @pytest.fixture
 def light(tmp_path: Path) -> bytes:
-    """An HDRI's content."""
+    """The content of an HDRI."""
     return panorama(tmp_path)
 
 
@@ -44,12 +44,12 @@ def fetch(asset: Asset, root: Path, registry: Registry | None = None) -> Outcome
 
 
 def files_below(root: Path) -> list[str]:
-    """Every file and hidden folder, by its path."""
+    """Every file and hidden folder below a folder, by its path."""
     return sorted(str(path.relative_to(root)) for path in root.rglob("*") if path.is_file() or path.name[0] == ".")
 
 
 def packed(server: ShelfServer, members: dict[str, bytes]) -> Archive:
-    """An archive on the server."""
+    """Put an archive on the server."""
     whole = io.BytesIO()
     with tarfile.open(fileobj=whole, mode="w:gz") as tar:
         for name, content in members.items():
@@ -61,7 +61,7 @@ def packed(server: ShelfServer, members: dict[str, bytes]) -> Archive:
 
 
 def test_an_hdri_is_put_where_the_farm_can_use_it(server: ShelfServer, tmp_path: Path, light: bytes) -> None:
-    """Under the name that the registry gives it; nothing else is left."""
+    """An HDRI lies under the name that the registry gives it, and nothing else is left."""
     asset = hdri_asset(light, url=server.put("/x/y.hdr?z", light))
     assert fetch(asset, tmp_path / "to") is Outcome.FETCHED
     assert files_below(tmp_path / "to") == ["hdris/hall.hdr"]
@@ -87,7 +87,7 @@ def test_what_is_damaged_is_fetched_again(server: ShelfServer, tmp_path: Path, l
 
 
 def test_a_failure_leaves_nothing(server: ShelfServer, tmp_path: Path, light: bytes) -> None:
-    """Neither a part of the file nor a temporary one."""
+    """A failed fetch leaves neither a part of the file nor a temporary one."""
     asset = hdri_asset(light, url=server.put("/a", light[::-1]))
     with pytest.raises(AssetError, match="has checksum"):
         fetch(asset, tmp_path / "to")
@@ -106,7 +106,7 @@ def test_a_failure_leaves_what_was_there(server: ShelfServer, tmp_path: Path, li
 
 
 def test_what_is_no_image_is_not_kept(server: ShelfServer, tmp_path: Path) -> None:
-    """Though it be what was registered: a page of a login, say."""
+    """A file that is registered but isn't an image, such as a login page, is not kept."""
     page = b"<html>Please log in</html>"
     asset = hdri_asset(page, url=server.put("/a", page))
     with pytest.raises(AssetError, match=r"^hall\.hdr: came as registered, but .+"):
@@ -115,7 +115,7 @@ def test_what_is_no_image_is_not_kept(server: ShelfServer, tmp_path: Path) -> No
 
 
 def test_several_assets_from_one_archive(server: ShelfServer, tmp_path: Path, light: bytes) -> None:
-    """It is fetched once, and gone in the end. Names in it that lead out of the folder lead nowhere."""
+    """An archive that several assets share is fetched once and removed in the end; names in it lead nowhere."""
     kit = packed(server, {MEMBER: light, "package/other": b"x"})
     assets = [hdri_asset(light, name, archive="kit-1", member=MEMBER) for name in ("hall", "yard")]
     with Fetcher(Registry(archive=(kit,), asset=tuple(assets)), tmp_path / "deep" / "to", patience=SOON) as fetcher:
@@ -125,7 +125,7 @@ def test_several_assets_from_one_archive(server: ShelfServer, tmp_path: Path, li
 
 
 def test_a_member_that_differs_is_not_kept(server: ShelfServer, tmp_path: Path, light: bytes) -> None:
-    """The archive may be as registered and the registry wrong about its content."""
+    """A member is checked even if its archive is as registered."""
     kit = packed(server, {MEMBER: light[::-1]})
     asset = hdri_asset(light, archive="kit-1", member=MEMBER)
     with pytest.raises(AssetError, match=r"kit-1\.tgz: .*hall\.hdr has checksum"):
@@ -134,7 +134,7 @@ def test_a_member_that_differs_is_not_kept(server: ShelfServer, tmp_path: Path, 
 
 
 def test_an_archive_that_differs_is_not_opened(server: ShelfServer, tmp_path: Path, light: bytes) -> None:
-    """Whatever it holds."""
+    """An archive whose checksum differs isn't opened."""
     kit = packed(server, {MEMBER: light}).model_copy(update={"sha256": "0" * 64})
     asset = hdri_asset(light, archive="kit-1", member=MEMBER)
     with pytest.raises(AssetError, match=r"kit-1\.tgz: has checksum"):
@@ -143,7 +143,7 @@ def test_an_archive_that_differs_is_not_opened(server: ShelfServer, tmp_path: Pa
 
 
 def test_the_archive_stands_in_for_a_file_that_is_gone(server: ShelfServer, tmp_path: Path, light: bytes) -> None:
-    """The address is tried first."""
+    """A file whose address is gone is read from the archive; the address is tried first."""
     kit = packed(server, {MEMBER: light})
     asset = hdri_asset(light, url=f"{server.url}/gone", archive="kit-1", member=MEMBER)
     assert fetch(asset, tmp_path, Registry(archive=(kit,), asset=(asset,))) is Outcome.FETCHED
@@ -151,7 +151,7 @@ def test_the_archive_stands_in_for_a_file_that_is_gone(server: ShelfServer, tmp_
 
 
 def test_both_failures_are_told(server: ShelfServer, tmp_path: Path, light: bytes) -> None:
-    """When neither the address nor the archive has it."""
+    """If neither the address nor the archive has the file, the error names both failures."""
     kit = packed(server, {})
     asset = hdri_asset(light, url=f"{server.url}/gone", archive="kit-1", member=MEMBER)
     with pytest.raises(AssetError, match=r"/gone: answered 404.*, and .*kit-1\.tgz: holds no"):
@@ -159,7 +159,7 @@ def test_both_failures_are_told(server: ShelfServer, tmp_path: Path, light: byte
 
 
 def test_a_silent_server_is_asked_once(server: ShelfServer, tmp_path: Path, light: bytes) -> None:
-    """When there is an archive, the other files come from there at once."""
+    """After one silence, the other files come from the archive at once."""
     kit = packed(server, {MEMBER: light})
     assets = []
     for name in ("hall", "yard"):
@@ -172,7 +172,7 @@ def test_a_silent_server_is_asked_once(server: ShelfServer, tmp_path: Path, ligh
 
 
 def test_a_mirror_is_asked_in_place_of_every_server(server: ShelfServer, tmp_path: Path, light: bytes) -> None:
-    """Its address comes before the paths."""
+    """A mirror's address replaces that of every server."""
     server.put("/mirror/a/b.hdr", light)
     asset = hdri_asset(light, url="https://example.org/a/b.hdr")
     with Fetcher(registry_of(asset), tmp_path, f"{server.url}/mirror/", SOON) as fetcher:
@@ -183,13 +183,13 @@ def test_a_mirror_is_asked_in_place_of_every_server(server: ShelfServer, tmp_pat
     "mirror", ["example.org", "ftp://a.org", "https://", "https://me:secret@a.org", "http://[", "http://a.org:b"]
 )
 def test_what_is_no_mirror(tmp_path: Path, light: bytes, mirror: str) -> None:
-    """It has to be http or https, and no place for a password."""
+    """A mirror must be an http or https address without a password."""
     with pytest.raises(AssetError, match="--mirror"):
         Fetcher(registry_of(hdri_asset(light, url="https://example.org/a")), tmp_path, mirror)
 
 
 def texture_asset(server: ShelfServer, folder: Path, roles: list[str]) -> Asset:
-    """A texture of small maps on the server; one called `missing` is not."""
+    """Put a texture of small maps on the server, without a map called `missing`."""
     files = []
     for role in roles:
         path = folder / f"oak_{role}.png"
@@ -203,14 +203,14 @@ def texture_asset(server: ShelfServer, folder: Path, roles: list[str]) -> Asset:
 
 
 def test_a_texture_is_put_where_the_farm_can_use_it(server: ShelfServer, tmp_path: Path) -> None:
-    """All of its maps, in the folder for textures."""
+    """All maps of a texture lie in the folder for textures."""
     assert fetch(texture_asset(server, tmp_path, ["color", "normal"]), tmp_path) is Outcome.FETCHED
     (oak,) = scan_textures(tmp_path / "textures")
     assert (oak.name, len(oak.maps)) == ("oak", 2)
 
 
 def test_half_a_texture_is_not_kept(server: ShelfServer, tmp_path: Path) -> None:
-    """When its second map can't be had, its first isn't put in place either."""
+    """If the second map of a texture can't be fetched, the first isn't put in place either."""
     asset = texture_asset(server, tmp_path, ["color", "normal"])
     del server.answers["/normal"]
     with pytest.raises(AssetError, match="/normal: answered 404"):
@@ -219,7 +219,7 @@ def test_half_a_texture_is_not_kept(server: ShelfServer, tmp_path: Path) -> None
 
 
 def test_only_the_missing_map_is_fetched(server: ShelfServer, tmp_path: Path) -> None:
-    """A later run goes on where one was interrupted."""
+    """A later run continues where one was interrupted."""
     asset = texture_asset(server, tmp_path, ["color", "normal"])
     fetch(asset, tmp_path)
     (tmp_path / "textures" / "oak_normal.png").unlink()
@@ -228,7 +228,7 @@ def test_only_the_missing_map_is_fetched(server: ShelfServer, tmp_path: Path) ->
 
 
 def test_a_folder_that_can_not_be_made(server: ShelfServer, tmp_path: Path, light: bytes) -> None:
-    """Is named, with what to do."""
+    """The error names a folder that can't be made, and says what to do."""
     (tmp_path / "to").write_text("a file")
     asset = hdri_asset(light, url=server.put("/a", light))
     with pytest.raises(AssetError, match=r"to/hdris: can't be written \(Not a directory\); .*--to"):
@@ -237,7 +237,7 @@ def test_a_folder_that_can_not_be_made(server: ShelfServer, tmp_path: Path, ligh
 
 @pytest.mark.parametrize("boxed", [False, True])
 def test_no_room_leaves_nothing(server: ShelfServer, tmp_path: Path, light: bytes, boxed: bool) -> None:
-    """Whether the file or the archive does not fit."""
+    """A file or an archive that doesn't fit on the disk leaves nothing behind."""
     kit = packed(server, {MEMBER: light})
     place = {"archive": "kit-1", "member": MEMBER} if boxed else {"url": server.put("/a", light)}
     asset = hdri_asset(light, **place)

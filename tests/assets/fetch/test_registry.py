@@ -1,4 +1,4 @@
-"""Registries of what can be fetched."""
+"""Registries of assets that can be fetched."""
 
 import json
 from pathlib import Path
@@ -13,17 +13,17 @@ SHA = "0" * 64
 
 
 def archive(**changes: Any) -> dict[str, Any]:
-    """An archive's table."""
+    """The table of an archive."""
     return {"name": "kit-1", "url": "https://example.org/kit-1.tgz", "sha256": SHA, "bytes": 10, **changes}
 
 
 def file(**changes: Any) -> dict[str, Any]:
-    """A file's table."""
+    """The table of a file."""
     return {"file": "hall.hdr", "sha256": SHA, "bytes": 5, "url": "https://example.org/hall.hdr", **changes}
 
 
 def asset(*files: dict[str, Any], **changes: Any) -> dict[str, Any]:
-    """An asset's table."""
+    """The table of an asset."""
     told = {"name": "hall", "kind": "hdri", "licence": "CC0-1.0", "author": "A. Person"}
     return {**told, "source": "https://example.org/a/hall", "file": list(files) or [file()], **changes}
 
@@ -36,7 +36,7 @@ def inline(value: Any) -> str:
 
 
 def write(folder: Path, **tables: Any) -> Path:
-    """A registry's file."""
+    """Write a registry's file."""
     path = folder / "mine.toml"
     whole = {"asset": [asset()], **tables}
     path.write_text("\n".join(f"{key} = {inline(value)}" for key, value in whole.items()))
@@ -44,7 +44,7 @@ def write(folder: Path, **tables: Any) -> Path:
 
 
 def test_the_farms_own_is_in_order() -> None:
-    """Every entry is public domain, from Poly Haven, with a second source that this project read itself."""
+    """Every entry of the farm's own registry is public domain, from Poly Haven, with a checked second source."""
     registry = own_registry()
     assert len(registry.asset) == 9
     for entry in registry.asset:
@@ -54,7 +54,7 @@ def test_the_farms_own_is_in_order() -> None:
 
 
 def test_a_registry_of_ones_own(tmp_path: Path) -> None:
-    """Both kinds, from both kinds of place."""
+    """A registry may hold both kinds of assets, from addresses and from archives."""
     boxed = {"url": None, "archive": "kit-1", "member": "package/oak"}
     files = [file(file=f"oak_{role}.png", **boxed) for role in ("color", "normal")]
     for entry in files:
@@ -66,7 +66,7 @@ def test_a_registry_of_ones_own(tmp_path: Path) -> None:
 
 
 def test_assets_are_found_by_name(tmp_path: Path) -> None:
-    """In the registry's order; no name means all; an unknown one is told with those that there are."""
+    """Assets come in the registry's order; no name means all, and an unknown name is told the known ones."""
     files = [file(file=f"{name}.hdr") for name in "abc"]
     registry = read_registry(write(tmp_path, asset=[asset(part, name=part["file"][0]) for part in files]))
     assert [entry.name for entry in registry.find(["c", "a"])] == ["a", "c"]
@@ -89,8 +89,8 @@ def test_assets_are_found_by_name(tmp_path: Path) -> None:
         ({"asset": [asset(kind="model")]}, r"kind: "),
         ({"asset": [asset(file(url="http://example.org/hall.hdr"))]}, r"must begin with https://"),
         ({"asset": [asset(file(url="file:///etc/passwd"))]}, r"must begin with https://"),
-        ({"asset": [asset(file(url="https://me:secret@example.org/a"))]}, r"isn't a plain address"),
-        ({"asset": [asset(file(url="https:///a"))]}, r"isn't a plain address"),
+        ({"asset": [asset(file(url="https://me:secret@example.org/a"))]}, r"isn't the plain address"),
+        ({"asset": [asset(file(url="https:///a"))]}, r"isn't the plain address"),
         ({"asset": [asset(file(url="https://example.org:none/a"))]}, r"file\.0\.url: "),
         ({"asset": [asset(file(url="https://[::1/a"))]}, r"file\.0\.url: "),
         ({"asset": [asset(file(archive="kit-1"))]}, r"archive and member go together"),
@@ -109,7 +109,7 @@ def test_assets_are_found_by_name(tmp_path: Path) -> None:
     ],
 )
 def test_wrong_entries_are_refused(tmp_path: Path, tables: dict[str, Any], message: str) -> None:
-    """In one line that names file and key."""
+    """A wrong entry is refused in one line that names file and key."""
     path = write(tmp_path, archive=tables.pop("archive", [archive()]), **tables)
     with pytest.raises(AssetError, match=message) as told:
         read_registry(path)
@@ -119,7 +119,7 @@ def test_wrong_entries_are_refused(tmp_path: Path, tables: dict[str, Any], messa
 
 @pytest.mark.parametrize("content", [b"[[asset", b"\xff\xfe", b"a = " + b"1" * 5000, b"a = " + b"[" * 5000, None])
 def test_what_is_no_registry(tmp_path: Path, content: bytes | None) -> None:
-    """No TOML, no text, no file."""
+    """A file that is missing, isn't text or isn't TOML is refused."""
     path = tmp_path / "mine.toml"
     if content is not None:
         path.write_bytes(content)
@@ -128,6 +128,6 @@ def test_what_is_no_registry(tmp_path: Path, content: bytes | None) -> None:
 
 
 def test_this_machine_may_be_asked_by_http(tmp_path: Path) -> None:
-    """For those who keep files on a server of their own, reached through a tunnel."""
+    """An http address is allowed on this machine, as for a server that is reached through a tunnel."""
     path = write(tmp_path, asset=[asset(file(url="http://localhost:8000/hall.hdr"))])
     assert read_registry(path).asset[0].file[0].url == "http://localhost:8000/hall.hdr"

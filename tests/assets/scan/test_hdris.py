@@ -22,7 +22,7 @@ needs_bpy = pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="
 
 
 def panorama(path: Path, pixels: npt.NDArray[np.float32] | None = None) -> Path:
-    """Write surroundings, by default bright noise of 64 by 32 pixels."""
+    """Write a panorama, by default bright noise of 64 by 32 pixels."""
     shown = np.random.default_rng(0).random((32, 64, 3), np.float32) + 0.2 if pixels is None else pixels
     cv2.imwrite(str(path), shown.astype(np.float32))
     return path
@@ -30,7 +30,7 @@ def panorama(path: Path, pixels: npt.NDArray[np.float32] | None = None) -> Path:
 
 @needs_bpy
 def test_the_registry_agrees_with_the_installed_files() -> None:
-    """Checksums, measured light and darkness of all eight are as the registry says, and which can be a background."""
+    """Checksums and measured light of all eight files are as registered, and which may be a backdrop."""
     assert len(registry()) == 8
     for entry in registry():
         measured = read_hdri(world_directory() / entry.file)
@@ -58,7 +58,7 @@ def test_the_licence_note_names_the_registered_sources() -> None:
 
 @needs_bpy
 def test_builtin_hdris_come_with_their_paths() -> None:
-    """All eight, existing; the night is dark, the studio's horizon black."""
+    """All eight exist; the night is dark, and the studio isn't a backdrop."""
     found = builtin_hdris()
     assert all(entry.path.is_file() for entry in found)
     assert [entry.name for entry in found if entry.dark] == ["night"]
@@ -68,7 +68,7 @@ def test_builtin_hdris_come_with_their_paths() -> None:
 @needs_bpy
 @pytest.mark.parametrize("share", [0.0005, 0.004, 0.02, 0.2, 0.5, 0.8, 0.95, 0.9999])
 def test_a_real_file_cut_short_is_refused(tmp_path: Path, share: float) -> None:
-    """Cut in the header, in the offset table or among the pixels, one of Blender's files is refused."""
+    """One of Blender's files is refused if it is cut in the header, in the offset table or among the pixels."""
     data = (world_directory() / "night.exr").read_bytes()
     path = tmp_path / "night.exr"
     path.write_bytes(data[: int(share * len(data))])
@@ -77,14 +77,14 @@ def test_a_real_file_cut_short_is_refused(tmp_path: Path, share: float) -> None:
 
 
 def test_without_bpy_the_error_says_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The farm's own machines may lack bpy."""
+    """A machine without bpy is told how to install it."""
     monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
     with pytest.raises(AssetError, match="pip install"):
         builtin_hdris()
 
 
 def test_an_altered_builtin_file_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A file that isn't the registered one isn't used."""
+    """A file whose checksum isn't the registered one is refused."""
     monkeypatch.setattr("assets.scan.hdris.world_directory", lambda: tmp_path)
     panorama(tmp_path / "city.exr")
     with pytest.raises(AssetError, match=r"city\.exr: differs from the registry's checksum"):
@@ -93,7 +93,7 @@ def test_an_altered_builtin_file_is_refused(tmp_path: Path, monkeypatch: pytest.
 
 @pytest.mark.parametrize("suffix", [".hdr", ".exr"])
 def test_a_folder_of_panoramas_is_read(tmp_path: Path, suffix: str) -> None:
-    """Both formats; other files are passed over."""
+    """Panoramas of both formats are read; other files are ignored."""
     path = panorama(tmp_path / f"hall{suffix}")
     (tmp_path / "license.txt").write_text("CC0")
     (found,) = scan_hdris(tmp_path)
@@ -103,7 +103,7 @@ def test_a_folder_of_panoramas_is_read(tmp_path: Path, suffix: str) -> None:
 
 @pytest.mark.parametrize(("level", "dark"), [(DARK_BELOW * 0.9, True), (DARK_BELOW * 1.1, False)])
 def test_darkness_is_measured(tmp_path: Path, level: float, dark: bool) -> None:
-    """The threshold decides."""
+    """A panorama below the threshold counts as dark."""
     found = read_hdri(panorama(tmp_path / "a.exr", np.full((32, 64, 3), level, np.float32)))
     assert found.dark is dark
 
@@ -131,7 +131,7 @@ def test_small_negative_values_of_compression_pass(tmp_path: Path) -> None:
     [(-1.0, "holds negative light"), (np.inf, "infinite or undefined"), (np.nan, "infinite or undefined")],
 )
 def test_values_that_are_no_light_are_refused(tmp_path: Path, value: float, message: str) -> None:
-    """One bad pixel is enough."""
+    """A panorama with a single bad pixel is refused."""
     pixels = np.full((32, 64, 3), 0.5, np.float32)
     pixels[3, 3] = value
     with pytest.raises(AssetError, match=message):
@@ -139,19 +139,19 @@ def test_values_that_are_no_light_are_refused(tmp_path: Path, value: float, mess
 
 
 def test_darkness_all_over_is_refused(tmp_path: Path) -> None:
-    """Zeros can't light anything."""
+    """A panorama of zeros is refused, as it can't light anything."""
     with pytest.raises(AssetError, match="black all over"):
         read_hdri(panorama(tmp_path / "a.exr", np.zeros((32, 64, 3), np.float32)))
 
 
 def test_a_square_picture_is_refused(tmp_path: Path) -> None:
-    """A panorama is twice as wide as high."""
+    """A picture that isn't twice as wide as high is refused."""
     with pytest.raises(AssetError, match="32 x 32 isn't 2:1"):
         read_hdri(panorama(tmp_path / "a.hdr", np.ones((32, 32, 3), np.float32)))
 
 
 def test_two_files_of_one_name_are_refused(tmp_path: Path) -> None:
-    """Names have to tell panoramas apart."""
+    """Two files of one name are refused, as scenes tell panoramas apart by name."""
     panorama(tmp_path / "hall.exr")
     panorama(tmp_path / "hall.hdr")
     with pytest.raises(AssetError, match="same name"):
@@ -160,7 +160,7 @@ def test_two_files_of_one_name_are_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("made", [True, False])
 def test_an_empty_or_missing_folder_is_refused(tmp_path: Path, made: bool) -> None:
-    """Nothing to read is an error."""
+    """A folder that is missing or holds no panorama is refused."""
     folder = tmp_path / "hdris"
     if made:
         folder.mkdir()

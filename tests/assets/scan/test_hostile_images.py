@@ -1,4 +1,4 @@
-"""Images that claim, are or lead to something else: refused by what little of them is read."""
+"""Images that claim to be, are or lead to something else are refused after little of them is read."""
 
 import os
 import resource
@@ -44,7 +44,7 @@ def exr(folder: Path, width: int, height: int) -> bytes:
 
 
 def radiance(width: int, height: int) -> bytes:
-    """A Radiance file that holds what it claims, black, in runs: 16,384 pixels in a kilobyte."""
+    """A black Radiance file that holds what it claims, in runs: 16,384 pixels in a kilobyte."""
     runs = bytes([255, 1]) * (width // 127) + bytes([128 + width % 127, 1])
     line = bytes([2, 2, width >> 8, width & 255]) + 4 * runs
     return b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (height, width) + line * height
@@ -53,7 +53,7 @@ def radiance(width: int, height: int) -> bytes:
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("suffix", [".png", ".exr"])
 def test_a_texture_that_claims_too_many_pixels_is_refused(tmp_path: Path, suffix: str, size: tuple[int, int]) -> None:
-    """By its header; nothing of that size is allocated."""
+    """A texture is refused by the size in its header, and nothing of that size is allocated."""
     path = tmp_path / f"oak_color{suffix}"
     path.write_bytes(png(*size) if suffix == ".png" else exr(tmp_path, *size))
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -63,7 +63,7 @@ def test_a_texture_that_claims_too_many_pixels_is_refused(tmp_path: Path, suffix
 
 
 def test_a_panorama_that_unfolds_is_refused(tmp_path: Path) -> None:
-    """Eight megabytes that are whole, and would take six gigabytes."""
+    """A whole file of eight megabytes that would unpack to six gigabytes is refused."""
     (tmp_path / "night.hdr").write_bytes(radiance(16_384, 8_192))
     with pytest.raises(AssetError, match=r"16384 x 8192 pixels is more than 64 Mi"):
         scan_hdris(tmp_path)
@@ -71,7 +71,7 @@ def test_a_panorama_that_unfolds_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("suffix", [".png", ".jpg", ".exr"])
 def test_a_script_named_as_an_image_is_none(tmp_path: Path, suffix: str) -> None:
-    """What a file is called doesn't count."""
+    """A script with the name of an image is refused: a name doesn't count."""
     path = tmp_path / f"oak_color{suffix}"
     path.write_text("#!/bin/sh\necho hello\n")
     with pytest.raises(AssetError):
@@ -79,7 +79,7 @@ def test_a_script_named_as_an_image_is_none(tmp_path: Path, suffix: str) -> None
 
 
 def test_a_link_leads_to_an_image_or_nowhere(tmp_path: Path) -> None:
-    """Links are followed; what isn't an image is refused as if it lay there itself, and told without its content."""
+    """A link is followed; if it doesn't lead to an image, it is refused without showing the content."""
     (tmp_path / "oak_color.png").symlink_to("/etc/passwd")
     with pytest.raises(AssetError) as refused:
         scan_textures(tmp_path)
@@ -88,7 +88,7 @@ def test_a_link_leads_to_an_image_or_nowhere(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["oak_color.png", "night.hdr"])
 def test_devices_are_no_assets(tmp_path: Path, name: str) -> None:
-    """One without an end is never begun; a scan passes it over."""
+    """A device without an end is never read, and a scan ignores it."""
     path = tmp_path / name
     path.symlink_to("/dev/zero")
     with pytest.raises(AssetError, match="regular file"):
@@ -98,7 +98,7 @@ def test_devices_are_no_assets(tmp_path: Path, name: str) -> None:
 
 
 def test_pipes_are_no_assets(tmp_path: Path) -> None:
-    """Nobody may ever write to one; opening it doesn't wait."""
+    """A pipe is refused without waiting for a writer."""
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(AssetError, match="regular file"):
         read_bounded(tmp_path / "pipe")
@@ -108,7 +108,7 @@ def test_pipes_are_no_assets(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("path", ["/dev/zero", "/dev/stdin", "/proc/self/mem", "/"])
 def test_a_header_that_names_something_else_than_a_file(path: str) -> None:
-    """A dataset's header may come from anybody; a worker doesn't hang on what it names."""
+    """A worker doesn't hang on a device or pipe that a header from a stranger names."""
     program = (
         "from farm.errors import AssetError\nfrom farm.spec.header import FileRef\n"
         "from worker.blender.asset_files import checked\n"
@@ -120,7 +120,7 @@ def test_a_header_that_names_something_else_than_a_file(path: str) -> None:
 
 
 def test_a_file_with_other_content_than_the_headers_is_refused(tmp_path: Path) -> None:
-    """So a header can't make a worker open a file whose content its author doesn't know."""
+    """A header can't make a worker open a file whose content its author doesn't know."""
     (tmp_path / "secret").write_text("word")
     with pytest.raises(AssetError, match="changed"):
         checked(FileRef(path=str(tmp_path / "secret"), sha256="0" * 64))

@@ -1,4 +1,4 @@
-"""The user's own photographs."""
+"""Reading the user's own photographs."""
 
 import struct
 import zlib
@@ -27,7 +27,7 @@ def pixels(width: int = 320, height: int = 260) -> NDArray[np.uint8]:
 
 
 def encoded(format_: str, image: Image.Image | None = None, **options: object) -> bytes:
-    """An image's file."""
+    """The file of an image."""
     buffer = BytesIO()
     (image or Image.fromarray(pixels())).save(buffer, format_, **options)
     return buffer.getvalue()
@@ -37,7 +37,7 @@ def encoded(format_: str, image: Image.Image | None = None, **options: object) -
     ("suffix", "format_"), [(".jpg", "JPEG"), (".JPEG", "JPEG"), (".png", "PNG"), (".webp", "WEBP"), (".tif", "TIFF")]
 )
 def test_a_folder_of_photographs_is_read(tmp_path: Path, suffix: str, format_: str) -> None:
-    """Every format; other files, hidden ones and subfolders are passed over."""
+    """Every format is read; other files, hidden ones and subfolders are ignored."""
     data = encoded(format_)
     (tmp_path / f"lab{suffix}").write_bytes(data)
     (tmp_path / f".hidden{suffix}").write_bytes(b"")
@@ -49,7 +49,7 @@ def test_a_folder_of_photographs_is_read(tmp_path: Path, suffix: str, format_: s
 
 
 def test_photographs_are_sorted_by_name(tmp_path: Path) -> None:
-    """Whatever order the disk has."""
+    """Photographs come in the order of their names, whatever order the disk has."""
     for name in ("c.png", "a.jpg", "b.png"):
         Image.fromarray(pixels()).save(tmp_path / name)
     assert [plate.name for plate in scan_plates(tmp_path)] == ["a", "b", "c"]
@@ -65,7 +65,7 @@ def test_pixels_come_as_they_are() -> None:
 @pytest.mark.parametrize("format_", ["JPEG", "PNG", "WEBP", "TIFF"])
 @pytest.mark.parametrize("orientation", range(1, 9))
 def test_photographs_stand_upright(format_: str, orientation: int) -> None:
-    """A camera held sideways notes how: the eight turns of EXIF 2.32, 4.6.4, row 0 and column 0 as it names them."""
+    """All eight orientations that EXIF 2.32, 4.6.4, defines are turned upright."""
     upright = pixels()
     stored = {
         1: upright,
@@ -82,11 +82,11 @@ def test_photographs_stand_upright(format_: str, orientation: int) -> None:
     data = encoded(format_, Image.fromarray(np.ascontiguousarray(stored)), exif=note)
     seen = decode_plate(Path("a"), data)
     assert seen.shape == upright.shape
-    assert np.abs(seen.astype(int) - upright).max() < 16  # what JPEG and WebP lose
+    assert np.abs(seen.astype(int) - upright).max() < 16  # the error of JPEG's and WebP's compression
 
 
 def test_the_size_is_that_of_the_upright_picture(tmp_path: Path) -> None:
-    """A portrait stored as a landscape is a portrait."""
+    """A portrait that is stored as a landscape has the size of a portrait."""
     note = Image.Exif()
     note[ORIENTATION] = 6
     (tmp_path / "a.jpg").write_bytes(encoded("JPEG", exif=note))
@@ -97,7 +97,7 @@ def test_the_size_is_that_of_the_upright_picture(tmp_path: Path) -> None:
 @pytest.mark.parametrize("format_", ["JPEG", "PNG", "WEBP", "TIFF"])
 @pytest.mark.parametrize("share", [0.0, 0.01, 0.3, 0.6, 0.9])
 def test_a_file_cut_short_is_refused(format_: str, share: float) -> None:
-    """Wherever it was cut."""
+    """A file is refused wherever it is cut."""
     noise = np.random.default_rng(0).integers(0, 256, (260, 320, 3), np.uint8)
     data = encoded(format_, Image.fromarray(noise))
     with pytest.raises(AssetError, match=r"^lab: isn't a sound photograph \(.*save it again"):
@@ -110,7 +110,7 @@ def test_a_file_cut_short_is_refused(format_: str, share: float) -> None:
     damage=st.lists(st.tuples(st.floats(0, 0.9999), st.integers(0, 255)), min_size=1, max_size=8),
 )
 def test_damage_is_an_asset_error_or_harmless(format_: str, damage: list[tuple[float, int]]) -> None:
-    """Whatever bytes change, orientation notes included, nothing but an AssetError is raised."""
+    """Changed bytes, also in the orientation, raise nothing but an AssetError."""
     note = Image.Exif()
     note[ORIENTATION] = 8
     data = bytearray(encoded(format_, exif=note))
@@ -128,14 +128,14 @@ def test_damage_is_an_asset_error_or_harmless(format_: str, damage: list[tuple[f
     ("mode", "format_"), [("RGBA", "PNG"), ("LA", "PNG"), ("P", "PNG"), ("1", "PNG"), ("I;16", "PNG"), ("CMYK", "JPEG")]
 )
 def test_other_kinds_of_pixels_are_refused(mode: str, format_: str) -> None:
-    """Transparency, palettes, 16 bit and inks: what to save instead is told."""
+    """Transparency, palettes, 16 bits and inks are refused, and the error says what to save instead."""
     with pytest.raises(AssetError, match=f"is of mode {mode}; save it as 8 bit RGB or grey"):
         decode_plate(Path("lab"), encoded(format_, Image.new(mode, (300, 300))))
 
 
 @pytest.mark.parametrize(("size", "fits"), [((255, 4000), False), ((4000, 255), False), ((256, 256), True)])
 def test_small_photographs_are_refused(size: tuple[int, int], fits: bool) -> None:
-    """By their short side."""
+    """A photograph is refused if its short side is too small."""
     data = encoded("PNG", Image.new("L", size))
     if fits:
         assert decode_plate(Path("lab"), data).shape == (256, 256, 3)
@@ -146,7 +146,7 @@ def test_small_photographs_are_refused(size: tuple[int, int], fits: bool) -> Non
 
 @pytest.mark.parametrize("size", [(8192, 8193), (100_000, 100_000)])
 def test_claims_of_too_many_pixels_are_refused(size: tuple[int, int]) -> None:
-    """By the header, before anything is decoded."""
+    """A photograph is refused by the size in its header, before anything is decoded."""
 
     def chunk(kind: bytes, body: bytes) -> bytes:
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
@@ -158,7 +158,7 @@ def test_claims_of_too_many_pixels_are_refused(size: tuple[int, int]) -> None:
 
 
 def test_what_only_its_name_calls_a_photograph(tmp_path: Path) -> None:
-    """A GIF in disguise, which Pillow could read, and text."""
+    """A GIF in disguise, which Pillow could read, and text are refused."""
     for data in (encoded("GIF"), b"<svg/>"):
         (tmp_path / "lab.jpg").write_bytes(data)
         with pytest.raises(AssetError, match=r"lab\.jpg: isn't a sound photograph"):
@@ -166,7 +166,7 @@ def test_what_only_its_name_calls_a_photograph(tmp_path: Path) -> None:
 
 
 def test_two_photographs_of_one_name(tmp_path: Path) -> None:
-    """Names tell them apart in scenes."""
+    """Two photographs of one name are refused, as scenes tell them apart by name."""
     Image.fromarray(pixels()).save(tmp_path / "lab.jpg")
     Image.fromarray(pixels()).save(tmp_path / "lab.png")
     with pytest.raises(AssetError, match=r"lab\.png: has the same name as lab\.jpg"):
@@ -175,7 +175,7 @@ def test_two_photographs_of_one_name(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("made", [True, False])
 def test_an_empty_or_missing_folder(tmp_path: Path, made: bool) -> None:
-    """Nothing to read is an error."""
+    """A folder that is missing or holds no photograph is refused."""
     folder = tmp_path / "photos"
     if made:
         folder.mkdir()

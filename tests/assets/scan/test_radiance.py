@@ -28,37 +28,37 @@ def test_pixels_come_back_in_order(tmp_path: Path) -> None:
 
 
 def test_the_size_is_read_from_the_header(whole: bytes) -> None:
-    """Width comes first."""
+    """The width comes before the height."""
     assert check_radiance(Path("x.hdr"), whole) == (64, 32)
 
 
 @pytest.mark.parametrize("share", [0.002, 0.005, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 0.999])
 def test_the_structure_alone_shows_truncation(whole: bytes, share: float) -> None:
-    """Cut anywhere, the file is refused without being decoded."""
+    """A file cut anywhere is refused without being decoded."""
     with pytest.raises(AssetError, match=r"x\.hdr: "):
         check_radiance(Path("x.hdr"), whole[: int(share * len(whole))])
 
 
 def test_one_missing_byte_shows(whole: bytes) -> None:
-    """Even the last byte counts."""
+    """A file that lacks only its last byte is refused."""
     with pytest.raises(AssetError, match="scan line 31 of 32"):
         check_radiance(Path("x.hdr"), whole[:-1])
 
 
 def test_uncompressed_files_are_measured() -> None:
-    """Narrow pictures have no runs: each pixel has four bytes."""
+    """A narrow picture has no runs, and each pixel takes four bytes."""
     assert check_radiance(Path("x.hdr"), FLAT_HEADER + bytes(96)) == (6, 4)
     with pytest.raises(AssetError, match="truncated: 5 bytes are missing"):
         check_radiance(Path("x.hdr"), FLAT_HEADER + bytes(91))
 
 
 def test_other_orientations_are_refused() -> None:
-    """Only the usual order of lines is read."""
+    """A file with another order of lines than the usual one is refused."""
     with pytest.raises(AssetError, match="no line like"):
         check_radiance(Path("x.hdr"), FLAT_HEADER.replace(b"-Y", b"+Y") + bytes(96))
 
 
 def test_another_format_is_refused() -> None:
-    """What doesn't start like Radiance isn't Radiance."""
+    """A file that doesn't start like Radiance is refused."""
     with pytest.raises(AssetError, match="isn't a Radiance file"):
         check_radiance(Path("x.hdr"), b"BM" + bytes(100))

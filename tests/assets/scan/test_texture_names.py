@@ -40,7 +40,7 @@ ENDINGS = {
     ],
 )
 def test_names_of_the_usual_libraries_are_understood(stem: str, expected: TextureName) -> None:
-    """Names as Poly Haven, ambientCG, Quixel and FreePBR write them, and names that say nothing."""
+    """Names as Poly Haven, ambientCG, Quixel and FreePBR write them are understood, and names that say nothing."""
     assert parse_texture_name(stem) == expected
 
 

@@ -42,7 +42,7 @@ def test_usual_formats_are_read(tmp_path: Path, suffix: str) -> None:
 
 
 def test_exr_maps_are_read(tmp_path: Path) -> None:
-    """A height map may be an EXR file."""
+    """A height map in an EXR file is read."""
     picture(tmp_path / "oak_color.png")
     cv2.imwrite(str(tmp_path / "oak_disp.exr"), np.full((32, 48), 0.5, np.float32))
     found = scan_textures(tmp_path)[0].find(TextureRole.HEIGHT)
@@ -59,28 +59,28 @@ def test_subfolders_name_their_textures(tmp_path: Path) -> None:
 
 
 def test_deeper_folders_are_not_read(tmp_path: Path) -> None:
-    """One level of subfolders is enough."""
+    """Files below the subfolders are ignored."""
     picture(tmp_path / "oak_color.png")
     picture(tmp_path / "a" / "b" / "pine_color.png")
     assert [found.name for found in scan_textures(tmp_path)] == ["oak"]
 
 
 def test_directx_normals_are_flagged(tmp_path: Path) -> None:
-    """Their green has to be inverted."""
+    """A DirectX normal map is flagged, as its green must be inverted."""
     picture(tmp_path / "oak_color.png")
     picture(tmp_path / "oak_NormalDX.png")
     assert scan_textures(tmp_path)[0].flip_green
 
 
 def test_gloss_is_flagged(tmp_path: Path) -> None:
-    """Gloss is the opposite of roughness."""
+    """A gloss map is flagged, as gloss is the opposite of roughness."""
     picture(tmp_path / "oak_color.png")
     picture(tmp_path / "oak_gloss.png")
     assert scan_textures(tmp_path)[0].invert_roughness
 
 
 def test_maps_that_need_no_conversion_are_preferred(tmp_path: Path) -> None:
-    """Of OpenGL and DirectX normals, and of roughness and gloss, the first of each is taken."""
+    """An OpenGL normal map is preferred to a DirectX one, and roughness to gloss."""
     for name in ("oak_color.png", "oak_nor_dx.png", "oak_nor_gl.png", "oak_gloss.png", "oak_rough.png"):
         picture(tmp_path / name)
     found = scan_textures(tmp_path)[0]
@@ -90,21 +90,21 @@ def test_maps_that_need_no_conversion_are_preferred(tmp_path: Path) -> None:
 
 
 def test_previews_and_packed_maps_are_left_out(tmp_path: Path) -> None:
-    """A picture named like the texture, and maps of known other purposes, are no error."""
+    """A picture named like the texture, and maps of known other purposes, are left out without an error."""
     for name in ("Oak_Color.png", "Oak.png", "Oak_ARM.png", "Oak_Opacity.png"):
         picture(tmp_path / name)
     assert [entry.role for entry in scan_textures(tmp_path)[0].maps] == [TextureRole.COLOUR]
 
 
 def test_a_name_that_says_nothing_is_refused(tmp_path: Path) -> None:
-    """A lone picture is named, with advice how to call it."""
+    """The error names a lone picture and advises how to call it."""
     picture(tmp_path / "floor.png")
     with pytest.raises(AssetError, match=r"floor\.png: its name doesn't say what it is for; end it in '_color'"):
         scan_textures(tmp_path)
 
 
 def test_two_files_for_one_map_are_refused(tmp_path: Path) -> None:
-    """Both are named."""
+    """The error names both files."""
     picture(tmp_path / "oak_color_1k.png")
     picture(tmp_path / "oak_color_2k.png")
     with pytest.raises(AssetError, match=r"oak_color_2k\.png: oak_color_1k\.png is the colour map .* keep one"):
@@ -112,7 +112,7 @@ def test_two_files_for_one_map_are_refused(tmp_path: Path) -> None:
 
 
 def test_a_texture_without_colour_is_refused(tmp_path: Path) -> None:
-    """Normals alone are no texture."""
+    """A texture with a normal map alone is refused."""
     picture(tmp_path / "oak_normal.png")
     with pytest.raises(AssetError, match="'oak' has no colour map"):
         scan_textures(tmp_path)
@@ -120,7 +120,7 @@ def test_a_texture_without_colour_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("made", [True, False])
 def test_an_empty_or_missing_folder_is_refused(tmp_path: Path, made: bool) -> None:
-    """Nothing to read is an error."""
+    """A folder that is missing or holds no texture is refused."""
     folder = tmp_path / "textures"
     if made:
         folder.mkdir()
@@ -131,7 +131,7 @@ def test_an_empty_or_missing_folder_is_refused(tmp_path: Path, made: bool) -> No
 @pytest.mark.parametrize("suffix", [".png", ".jpg", ".tif", ".webp", ".bmp"])
 @pytest.mark.parametrize("share", [0.02, 0.5, 0.9])
 def test_a_truncated_image_is_refused(tmp_path: Path, suffix: str, share: float) -> None:
-    """Decoding goes to the end, so a cut file is found, wherever it was cut."""
+    """A file that is cut anywhere is refused, as decoding goes to its end."""
     path = picture(tmp_path / f"oak_color{suffix}", (64, 64))
     data = path.read_bytes()
     path.write_bytes(data[: int(share * len(data))])
@@ -140,7 +140,7 @@ def test_a_truncated_image_is_refused(tmp_path: Path, suffix: str, share: float)
 
 
 def test_text_is_no_image(tmp_path: Path) -> None:
-    """A file whose name lies is refused."""
+    """A text file with the name of an image is refused."""
     (tmp_path / "oak_color.png").write_text("<html>not found</html>")
     with pytest.raises(AssetError, match="isn't a sound image"):
         scan_textures(tmp_path)
@@ -148,13 +148,13 @@ def test_text_is_no_image(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("size", [(15, 64), (64, 15), (16385, 16)])
 def test_sizes_out_of_bounds_are_refused(tmp_path: Path, size: tuple[int, int]) -> None:
-    """Under 16 or over 16384 pixels an edge."""
+    """An edge below 16 or above 16384 pixels is refused."""
     with pytest.raises(AssetError, match="is outside 16 to 16384 an edge"):
         read_map(TextureRole.COLOUR, picture(tmp_path / "oak_color.png", size))
 
 
 def test_a_decompression_bomb_is_refused(tmp_path: Path) -> None:
-    """A small file that unpacks to a quarter of a gigapixel isn't unpacked."""
+    """A small file that would unpack to a quarter of a gigapixel is refused."""
     path = tmp_path / "oak_color.png"
     Image.new("1", (16000, 16000)).save(path)
     with pytest.raises(AssetError, match="too many pixels"):

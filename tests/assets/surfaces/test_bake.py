@@ -28,7 +28,7 @@ def contents(directory: Path) -> dict[str, bytes]:
 
 
 def test_a_bake_writes_the_maps_and_the_record(tmp_path: Path) -> None:
-    """Each surface gets its folder with the maps it needs, and nothing else stays behind."""
+    """Each surface gets a folder with the maps that it needs, and nothing else is left behind."""
     bake(tmp_path)
     common = {"colour.jpg", "normal.png", "roughness.jpg", "surface.json"}
     assert {path.name for path in (tmp_path / PLAIN).iterdir()} == common
@@ -47,7 +47,7 @@ def test_the_files_hold_what_the_recipe_drew(tmp_path: Path) -> None:
 
 
 def test_a_second_bake_draws_nothing(tmp_path: Path) -> None:
-    """Whole surfaces of the right version are kept, not even touched."""
+    """Whole surfaces of the right version are kept and not even touched."""
     first = bake(tmp_path)
     times = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")}
     second = bake(tmp_path)
@@ -58,14 +58,14 @@ def test_a_second_bake_draws_nothing(tmp_path: Path) -> None:
 
 
 def test_two_bakes_write_the_same_bytes(tmp_path: Path) -> None:
-    """The seed follows from name and version alone, so that bakes running at once agree."""
+    """The seed follows from name and version alone, so that simultaneous bakes agree."""
     bake(tmp_path / "a")
     bake(tmp_path / "b")
     assert contents(tmp_path / "a") == contents(tmp_path / "b")
 
 
 def test_bakes_of_one_folder_at_once_end_whole(tmp_path: Path) -> None:
-    """Several bakes that race for the same files leave what one would have left, and no temporary file."""
+    """Several bakes that race for the same files leave the same files as one, and no temporary file."""
     bake(tmp_path / "alone")
     with ThreadPoolExecutor(4) as pool:
         for race in [pool.submit(bake, tmp_path / "raced") for _ in range(4)]:
@@ -84,7 +84,7 @@ def test_baking_in_processes_gives_the_same_bytes(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("victim", ["colour.jpg", "normal.png", "surface.json"])
 def test_a_damaged_file_is_repaired(tmp_path: Path, victim: str) -> None:
-    """A surface with a truncated file is drawn afresh; the others stay."""
+    """A surface with a truncated file is drawn again; the others stay."""
     bake(tmp_path)
     whole = contents(tmp_path)
     path = tmp_path / PLAIN / victim
@@ -94,7 +94,7 @@ def test_a_damaged_file_is_repaired(tmp_path: Path, victim: str) -> None:
 
 
 def test_a_missing_file_is_repaired(tmp_path: Path) -> None:
-    """So is a surface without one of its maps."""
+    """A surface that lacks one of its maps is drawn again."""
     bake(tmp_path)
     whole = contents(tmp_path)
     (tmp_path / PLAIN / "roughness.jpg").unlink()
@@ -103,7 +103,7 @@ def test_a_missing_file_is_repaired(tmp_path: Path) -> None:
 
 
 def test_another_resolution_is_drawn_afresh(tmp_path: Path) -> None:
-    """Surfaces of other resolutions don't count as baked."""
+    """A surface of another resolution doesn't count as baked."""
     bake(tmp_path)
     again = bake(tmp_path, pixels=80)
     assert set(again.drawn) == set(NAMES)
@@ -111,7 +111,7 @@ def test_another_resolution_is_drawn_afresh(tmp_path: Path) -> None:
 
 
 def test_another_version_is_drawn_afresh(tmp_path: Path) -> None:
-    """A record of another recipe version doesn't count."""
+    """A record of another recipe version doesn't count as baked."""
     bake(tmp_path)
     path = tmp_path / PLAIN / "surface.json"
     record = json.loads(path.read_text())
@@ -120,7 +120,7 @@ def test_another_version_is_drawn_afresh(tmp_path: Path) -> None:
 
 
 def test_a_record_from_before_joints_is_drawn_afresh(tmp_path: Path) -> None:
-    """It does not tell whether there are any."""
+    """A record without an entry for joints doesn't count as baked."""
     bake(tmp_path)
     path = tmp_path / PLAIN / "surface.json"
     record = json.loads(path.read_text())
@@ -130,7 +130,7 @@ def test_a_record_from_before_joints_is_drawn_afresh(tmp_path: Path) -> None:
 
 
 def test_a_surface_in_pieces_has_a_map_of_its_joints(tmp_path: Path) -> None:
-    """As the recipe drew it."""
+    """A surface that is laid in pieces has the map of joints that its recipe drew."""
     (baked,) = bake_surfaces(tmp_path, pixels=64, names=["brick_wall"], processes=1).surfaces
     recipe = SURFACES["brick_wall"]
     assert baked.record.has_joints
@@ -141,7 +141,7 @@ def test_a_surface_in_pieces_has_a_map_of_its_joints(tmp_path: Path) -> None:
 
 
 def test_loading_finds_what_was_baked(tmp_path: Path) -> None:
-    """Names, sizes and paths come back."""
+    """Loading returns the names, sizes and paths of the baked surfaces."""
     bake(tmp_path)
     loaded = load_baked(tmp_path)
     assert set(loaded) == set(NAMES)
@@ -153,7 +153,7 @@ def test_loading_finds_what_was_baked(tmp_path: Path) -> None:
 
 
 def test_a_surface_without_metallic_map_says_so(tmp_path: Path) -> None:
-    """Asking for a map that there isn't is an error that names the folder."""
+    """The error for a metallic map that doesn't exist names the folder."""
     bake(tmp_path)
     with pytest.raises(AssetError, match=f"{PLAIN}: has no metallic map"):
         load_baked(tmp_path)[PLAIN].path("metallic")
@@ -188,27 +188,27 @@ def test_loading_refuses_an_altered_map(tmp_path: Path) -> None:
 
 
 def test_an_unknown_name_is_refused(tmp_path: Path) -> None:
-    """The error lists the names there are."""
+    """The error lists the known names."""
     with pytest.raises(AssetError, match=r"unknown surface 'cheese'; there are .*linen"):
         bake_surfaces(tmp_path, names=["linen", "cheese"])
 
 
 @pytest.mark.parametrize("pixels", [0, 63, 8193])
 def test_an_absurd_resolution_is_refused(tmp_path: Path, pixels: int) -> None:
-    """Outside 64 to 8192 nothing is drawn."""
+    """A resolution outside 64 to 8192 is refused, and nothing is drawn."""
     with pytest.raises(AssetError, match="outside 64 to 8192"):
         bake_surfaces(tmp_path, pixels=pixels, names=[PLAIN])
 
 
 def test_a_folder_that_cannot_be_written_is_reported(tmp_path: Path) -> None:
-    """Where a file stands in the way the error names the place."""
+    """If a file stands in the way, the error names the place."""
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(AssetError, match="can't be written"):
         bake_surfaces(tmp_path / "file", pixels=64, names=[PLAIN], processes=1)
 
 
 def test_the_default_folder_follows_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
-    """FARM_ASSETS first, then the user's cache folder, then the usual one."""
+    """The default folder is FARM_ASSETS, else in the user's cache folder, else the usual one."""
     monkeypatch.setenv("FARM_ASSETS", "/data/surfaces")
     monkeypatch.setenv("XDG_CACHE_HOME", "/cache")
     monkeypatch.setenv("HOME", "/home/someone")

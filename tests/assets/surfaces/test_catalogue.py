@@ -41,7 +41,7 @@ def linear(colour: npt.NDArray[np.uint8]) -> npt.NDArray[np.float64]:
 
 
 def test_there_are_at_least_40_surfaces_in_every_family() -> None:
-    """The catalogue is wide, and no family is empty."""
+    """There are at least 40 surfaces, and no family is empty."""
     assert len(SURFACES) >= 40
     assert {recipe.family for recipe in SURFACES.values()} == set(SurfaceFamily)
 
@@ -55,7 +55,7 @@ def test_every_recipe_is_filed_under_its_own_name() -> None:
 
 
 def test_some_surfaces_are_light_some_dark() -> None:
-    """The floors cover the range of brightness that real floors have."""
+    """The surfaces cover the range of brightness that real floors have."""
     means = [built(name).colour.mean() for name in NAMES]
     assert sum(mean < 95 for mean in means) >= 5
     assert sum(95 <= mean < 160 for mean in means) >= 10
@@ -64,7 +64,7 @@ def test_some_surfaces_are_light_some_dark() -> None:
 
 @pytest.mark.parametrize("name", [name for name, recipe in SURFACES.items() if recipe.light])
 def test_light_surfaces_are_light(name: str) -> None:
-    """As a style that prefers them takes for granted."""
+    """The surfaces that a style prefers as light ones are light."""
     assert built(name).colour.mean() > 165
 
 
@@ -112,7 +112,7 @@ def test_maps_have_the_announced_shapes(name: str) -> None:
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("axis", [0, 1])
 def test_opposite_edges_meet(name: str, axis: int) -> None:
-    """The step across the border is no bigger than the steps that occur inside, joints included."""
+    """The step across the border is no larger than steps inside, in the map of joints too."""
     maps = built(name)
     for image in (maps.colour, maps.normal, maps.roughness):
         seam, *inside = steps(image, axis)
@@ -130,7 +130,7 @@ def test_albedo_is_plausible(name: str) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_colour_varies_at_every_scale(name: str) -> None:
-    """A surface is neither a flat colour nor mere grain: it varies from texel to texel and from patch to patch."""
+    """A surface varies both from texel to texel and from patch to patch."""
     grey = built(name).colour.mean(axis=2)
     patches = grey.reshape(16, PIXELS // 16, 16, PIXELS // 16).mean(axis=(1, 3))
     assert grey.std() > 3.0
@@ -149,7 +149,7 @@ def test_normals_have_unit_length_and_point_up(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["oak_planks", "gravel", "linen", "rusted_steel", "carpet_meander"])
 def test_building_twice_gives_the_same_bytes(name: str) -> None:
-    """All randomness comes from the generator."""
+    """The same generator gives the same bytes."""
     recipe = SURFACES[name]
     again = recipe.build(recipe_generator(recipe), PIXELS)
     for role in ("colour", "roughness", "normal"):
@@ -166,7 +166,7 @@ def test_another_generator_gives_another_surface() -> None:
 
 @pytest.mark.parametrize("name", LIGHT)
 def test_white_tables_and_paper_are_really_white(name: str) -> None:
-    """They reflect 60 to 85 percent of the light, and hardly more in one channel than in another."""
+    """White tables and paper reflect 60 to 85 percent of the light, almost equally in all channels."""
     mean = linear(built(name).colour).mean(axis=(0, 1))
     assert 0.60 <= mean.mean() <= 0.85
     assert mean.max() - mean.min() < 0.08
@@ -183,7 +183,7 @@ def test_openings_are_dark_and_of_true_size(name: str, share: float) -> None:
 
 
 def test_the_cutting_mat_has_a_line_every_ten_millimetres() -> None:
-    """Averaged along y, brightness has 40 peaks over the 400 mm, the highest every 50 mm."""
+    """Averaged along y, brightness has 40 peaks over 400 mm, and the highest every 50 mm."""
     profile = built("cutting_mat").colour.mean(axis=(0, 2))
     profile = profile - np.median(profile)
     spectrum = np.abs(np.fft.rfft(profile))
@@ -192,7 +192,7 @@ def test_the_cutting_mat_has_a_line_every_ten_millimetres() -> None:
 
 
 def test_keys_stand_at_their_true_pitch() -> None:
-    """Averaged along x, a keyboard repeats itself three times down the tile, which is 20 keys of 19.05 mm wide."""
+    """Averaged along x, a keyboard repeats three times down the tile, which is 20 keys of 19.05 mm wide."""
     assert SURFACES["keyboard_black"].size_m == pytest.approx(20 * 0.01905)
     profile = built("keyboard_black").colour.mean(axis=(1, 2))
     third = PIXELS // 3

@@ -15,13 +15,13 @@ from worker.sample.scene import sample_scene
 
 
 def test_the_options_name_all_groups() -> None:
-    """They are told apart, so that help needs no assets."""
+    """The options name the groups without importing them, and the two lists agree."""
     assert set(GROUP_NAMES) == set(GROUPS)
 
 
 @pytest.mark.parametrize("group", GROUPS)
 def test_every_example_draws_what_it_shows(group: str) -> None:
-    """Its four scenes hold the one surface or HDRI."""
+    """The four scenes of an example hold its surface or HDRI."""
     examples = list(GROUPS[group](0))
     assert len({example.label for example in examples}) == len(examples) > 5
     for example in examples:
@@ -35,7 +35,7 @@ def test_every_example_draws_what_it_shows(group: str) -> None:
 
 
 def test_kinds_of_cables_are_what_they_are_called() -> None:
-    """A few of them, by what is drawn."""
+    """Some kinds of cables are drawn as their labels say."""
     looks = {
         example.label: [
             cable.material
@@ -52,12 +52,12 @@ def test_kinds_of_cables_are_what_they_are_called() -> None:
 
 
 def test_a_sheet_has_eight_pictures_a_row() -> None:
-    """Eight examples of one picture, two of four, one of more than eight."""
+    """A row holds eight examples of one picture, two of four, or one of more than eight."""
     assert [examples_a_row(each) for each in (1, 3, 4, 8, 9)] == [8, 2, 2, 1, 1]
 
 
 def test_an_example_s_pictures_stand_side_by_side() -> None:
-    """Four of each, so that the third example begins a row."""
+    """With four pictures each, the third example begins a new row."""
     red = np.full((64, 64, 3), (255, 0, 0), np.uint8)
     sheet = Image.open(io.BytesIO(draw_sheet([(name, 4 * [red]) for name in ("one", "two", "three")])))
     assert sheet.size[0] > 8 * EDGE_PX

@@ -1,4 +1,4 @@
-"""Images an hour from when pictures were finished, the splits, memory, and one run of the real farm."""
+"""Images per hour from the moments at which pictures were finished, splits, memory, and one run of the real farm."""
 
 import json
 import os
@@ -28,7 +28,7 @@ def played(split: Split, *after_s: float, opened: int | None = None, wall_s: flo
 
 
 def test_the_rate_is_that_of_the_pictures_after_every_workers_first() -> None:
-    """Ten seconds until both work, then a picture every two seconds."""
+    """Ten seconds pass until both workers work, and then a picture is finished every two seconds."""
     throughput = played(Split(2, 1), 8.0, 10.0, 12.0, 14.0, 16.0)
     assert throughput.first_s == (8.0, 10.0)
     assert throughput.images_per_hour == pytest.approx(1800)
@@ -37,19 +37,19 @@ def test_the_rate_is_that_of_the_pictures_after_every_workers_first() -> None:
 
 
 def test_a_process_that_is_replaced_later_is_no_start_up() -> None:
-    """Only the first picture of each worker's first process counts as one."""
+    """Only the first picture of each worker's first process counts as start-up."""
     pictures = tuple(Finished(seconds, seconds in {5.0, 9.0}) for seconds in (5.0, 7.0, 9.0, 11.0))
     assert Throughput(Split(1, 1), pictures, 12.0, None).first_s == (5.0,)
 
 
 def test_a_run_without_later_pictures_has_the_rate_of_all() -> None:
-    """As many pictures as workers."""
+    """A run with as many pictures as workers has the rate of all its pictures."""
     throughput = played(Split(2, 1), 8.0, 10.0, wall_s=20.0)
     assert throughput.images_per_hour == pytest.approx(360)
 
 
 def test_factors_are_over_one_worker_with_one_thread() -> None:
-    """None of them without that run."""
+    """Without a run of one worker with one thread there are no factors."""
     one = played(Split(1, 1), 4.0, 8.0, 12.0)
     two = played(Split(2, 1), 4.0, 4.0, 6.0, 8.0)
     assert factors([one, two]) == {Split(1, 1): 1.0, Split(2, 1): pytest.approx(2.0)}
@@ -58,7 +58,7 @@ def test_factors_are_over_one_worker_with_one_thread() -> None:
 
 
 def test_splits_are_read_as_they_are_written() -> None:
-    """And nothing else is."""
+    """WORKERSxTHREADS is read, and nothing else."""
     assert [parse_split(str(split)) for split in SPLITS] == list(SPLITS)
     for text in ("2", "x", "0x1", "1x0", "axb", "1x2x3"):
         with pytest.raises(ArgumentTypeError, match="such as 2x1"):
@@ -66,7 +66,7 @@ def test_splits_are_read_as_they_are_written() -> None:
 
 
 def test_pictures_are_read_from_the_dataset_in_their_order(dataset: Dataset) -> None:
-    """By when the manifest was written."""
+    """Pictures come in the order in which their manifests were written."""
     jobs = list(dataset.header.spec.jobs())
     for number, job in enumerate(jobs):
         upload(StandInRenderer().make(job, dataset.header), job, dataset)
@@ -77,7 +77,7 @@ def test_pictures_are_read_from_the_dataset_in_their_order(dataset: Dataset) -> 
 
 
 def test_memory_is_of_all_descendants(tmp_path: Path) -> None:
-    """A process and its children's children, and no others; where the system does not tell, nothing."""
+    """A process and all its descendants count, and no others; on a system without /proc there is no figure."""
     for number, parent, kib in ((10, 1, 1024), (11, 10, 2048), (12, 11, 4096), (13, 1, 9999)):
         folder = tmp_path / str(number)
         folder.mkdir()
@@ -90,7 +90,7 @@ def test_memory_is_of_all_descendants(tmp_path: Path) -> None:
 
 
 def test_the_report_names_the_winner_and_the_published_time(tmp_path: Path) -> None:
-    """25,000 images at 1,800 an hour take 13.9 hours."""
+    """At 1,800 images per hour, 25,000 images take 13.9 hours."""
     runs = [played(Split(1, 1), 4.0, 8.0, 12.0), played(Split(2, 1), 4.0, 4.0, 6.0, 8.0)]
     text = "\n".join(conclusions(runs))
     assert "2.00 times as many" in text
@@ -107,6 +107,6 @@ def test_the_report_names_the_winner_and_the_published_time(tmp_path: Path) -> N
 
 
 def test_no_images_are_refused(tmp_path: Path) -> None:
-    """A run of nothing has no rate."""
+    """A run without images is refused, as it has no rate."""
     with pytest.raises(SpecError, match="--images"):
         run(tmp_path, seed=0, images=0, splits=SPLITS)

@@ -1,4 +1,4 @@
-"""Comparing masks with references, on edges whose place is known."""
+"""Comparing masks with references, on edges whose position is known."""
 
 import numpy as np
 import pytest
@@ -23,14 +23,14 @@ def instances_of_bar(left: int, right: int) -> NDArray[np.uint16]:
 
 
 def test_equal_masks_agree() -> None:
-    """IoU 1, no error."""
+    """Equal masks have an IoU of 1 and no error."""
     agreement = compare(instances_of_bar(20, 30), coverage_of_bar(20.0, 30.0))
     assert (agreement.iou, agreement.edge_error_px, agreement.gap_pixels) == (1.0, 0.0, 0)
 
 
 @pytest.mark.parametrize("shift", [1, 2])
 def test_a_shifted_mask_is_found(shift: int) -> None:
-    """The pixel farthest on the wrong side has its middle half a pixel less than the shift from the true edge."""
+    """A shift shows as an edge error half a pixel smaller, the distance of the farthest wrong pixel's middle."""
     agreement = compare(instances_of_bar(20 + shift, 30 + shift), coverage_of_bar(20.0, 30.0))
     assert agreement.edge_error_px >= 0.9 * (shift - 0.5)
     assert agreement.iou == pytest.approx((10 - shift) / (10 + shift))

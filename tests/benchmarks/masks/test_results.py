@@ -1,4 +1,4 @@
-"""What the benchmark of masks says of its figures."""
+"""The check and the table of the masks' figures."""
 
 import io
 
@@ -20,7 +20,7 @@ def image(
 
 
 def test_right_masks_pass() -> None:
-    """Narrow and wide."""
+    """Right masks of narrow and of wide cables pass."""
     check([image(), image(width_px=4.3, iou=0.986)])
 
 
@@ -35,18 +35,18 @@ def test_right_masks_pass() -> None:
     ids=["wide", "narrow", "edge", "gap"],
 )
 def test_a_wrong_mask_fails(wrong: LabelledImage) -> None:
-    """Also among right ones."""
+    """One wrong mask among right ones fails the check."""
     with pytest.raises(VerificationError, match="1 of 3"):
         check([image(), wrong, image()])
 
 
 def test_slow_labels_pass() -> None:
-    """Time depends on the machine."""
+    """Slow labelling passes, as time depends on the machine."""
     check([image(label_ms=5000.0)])
 
 
 def test_the_table_has_a_row_for_each_class_of_width() -> None:
-    """A narrow and two wide ones, of which one is wrong."""
+    """A narrow picture and two wide ones, one of them wrong, give two rows."""
     written = io.StringIO()
     Console(width=130, file=written).print(table([image(), image(iou=0.9), image(width_px=4.3)], "title"))
     narrow, wide = [line for line in written.getvalue().splitlines() if Category.FAR in line]

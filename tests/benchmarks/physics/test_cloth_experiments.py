@@ -1,4 +1,4 @@
-"""The cloth's cables bend as the theory of rods says."""
+"""The cloth's cables bend as the theory of rods predicts."""
 
 import pytest
 
@@ -23,7 +23,7 @@ def test_a_cantilever_follows_the_heavy_elastica(gamma: float, segments: int) ->
 
 
 def test_a_cantilever_that_would_be_unstable_sags_as_its_settings_say() -> None:
-    """Where the solver can't be so stiff the slenderness that was set is reported, and is the one that is measured."""
+    """If the solver can't be as stiff as asked for, the slenderness that was set is reported and measured."""
     deflection = cloth_cantilever(1.0, segments=30, settings=FALL)
     assert deflection.gamma_set > 2
     assert deflection.gamma_effective == pytest.approx(deflection.gamma_set, rel=0.05)
@@ -31,7 +31,7 @@ def test_a_cantilever_that_would_be_unstable_sags_as_its_settings_say() -> None:
 
 @pytest.mark.parametrize(("modulus_pa", "tolerance"), [(1e6, 0.05), (1e7, 0.02)])
 def test_a_crossing_lifts_off_where_the_theory_says(modulus_pa: float, tolerance: float) -> None:
-    """Half the length in the air is (72 EI d / w)^(1/4); the soft cable has 9 segments on it, the other 16."""
+    """Half the length in the air is (72 EI d / w)^(1/4); the soft cable has 9 segments in it, the other 16."""
     crossing = cloth_crossing(modulus_pa * 1e-6 / (4 * 1500 * 9.81), segments=88, settings=FALL)
     assert crossing.lift_off_m == pytest.approx(crossing.theory_m, rel=tolerance)
     assert crossing.lift_m == pytest.approx(0.002, rel=0.05)

@@ -1,4 +1,4 @@
-"""The comparison of the simulators: its scenes, its error, its choice of the best, and one small run."""
+"""The comparison of the simulators: its scenes, its error, its choice of the best setting, and one small run."""
 
 import json
 import os
@@ -27,7 +27,7 @@ DEFAULTS = {setting.contender: setting for setting in all_settings() if setting.
 
 
 def played(cpu_s: float = 1.0, fall_s: float = 0.5, **figures: float) -> Played:
-    """A fall in which nothing is off but what is named."""
+    """A fall whose figures are on target, but for those that are given."""
     return Played(cpu_s, fall_s, 500, FIGURES.model_copy(update=figures))
 
 
@@ -58,7 +58,7 @@ def test_settings_have_names_of_their_own_and_each_contender_a_default() -> None
 
 
 def test_a_scene_of_fewer_cables_is_the_start_of_the_same_scene() -> None:
-    """So a count differs from another in nothing else."""
+    """Two counts differ in nothing but the further cables."""
     few, many, crowd = (bench_scenes(3, count, 7) for count in (2, 8, 20))
     for small, large, largest in zip(few, many, crowd, strict=True):
         assert small.cables == large.cables[:2]
@@ -68,7 +68,7 @@ def test_a_scene_of_fewer_cables_is_the_start_of_the_same_scene() -> None:
 
 
 def test_further_cables_are_new_and_stacked_above() -> None:
-    """Each 4 mm above the one before, and none a copy of another."""
+    """Each further cable starts 4 mm above the one before, and none is a copy of another."""
     cables = bench_scenes(1, 32, 0)[0].cables
     heights = [cable.start_height_m for cable in cables]
     assert heights == pytest.approx([heights[0] + SPACING_M * level for level in range(32)])
@@ -76,7 +76,7 @@ def test_further_cables_are_new_and_stacked_above() -> None:
 
 
 def test_the_error_is_the_worst_of_length_penetration_and_cantilever_over_their_targets() -> None:
-    """Targets: 0.1 %, 2 % between cables, 1 % in the floor, 1 % and above 100 2 % of H/W."""
+    """The targets are 0.1 % of length, 2 % between cables, 1 % in the floor, and 1 % of H/W (2 % above 100)."""
     assert row(played(length_error=0.0005)).error == pytest.approx(0.5)
     assert row(played(cable_penetration=0.05), played(length_error=0.002)).error == pytest.approx(2.5)
     assert row(played(floor_penetration=0.03)).error == pytest.approx(3)
@@ -84,7 +84,7 @@ def test_the_error_is_the_worst_of_length_penetration_and_cantilever_over_their_
 
 
 def test_what_can_not_be_measured_has_an_infinite_error() -> None:
-    """A fall without an end, a cantilever without one, and a figure that is no number."""
+    """A fall or cantilever that doesn't end, and a figure that isn't a number, have an infinite error."""
     diverged = Played(1.0, 0.0, 0, None, "diverged")
     assert isinf(row(played(), diverged).error)
     assert isinf(row(book=bent(inf)).error)
@@ -101,7 +101,7 @@ def test_a_cloth_may_meet_its_own_targets_and_not_the_rods() -> None:
 
 
 def test_a_passage_or_a_speed_misses_a_target_though_the_error_does_not_count_it() -> None:
-    """Gates 3 and 4 say yes or no."""
+    """Gates 3 and 4 miss a target without counting towards the error."""
     assert row(played(pass_throughs=1)).error == row(played(speed_rms_mm_s=3.0)).error == 0
     assert not row(played(pass_throughs=1)).meets(Contender.ROD)
     assert not row(played(speed_rms_mm_s=3.0)).meets(Contender.ROD)
@@ -109,7 +109,7 @@ def test_a_passage_or_a_speed_misses_a_target_though_the_error_does_not_count_it
 
 
 def test_the_best_is_the_fastest_of_those_that_meet_all_targets() -> None:
-    """A faster one that misses a target is not it; where all miss, the least error counts."""
+    """The best row is the fastest that meets all targets; if none does, the one with the least error is named."""
     fast, right, slow = (
         row(played(0.1, cable_penetration=0.05)),
         row(played(1.0, cable_penetration=0.019)),
@@ -121,18 +121,18 @@ def test_the_best_is_the_fastest_of_those_that_meet_all_targets() -> None:
 
 
 def test_ratios_compare_the_same_scenes() -> None:
-    """The first ones, where one was played on fewer."""
+    """If one setting was played on fewer scenes, only those are compared."""
     assert time_ratio(row(played(6.0), played(2.0)), row(played(1.0), played(3.0), played(100.0))) == pytest.approx(2)
 
 
 def test_growth_is_a_power_of_the_number_of_cables() -> None:
-    """Of the cost of a simulated second: 4 s for 8 cables and 16 s for 16 are a square."""
+    """A simulated second that costs 4 s with 8 cables and 16 s with 16 grows with the square."""
     few, many = row(played(2.0, 0.5), cables=8), row(played(16.0, 1.0), cables=16)
     assert growth(few, many) == pytest.approx(2)
 
 
 def test_only_the_rods_default_can_fail_the_benchmark() -> None:
-    """By a bound that is broken at its default, or a fall without an end."""
+    """A bound that the rods' default breaks, or a fall of theirs without an end, fails the benchmark."""
     broken = played(length_error=0.02)
     verify_default([row(), row(broken, contender=Contender.CLOTH)])
     other = next(setting for setting in rod_settings() if not setting.is_default)
@@ -168,7 +168,7 @@ def test_the_report_names_the_best_and_the_ratio_and_writes_whatever_happened(tm
 
 
 def test_one_core_is_asked_for_and_given_back() -> None:
-    """What runs after the benchmark in the same process has all cores again."""
+    """After the benchmark the process may use all cores again."""
     if not hasattr(os, "sched_getaffinity"):
         pytest.skip("this system binds no process to a core")
     before = os.sched_getaffinity(0)
@@ -179,7 +179,7 @@ def test_one_core_is_asked_for_and_given_back() -> None:
 
 @pytest.mark.blender
 def test_a_small_run_of_the_rods_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The default on one and two cables: its files are there and say that it meets every target."""
+    """The rods' default on one and two cables writes its files and meets every target."""
     pytest.importorskip("bpy")
     from benchmarks.physics import compare, textbook  # noqa: PLC0415  # after importorskip
 

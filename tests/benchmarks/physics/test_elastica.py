@@ -20,23 +20,23 @@ from benchmarks.physics.elastica import droop_ratio, drooping_shape
     ],
 )
 def test_the_master_curve_is_met(slenderness: float, ratio: float) -> None:
-    """To the digits of the table."""
+    """H/W equals the published table to its digits."""
     assert droop_ratio(slenderness) == pytest.approx(ratio, abs=5.1e-6 if slenderness < 1000 else 5.1e-5)
 
 
 def test_a_stiff_cantilever_droops_by_an_eighth_of_its_slenderness() -> None:
-    """Small slopes; the next term is of third order."""
+    """For small slopes H/W is G/8; the next term is of third order."""
     assert droop_ratio(0.01) == pytest.approx(0.01 / 8, rel=1e-5)
 
 
 def test_a_slender_cantilever_hangs_like_a_chain() -> None:
-    """H/W nears sqrt(G/2), from below by about 1/sqrt(G)."""
+    """H/W approaches sqrt(G/2) from below, by about 1/sqrt(G)."""
     assert droop_ratio(1e4) == pytest.approx(np.sqrt(1e4 / 2), rel=2 / np.sqrt(1e4))
 
 
 @pytest.mark.parametrize("slenderness", [0.01, 3.0, 1e4])
 def test_the_shape_has_its_length(slenderness: float) -> None:
-    """The chords of a fine sampling add up to one, and it starts level."""
+    """The chords of a fine sampling add up to one, and the shape starts level."""
     points = drooping_shape(slenderness, np.linspace(0, 1, 20_001))
     steps = np.diff(points, axis=0)
     assert np.linalg.norm(steps, axis=1).sum() == pytest.approx(1, abs=1e-6)
@@ -45,7 +45,7 @@ def test_the_shape_has_its_length(slenderness: float) -> None:
 
 @pytest.mark.parametrize("slenderness", [0.3, 7.0, 300.0])
 def test_the_weight_beyond_balances_the_moment(slenderness: float) -> None:
-    """At the clamp theta' = G times the mean lever arm: the moment of the whole weight, by an integral of the shape."""
+    """At the clamp theta' is G times the mean lever arm, an integral over the shape."""
     arc = np.linspace(0, 1, 4001)
     out, _ = drooping_shape(slenderness, arc).T
     step = 1e-5
@@ -57,6 +57,6 @@ def test_the_weight_beyond_balances_the_moment(slenderness: float) -> None:
 
 @pytest.mark.parametrize("slenderness", [0.001, 1e5, float("nan")])
 def test_a_slenderness_outside_the_range_is_refused(slenderness: float) -> None:
-    """NaN included."""
+    """A slenderness outside the range is refused, and NaN too."""
     with pytest.raises(ValueError, match="slenderness"):
         droop_ratio(slenderness)

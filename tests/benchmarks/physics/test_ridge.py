@@ -1,4 +1,4 @@
-"""The beam over a ridge against balance of forces, its own equation, and a beam of finite differences on a floor."""
+"""The beam over a ridge, against the balance of forces, its own equation, and finite differences on a floor."""
 
 import numpy as np
 import pytest
@@ -15,14 +15,14 @@ positive = st.floats(1e-6, 1e3)
 
 @given(stiffness=positive, weight=positive, lift=positive)
 def test_ridge_and_touchdowns_carry_the_lifted_weight(stiffness: float, weight: float, lift: float) -> None:
-    """Two a of cable at w each metre."""
+    """Together they carry a length of 2 a at w per metre."""
     crossing = RidgeCrossing(stiffness, weight, lift)
     carried = crossing.ridge_reaction_n + 2 * crossing.touchdown_reaction_n
     assert carried == pytest.approx(2 * weight * crossing.lift_off_m)
 
 
 def test_the_shape_obeys_the_beams_equation() -> None:
-    """EI y'''' = -w by differences, y = d on the ridge, and y, y' and y'' zero at the touchdown."""
+    """By differences EI y'''' = -w, with y = d on the ridge, and y, y' and y'' zero at the touchdown."""
     crossing = RidgeCrossing(2.0, 3.0, 0.1)
     a = crossing.lift_off_m
     step = a / 50
@@ -33,7 +33,7 @@ def test_the_shape_obeys_the_beams_equation() -> None:
 
 
 def test_a_beam_of_finite_differences_on_a_floor_meets_gate_six() -> None:
-    """Least energy above a floor that can only push, solved without the formula, 16 nodes to the lift-off length.
+    """The least energy above a floor that can only push, with 16 nodes to the lift-off length, meets gate 6.
 
     The error of central differences is (l / a)^2, 0.4 %.
     """
@@ -41,7 +41,7 @@ def test_a_beam_of_finite_differences_on_a_floor_meets_gate_six() -> None:
     reference = RidgeCrossing(stiffness, weight, lift)
     edge, half = reference.lift_off_m / 16, 40
     count = 2 * half + 1
-    # Both ends lie flat, so two nodes beyond each are at zero too.
+    # Both ends lie flat, so the two nodes beyond each are at zero, too.
     curvature = np.zeros((count + 2, count))
     for row in range(count + 2):
         for column, value in ((row - 2, 1.0), (row - 1, -2.0), (row, 1.0)):
@@ -49,7 +49,7 @@ def test_a_beam_of_finite_differences_on_a_floor_meets_gate_six() -> None:
                 curvature[row, column] = value
     matrix = stiffness / edge**3 * curvature.T @ curvature
     root = np.linalg.cholesky(matrix)
-    # Half y K y + w l y is least where |R' y + R^-1 w l| is.
+    # Half y K y + w l y is least where |R' y + R^-1 w l| is least.
     target = -np.linalg.solve(root, np.full(count, weight * edge))
     lowest = np.zeros(count)
     lowest[half] = lift
@@ -64,7 +64,7 @@ def test_a_beam_of_finite_differences_on_a_floor_meets_gate_six() -> None:
 
 
 def test_too_few_lifted_nodes_are_refused() -> None:
-    """Three can't tell length, place and height and leave a check."""
+    """Three nodes are refused, as they determine length, place and height without any check."""
     crossing = RidgeCrossing(1.0, 1.0, 0.01)
     x = np.arange(-4, 5) * crossing.lift_off_m * 0.6
     with pytest.raises(ValueError, match="four nodes"):
@@ -72,6 +72,6 @@ def test_too_few_lifted_nodes_are_refused() -> None:
 
 
 def test_a_crossing_needs_positive_figures() -> None:
-    """Without stiffness there is no lift-off length."""
+    """A crossing without stiffness, weight or lift is refused."""
     with pytest.raises(ValueError, match="positive"):
         RidgeCrossing(0.0, 1.0, 1.0)

@@ -11,11 +11,11 @@ SIZE = 256
 Point = tuple[float, float]
 
 _SHIFT = 8
-"""Bits below the point in OpenCV's coordinates."""
+"""Fractional bits of the positions handed to OpenCV."""
 
 
 def bar(instances: NDArray[np.uint16], number: int, start: Point, end: Point, width_px: float) -> None:
-    """Draw a bar with square ends over what is there; its centreline goes from `start` to `end` (x, y)."""
+    """Draw a bar with square ends over the map; its centreline runs from `start` to `end` (x, y)."""
     along = np.subtract(end, start) / np.hypot(*np.subtract(end, start))
     across = 0.5 * width_px * np.array([-along[1], along[0]])
     rows, columns = np.mgrid[: instances.shape[0], : instances.shape[1]] + 0.5
@@ -32,7 +32,7 @@ def empty() -> NDArray[np.uint16]:
 
 
 def curve(instances: NDArray[np.uint16], number: int, points: Sequence[Point], width_px: int) -> None:
-    """Draw a bent cable with round ends over what is there."""
+    """Draw a bent cable with round ends over the map."""
     line = np.rint(np.array(points) * 2**_SHIFT).astype(np.int32)
     drawn = np.zeros(instances.shape, np.uint8)
     cv2.polylines(drawn, [line], isClosed=False, color=(1,), thickness=width_px, shift=_SHIFT)

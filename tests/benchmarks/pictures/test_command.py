@@ -1,4 +1,4 @@
-"""Surveys of whole datasets, what is written of them, and the options."""
+"""Surveys of whole datasets, their files, and the options."""
 
 import argparse
 import json
@@ -26,7 +26,7 @@ from worker.service.upload import upload
 
 @pytest.fixture
 def made(tmp_path: Path) -> Dataset:
-    """Two pictures each of two categories, of noise with one cable of 4 px across 32."""
+    """A dataset of two categories with two pictures each: noise, with one cable of 4 px across 32."""
     dataset = create_dataset(Destination(str(tmp_path / "store"), "noise"), stand_in_header())
     for job in dataset.header.spec.jobs():
         upload(StandInRenderer().make(job, dataset.header), job, dataset)
@@ -34,7 +34,7 @@ def made(tmp_path: Path) -> Dataset:
 
 
 def test_a_survey_measures_every_picture_that_is_done(made: Dataset) -> None:
-    """In the order of the categories, with the seconds of its stages."""
+    """Pictures come in the order of the categories, with the seconds of their stages."""
     found = list(survey(made))
     names = ["close_concentrated_light-000000", "close_concentrated_light-000001", "far-000000", "far-000001"]
     assert [picture.job_id for picture in found] == names
@@ -45,7 +45,7 @@ def test_a_survey_measures_every_picture_that_is_done(made: Dataset) -> None:
 
 
 def test_groups_are_all_and_each_category(made: Dataset) -> None:
-    """Categories without pictures have none."""
+    """A category without pictures has no group."""
     by_group = groups(list(survey(made)))
     assert {group: len(pictures) for group, pictures in by_group.items()} == {
         None: 4,
@@ -56,7 +56,7 @@ def test_groups_are_all_and_each_category(made: Dataset) -> None:
 
 
 def test_a_distribution_by_hand() -> None:
-    """0, 1, ... 100."""
+    """The values 0 to 100 have known percentiles."""
     found = distribution([float(value) for value in range(101)])
     assert (found.pictures, found.mean, found.p5, found.p50, found.p95) == (101, 50, 5, 50, 95)
     assert found.deviation == pytest.approx(np.std(np.arange(101), ddof=1))
@@ -65,7 +65,7 @@ def test_a_distribution_by_hand() -> None:
 
 
 def test_a_picture_that_is_no_image_is_told(made: Dataset) -> None:
-    """Of the same size, so that only decoding tells; its file is named."""
+    """A file of the right size that can't be decoded is reported by its name."""
     pictures = survey(made)
     next(pictures)
     # Sizes are compared before the first picture is read.
@@ -76,7 +76,7 @@ def test_a_picture_that_is_no_image_is_told(made: Dataset) -> None:
 
 
 def test_everything_is_written_of_a_dataset_that_is_there(made: Dataset, tmp_path: Path) -> None:
-    """Under a name of one's own nothing is promised, so nothing is missed."""
+    """Under a name of the user's own nothing is promised, so nothing is missed."""
     named = NamedDataset("mine", made.storage.location)
     assert run(tmp_path, seed=0, images=1, scenes=0, styles=(), datasets=[named]) == 0
     content = json.loads((tmp_path / "pictures.json").read_text())
@@ -88,7 +88,7 @@ def test_everything_is_written_of_a_dataset_that_is_there(made: Dataset, tmp_pat
 
 
 def test_a_missed_promise_is_told_after_everything_is_written(made: Dataset, tmp_path: Path) -> None:
-    """Noise is no picture of cables."""
+    """Noise breaks the promises of a style, which is reported after all files are written."""
     with pytest.raises(VerificationError, match="of 8 promises"):
         run(
             tmp_path, seed=0, images=1, scenes=0, styles=(), datasets=[NamedDataset("published", made.storage.location)]
@@ -105,14 +105,14 @@ def test_a_missed_promise_is_told_after_everything_is_written(made: Dataset, tmp
 def test_what_can_not_be_measured_is_refused(
     tmp_path: Path, images: int, styles: tuple[str, ...], names: tuple[str, ...]
 ) -> None:
-    """No images, no dataset, or two of one name."""
+    """A run without images, without datasets, or with two of one name is refused."""
     datasets = [NamedDataset(name, str(tmp_path / "nowhere")) for name in names]
     with pytest.raises(SpecError):
         run(tmp_path, seed=0, images=images, scenes=0, styles=styles, datasets=datasets)
 
 
 def test_a_wrong_path_is_told(tmp_path: Path) -> None:
-    """Before anything is made."""
+    """A wrong path is reported before anything is made."""
     with pytest.raises(DatasetMissingError):
         run(
             tmp_path,
@@ -125,13 +125,13 @@ def test_a_wrong_path_is_told(tmp_path: Path) -> None:
 
 
 def test_a_run_that_fails_is_told(tmp_path: Path) -> None:
-    """A style that isn't: what `farm run` printed is kept, and named."""
+    """A run of an unknown style fails, and the error names the file that holds its output."""
     with pytest.raises(FarmError, match=r"no-style-1-seed-0\.log"):
         make("no-style", 1, 0, tmp_path / "pictures")
 
 
 def test_named_datasets_are_read_as_they_are_written() -> None:
-    """A name, an equals sign, and a path that may hold more of them."""
+    """NAME=PATH is read, and the path may hold further equals signs."""
     assert parse_named("wide=data/a=b") == NamedDataset("wide", "data/a=b")
     for wrong in ("wide", "=data", "wide=", "a/b=data"):
         with pytest.raises(ArgumentTypeError):
@@ -148,7 +148,7 @@ def test_named_datasets_are_read_as_they_are_written() -> None:
     ],
 )
 def test_both_styles_are_made_unless_told_otherwise(arguments: list[str], styles: tuple[str, ...]) -> None:
-    """A dataset alone is measured alone."""
+    """A dataset that is named is measured alone; without one, both styles are made."""
     parser = argparse.ArgumentParser()
     add_pictures(parser.add_subparsers(), argparse.ArgumentParser(add_help=False))
     assert styles_of(parser.parse_args(["pictures", *arguments])) == styles

@@ -11,7 +11,7 @@ from tests.benchmarks.pictures.drawn import SIZE, empty
 
 
 def test_figures_of_a_drawn_picture() -> None:
-    """One level cable of 16 px on a background half black, half white."""
+    """One level cable of 16 px lies on a background half black, half white."""
     picture = np.zeros((SIZE, SIZE, 3), np.uint8)
     picture[:, SIZE // 2 :] = 255
     instances = empty()
@@ -26,7 +26,7 @@ def test_figures_of_a_drawn_picture() -> None:
 
 
 def test_cables_are_no_clutter() -> None:
-    """Neither their outlines nor what is on them count."""
+    """Neither the outlines of cables nor patterns on them count as edges of the background."""
     grey, mask = np.full((SIZE, SIZE), 40, np.uint8), np.zeros((SIZE, SIZE), np.uint8)
     grey[100:140:2] = 200
     mask[100:140] = 255
@@ -34,18 +34,18 @@ def test_cables_are_no_clutter() -> None:
 
 
 def test_clutter_counts() -> None:
-    """The same lines without a cable below them."""
+    """The same lines without a cable below them count."""
     grey = np.full((SIZE, SIZE), 40, np.uint8)
     grey[100:140:8] = 200
     assert background_edges(grey, np.zeros((SIZE, SIZE), np.uint8)) > 0.02
 
 
 def test_sensor_noise_is_little_clutter() -> None:
-    """Five levels of noise are no edges."""
+    """Noise of five levels has almost no edges."""
     grey: NDArray[np.uint8] = np.random.default_rng(0).normal(120, 5, (SIZE, SIZE)).round().astype(np.uint8)
     assert background_edges(grey, np.zeros((SIZE, SIZE), np.uint8)) < 0.001
 
 
 def test_a_picture_full_of_cables_has_no_background() -> None:
-    """Not 0, which would be a plain one."""
+    """Without any background the share of edges is NaN and not 0."""
     assert math.isnan(background_edges(np.zeros((64, 64), np.uint8), np.full((64, 64), 255, np.uint8)))

@@ -1,4 +1,4 @@
-"""What the styles promise."""
+"""The promises of the styles."""
 
 import pytest
 
@@ -8,23 +8,23 @@ from farm.spec.category import Category
 
 
 def summary(**figures: Distribution) -> Summary:
-    """A group with these figures, and others that don't matter."""
+    """A group with these figures, and arbitrary others."""
     other = Distribution(10, 0.0, 0.0, 0.0, 0.0, 0.0)
     return Summary(10, {name: figures.get(name, other) for name in FIGURES}, 5.0, 0.7, 1.0)
 
 
 def mean(value: float) -> Distribution:
-    """A figure with this mean."""
+    """A distribution with this mean."""
     return Distribution(10, value, 1.0, value - 2, value, value + 2)
 
 
 def spread(p5: float, p95: float) -> Distribution:
-    """A figure with these percentiles."""
+    """A distribution with these percentiles."""
     return Distribution(10, 0.5 * (p5 + p95), 1.0, p5, 0.5 * (p5 + p95), p95)
 
 
 def test_published_pictures_promise_means_within_the_examples() -> None:
-    """Of each category; the side that misses is told. All pictures together are not asked."""
+    """The mean of each category must be in range, and the side that misses is named; all together don't count."""
     far = summary(coverage=mean(0.12), grey_level=mean(81.0), grey_deviation=mean(43.0), width_px=mean(5.0))
     found = promises_of("published", {None: summary(), Category.FAR: far}, {})
     assert [(promise.what, promise.kept) for promise in found] == [
@@ -38,7 +38,7 @@ def test_published_pictures_promise_means_within_the_examples() -> None:
 
 
 def test_coverage_of_more_scenes_stands_for_that_of_the_pictures() -> None:
-    """Of the categories for which it is known."""
+    """The coverage of labelled scenes replaces that of the pictures, for the categories that have it."""
     pictures = {None: summary(), Category.FAR: summary(coverage=mean(0.10)), Category.FAR_ALIGNED: summary()}
     far, _, _, _, aligned, *_ = promises_of("published", pictures, {Category.FAR: mean(0.12)})
     assert far.kept
@@ -56,7 +56,7 @@ def test_coverage_of_more_scenes_stands_for_that_of_the_pictures() -> None:
     ],
 )
 def test_wide_pictures_promise_to_cover_a_range(grey_level: Distribution, missed: str) -> None:
-    """One in twenty at or beyond each end."""
+    """One in twenty pictures must lie at or beyond each end."""
     level, deviation = promises_of("wide", {None: summary(grey_level=grey_level, grey_deviation=spread(20, 75))}, {})
     assert level.kept == (not missed)
     assert level.found.endswith(missed)
@@ -65,11 +65,11 @@ def test_wide_pictures_promise_to_cover_a_range(grey_level: Distribution, missed
 
 
 def test_what_is_not_known_keeps_no_promise() -> None:
-    """No picture shows a cable, so there is no width."""
+    """If no picture shows a cable there is no width, and its promise is broken."""
     far = summary(coverage=mean(0.12), grey_level=mean(90.0), grey_deviation=mean(30.0), width_px=mean(float("nan")))
     assert not promises_of("published", {None: far, Category.FAR: far}, {})[-1].kept
 
 
 def test_other_datasets_promise_nothing() -> None:
-    """A name of one's own."""
+    """A dataset with a name of the user's own promises nothing."""
     assert promises_of("mine", {None: summary()}, {}) == []

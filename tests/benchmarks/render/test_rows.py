@@ -1,4 +1,4 @@
-"""What the rendering benchmark concludes from what it finds."""
+"""The conclusions of the rendering benchmark."""
 
 from hypothesis import given
 from hypothesis import strategies as st
@@ -21,7 +21,7 @@ def row(
     same: bool = False,
     category: Category = Category.FAR,
 ) -> Row:
-    """One of a single scene."""
+    """A row of a single scene."""
     seconds, flip, psnr_db = figures
     variant = Variant(name, Group.SAMPLES, PictureSettings(cycles=CyclesSettings(samples=1)), same)
     return Row(variant, category, (Shot("far-000000", 0.0, seconds, Errors(flip, psnr_db), sha256),))
@@ -29,7 +29,7 @@ def row(
 
 @given(st.lists(FIGURES, min_size=1, max_size=12))
 def test_the_front_holds_what_nothing_beats(found: list[tuple[float, float, float]]) -> None:
-    """No row of it is slower, and no better in either error, than another; whatever is left out is."""
+    """No row of the front is slower and no better than another one; every row left out is."""
     rows = [row(str(number), figures) for number, figures in enumerate(found)]
     kept = front(rows)
     assert kept
@@ -44,19 +44,19 @@ def test_the_front_holds_what_nothing_beats(found: list[tuple[float, float, floa
 
 
 def test_a_setting_that_changes_nothing_is_named() -> None:
-    """A turned setting that gave the base's bytes in every scene may not have acted."""
+    """A changed setting that gave the base's bytes in every scene is named."""
     rows = [row("base"), row("turned"), row("acting", sha256="b"), row("kept", same=True)]
     assert idle_settings(rows) == ["turned"]
 
 
 def test_a_setting_that_may_not_change_the_picture_is_named_if_it_does() -> None:
-    """Keeping what is loaded must not be seen."""
+    """A setting that must not change the picture is named if it does."""
     rows = [row("base"), row("turned", sha256="b"), row("kept", sha256="b", same=True), row("held", same=True)]
     assert disturbing_settings(rows) == ["kept"]
 
 
 def test_a_calibration_holds_the_front_of_each_category() -> None:
-    """With the mean figures, and as many scenes as the least have."""
+    """A calibration holds the mean figures, and the least number of scenes."""
     rows = [row("fast", (1.0, 0.05, 33.0), category=category) for category in Category]
     rows += [row("good", (2.0, 0.02, 38.0), category=category) for category in Category]
     rows += [row("bad", (3.0, 0.06, 30.0), category=category) for category in Category]
@@ -66,13 +66,13 @@ def test_a_calibration_holds_the_front_of_each_category() -> None:
 
 
 def test_variants_have_names_of_their_own() -> None:
-    """Rows are told apart by them."""
+    """The names of all variants differ."""
     for variants in (list(ladder()), list(turns())):
         names = [variant.name for variant in variants]
         assert len(set(names)) == len(names)
 
 
 def test_each_turn_changes_the_base() -> None:
-    """No setting is turned to what it is already."""
+    """No setting is changed to the value that it already has."""
     base, *others = turns()
     assert all(variant.settings != base.settings for variant in others)

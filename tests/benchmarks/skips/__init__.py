@@ -1,1 +1,1 @@
-"""What is left out, and what that saves."""
+"""Tests of the skips: the things left out, and what that saves."""

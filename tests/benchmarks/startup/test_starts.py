@@ -1,4 +1,4 @@
-"""The benchmark of a worker's start: what imports are due to, what a start says, and one real start."""
+"""The benchmark of a worker's start: time by library, the figures of a start, and one real start."""
 
 import io
 import json
@@ -13,7 +13,7 @@ from benchmarks.startup.report import once_table, start_table, write_json
 from benchmarks.startup.starts import Start, read_start
 from farm.errors import VerificationError
 
-# As the interpreter writes it: what a module imports comes before it, two spaces further in.
+# In the interpreter's format: a module's imports come before it, indented by two more spaces.
 IMPORTS = """\
 import time: self [us] | cumulative | imported package
 import time:       100 |        100 | site
@@ -31,7 +31,7 @@ import time:       200 |      19900 | worker.blender.renderer
 
 
 def content(again: str = "a") -> dict[str, Any]:
-    """What a start's process writes."""
+    """The content of the file that a start's process writes."""
     pictures = [
         {"seconds": {"render": 2.0, "other": 0.5}, "sha256": "a", "device": "cpu"},
         {"seconds": {"render": 1.0, "other": 0.5}, "sha256": again, "device": "cpu"},
@@ -41,19 +41,19 @@ def content(again: str = "a") -> dict[str, Any]:
 
 
 def test_seconds_go_to_the_outermost_library() -> None:
-    """What numba imports of NumPy is numba's doing."""
+    """NumPy's time counts as numba's if numba imports it."""
     assert seconds_by_library(IMPORTS, "worker.blender.renderer") == pytest.approx(
         {"numba": 0.010, ROD: 0.0007, "Blender": 0.009, OWN: 0.0002}
     )
 
 
 def test_a_module_that_was_not_imported_took_no_time() -> None:
-    """As of a process that ended early."""
+    """A module that wasn't imported, as in a process that ended early, took no time."""
     assert seconds_by_library("Killed", "worker.blender.renderer") == {}
 
 
 def test_a_start_adds_up_to_its_first_picture() -> None:
-    """Its steps are those of the clock, whatever the imports' own seconds leave out."""
+    """The steps add up to the clock's time, whatever the imports' own seconds leave out."""
     start = read_start(content(), IMPORTS)
     assert start.until_open_s == pytest.approx(1.31)
     assert start.until_first_picture_s == pytest.approx(3.81)
@@ -61,13 +61,13 @@ def test_a_start_adds_up_to_its_first_picture() -> None:
 
 
 def test_two_pictures_that_differ_are_refused() -> None:
-    """One job has one picture."""
+    """Two different pictures of one job are refused."""
     with pytest.raises(VerificationError, match="two different pictures"):
         read_start(content(again="b"), IMPORTS)
 
 
 def test_the_tables_tell_steps_and_what_is_paid_once() -> None:
-    """The median and the least of all starts; the first picture less the second."""
+    """The tables hold the median and the least of all starts, and the first picture less the second."""
     starts = [read_start(content(), IMPORTS) for _ in range(2)]
     written = io.StringIO()
     console = Console(width=130, file=written)
@@ -80,7 +80,7 @@ def test_the_tables_tell_steps_and_what_is_paid_once() -> None:
 
 
 def test_the_json_holds_every_start(tmp_path: Path) -> None:
-    """And the median of all."""
+    """The JSON holds every start and the median of all."""
     starts: list[Start] = [read_start(content(), IMPORTS)] * 3
     write_json(tmp_path / "startup.json", starts, seed=4)
     written = json.loads((tmp_path / "startup.json").read_text())

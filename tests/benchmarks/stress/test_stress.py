@@ -1,4 +1,4 @@
-"""The stress test: what it draws, how it judges, and what it says of a failure."""
+"""The stress test: its scenes, its judgement, and its report of a failure."""
 
 import json
 from dataclasses import replace
@@ -22,14 +22,14 @@ CASES = draw_cases(DEFAULT_RUNS, 0)
 
 
 def test_there_are_enough_runs() -> None:
-    """As many as gate 10 asks for."""
+    """There are at least as many runs as gate 10 asks for."""
     assert DEFAULT_RUNS >= STRESS_RUNS
     assert [case.number for case in CASES] == list(range(DEFAULT_RUNS))
 
 
 @pytest.mark.parametrize("axis", AXES, ids=lambda axis: axis.name)
 def test_both_ends_of_each_axis_are_there_and_nothing_beyond(axis: Axis) -> None:
-    """A twentieth of the scenes at each, to the bit; lengths are cut short where cables are many."""
+    """A twentieth of the scenes lies exactly at either end of each axis; with many cables lengths are shorter."""
     values = np.array([getattr(case, axis.name) for case in CASES if case.cables < CROWD])
     share = 0.02 if axis.name in {"length", "cables"} else 0.04
     assert (values.min(), values.max()) == (axis.low, axis.high)
@@ -41,7 +41,7 @@ def test_both_ends_of_each_axis_are_there_and_nothing_beyond(axis: Axis) -> None
     "axis", [axis for axis in AXES if axis.name not in {"cables", "length"}], ids=lambda axis: axis.name
 )
 def test_each_axis_is_covered_evenly(axis: Axis) -> None:
-    """Each tenth of it has as many of the scenes, the outer ones besides those at the ends.
+    """Each tenth of an axis has the same number of scenes, besides those at the ends.
 
     Numbers of cables are whole, and lengths are cut short where cables are many.
     """
@@ -52,7 +52,7 @@ def test_each_axis_is_covered_evenly(axis: Axis) -> None:
 
 
 def test_every_start_and_a_crowd_are_there() -> None:
-    """Half of the scenes start in a hostile way, each way as often as another."""
+    """Half of the scenes start in a hostile way, and each hostile way is equally common."""
     counts = {start: sum(case.start is start for case in CASES) for start in Start}
     assert counts.pop(Start.STACKED) == DEFAULT_RUNS // 2
     assert set(counts.values()) == {DEFAULT_RUNS // 2 // 7}
@@ -61,7 +61,7 @@ def test_every_start_and_a_crowd_are_there() -> None:
 
 
 def test_a_scene_is_drawn_alike_each_time() -> None:
-    """From the seed, the number of runs and its number; another seed gives another."""
+    """Seed, number of runs and the scene's number decide the scene; another seed gives another one."""
     assert draw_cases(DEFAULT_RUNS, 0) == CASES
     assert draw_cases(DEFAULT_RUNS, 1) != CASES
     here, again = set_up(CASES[7]), set_up(draw_cases(DEFAULT_RUNS, 0)[7])
@@ -77,7 +77,7 @@ def of_start(start: Start) -> Case:
 
 @pytest.mark.parametrize("start", Start)
 def test_rods_start_with_segments_of_one_length(start: Start) -> None:
-    """As the solver asks; none is shorter than its own thickness."""
+    """Segments have equal lengths, as the solver requires, and none is shorter than the rod is thick."""
     for one in set_up(of_start(start)).rods:
         lengths = np.linalg.norm(np.diff(one.nodes_m, axis=0), axis=1)
         assert lengths == pytest.approx(lengths[0], rel=1e-9)
@@ -85,7 +85,7 @@ def test_rods_start_with_segments_of_one_length(start: Start) -> None:
 
 
 def test_stacked_cables_start_apart_and_the_others_as_they_are_called() -> None:
-    """By the heights of their axes."""
+    """The heights of the axes are as the name of each start says."""
     radius = 0.001
     heights = {
         start: np.sort([one.nodes_m[:, 2].mean() for one in set_up(of_start(start)).rods])
@@ -100,7 +100,7 @@ def test_stacked_cables_start_apart_and_the_others_as_they_are_called() -> None:
 
 
 def test_upright_cables_stand_on_their_ends_a_little_bent() -> None:
-    """Lowest at one end; a straight one would balance."""
+    """An upright cable is lowest at one end and slightly bent, since a straight one would balance."""
     for one in set_up(of_start(Start.UPRIGHT)).rods:
         assert one.nodes_m[0, 2] == pytest.approx(one.nodes_m[:, 2].min())
         chord = one.nodes_m[-1] - one.nodes_m[0]
@@ -108,14 +108,14 @@ def test_upright_cables_stand_on_their_ends_a_little_bent() -> None:
 
 
 def test_a_pile_in_the_floor_is_partly_below_it() -> None:
-    """Its lowest place lies about a radius under the surface, its middle above."""
+    """The lowest place of a pile in the floor is about a radius below the surface, its middle above."""
     setting = set_up(of_start(Start.IN_FLOOR))
     lowest = min(one.nodes_m[:, 2].min() for one in setting.rods) / setting.rods[0].radius_m
     assert -2 < lowest < 0
 
 
 def test_thrown_cables_have_their_own_speeds() -> None:
-    """2 to 8 m/s, and the others none."""
+    """Thrown cables have speeds of 2 to 8 m/s, and the others none."""
     speeds = np.linalg.norm(set_up(of_start(Start.THROWN)).velocities_m_s, axis=1)
     assert ((speeds >= 2) & (speeds <= 8)).all()
     assert len(set(speeds)) == 5
@@ -141,7 +141,7 @@ def made_up(number: int, fault: StressFault | None) -> Result:
 
 
 def test_a_failure_is_reported_with_the_command_that_replays_it(tmp_path: Path) -> None:
-    """By its number, seed and number of runs; the exit code is not 0, and the JSON and the plot are there."""
+    """A failure is reported with number, seed and runs, the exit code isn't 0, and the files are written."""
     console = Console(width=130, record=True)
     results = [made_up(3, None), made_up(11, StressFault.PASSED_THROUGH), made_up(12, StressFault.NOT_FINITE)]
     assert conclude(results, tmp_path, console) == 1
@@ -157,13 +157,13 @@ def test_a_failure_is_reported_with_the_command_that_replays_it(tmp_path: Path) 
 
 
 def test_no_failure_is_no_error(tmp_path: Path) -> None:
-    """Exit code 0."""
+    """Without a failure the exit code is 0."""
     assert conclude([made_up(3, None)], tmp_path, Console(width=130, record=True)) == 0
 
 
 @pytest.mark.slow
 def test_a_real_stress_test_agrees_with_its_replays(tmp_path: Path) -> None:
-    """Six scenes in two processes, then each again alone."""
+    """Six scenes in two processes give the same results as each one played alone."""
     code = main(["stress", "--out", str(tmp_path), "--runs", "6", "--seed", "2", "--processes", "2"])
     written = json.loads((tmp_path / "stress.json").read_text())
     assert [each["case"]["number"] for each in written] == list(range(6))

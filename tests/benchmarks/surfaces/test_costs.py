@@ -1,4 +1,4 @@
-"""What surfaces cost."""
+"""The relative cost of surfaces."""
 
 import pytest
 
@@ -11,7 +11,7 @@ def cost(name: str, render: float, build: float = 0.1) -> SurfaceCost:
 
 
 def test_a_ratio_is_that_of_all_scenes_together() -> None:
-    """A long scene counts more than a short one."""
+    """A scene that takes longer counts more."""
     uneven = SurfaceCost("oak", (1.0, 3.0), (1.0, 1.0), (0.0, 0.0), (0.0, 0.0))
     assert uneven.ratio == 2.0
 
@@ -23,6 +23,6 @@ def test_setting_the_scene_counts_in_the_whole() -> None:
 
 
 def test_what_is_too_costly_is_named_the_costliest_first() -> None:
-    """More than a tenth over the plain surface."""
+    """Surfaces more than a tenth above the plain one are named, the costliest first."""
     costs = [cost("oak", 1.09), cost("grass", 1.2), cost("gravel", 1.3)]
     assert [each.name for each in too_costly(costs)] == ["gravel", "grass"]

@@ -1,4 +1,4 @@
-"""Training: that it learns, that it repeats, and what a whole run writes. Needs PyTorch, which is an extra."""
+"""Training learns, repeats, and writes its results. Needs PyTorch, which is an extra."""
 
 import argparse
 import json
@@ -27,7 +27,7 @@ EDGE = 32
 
 @pytest.fixture(autouse=True)
 def one_thread() -> Iterator[None]:
-    """Pictures so small are soon done by one, and two wait for each other where other tests run at the same time."""
+    """Use one thread: it is fast enough for tiny pictures, and two would wait for each other beside other tests."""
     if find_spec("torch") is None:
         yield
         return
@@ -52,7 +52,7 @@ def bright_bars(pictures: int) -> Examples:
 
 
 def learn(epochs: int) -> tuple[list[float], bytes, float]:
-    """The losses, the masks seen afterwards, and the IoU, of a small network."""
+    """Train a small network; returns the losses, the predicted masks, and the IoU."""
     torch = pytest.importorskip("torch")
     from benchmarks.training.lessons import deterministic, predict, train  # noqa: PLC0415
     from benchmarks.training.network import UNet  # noqa: PLC0415
@@ -67,19 +67,19 @@ def learn(epochs: int) -> tuple[list[float], bytes, float]:
 
 
 def test_two_steps_lower_the_loss() -> None:
-    """A batch of eight is all there is, so an epoch is a step; the second's loss is that after the first."""
+    """With a single batch an epoch is a step, so the second loss is that after the first step."""
     losses, _, _ = learn(3)
     assert len(losses) == 3
     assert losses[2] < losses[0]
 
 
 def test_a_bright_bar_is_learned() -> None:
-    """Thirty steps are enough to see it; nothing learned would be 0.16, all called cable."""
+    """Thirty steps find the bar; calling everything cable would have an IoU of 0.16."""
     assert learn(30)[2] > 0.5
 
 
 def test_training_repeats() -> None:
-    """The same losses and masks to the last bit."""
+    """Losses and masks repeat to the last bit."""
     assert learn(4) == learn(4)
 
 
@@ -97,7 +97,7 @@ def test_networks_begin_alike() -> None:
 
 
 def test_the_network_is_small() -> None:
-    """Half a million to a million weights, and logits of the pictures' size."""
+    """The network has half a million to a million weights, and its logits have the pictures' size."""
     torch = pytest.importorskip("torch")
     from benchmarks.training.network import UNet  # noqa: PLC0415
 
@@ -116,7 +116,7 @@ def noise(tmp_path: Path) -> Dataset:
 
 
 def test_a_run_writes_every_score(noise: Dataset, tmp_path: Path) -> None:
-    """Two networks on two test sets and on photographs; both learned the same, so both score the same."""
+    """Two networks are tested on two sets and on photographs; trained on the same pictures, they score the same."""
     pytest.importorskip("torch")
     for part, image in (("images", np.full((300, 400, 3), 90, np.uint8)), ("masks", np.zeros((300, 400), np.uint8))):
         (tmp_path / "mine" / part).mkdir(parents=True)
@@ -135,7 +135,7 @@ def test_a_run_writes_every_score(noise: Dataset, tmp_path: Path) -> None:
 
 
 def test_without_pytorch_it_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Before any picture is made."""
+    """The error names PyTorch before any picture is made."""
     monkeypatch.setattr("benchmarks.training.command.find_spec", lambda _: None)
     with pytest.raises(MachineError, match=r"cable-farm\[train\]"):
         run(tmp_path, Plan(seed=0, images=1, test_images=1, epochs=1))
@@ -151,13 +151,13 @@ def test_without_pytorch_it_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyP
     ],
 )
 def test_what_can_not_be_done_is_refused(plan: Plan, tmp_path: Path) -> None:
-    """No pictures, no epochs, one name for two sets."""
+    """No pictures, no epochs, and one name for two sets are refused."""
     with pytest.raises(SpecError):
         run(tmp_path, plan)
 
 
 def test_options_become_a_plan() -> None:
-    """Each finds its place."""
+    """Each option ends up in its field of the plan."""
     shared = argparse.ArgumentParser(add_help=False)
     shared.add_argument("--seed", type=int, default=0)
     parser = argparse.ArgumentParser()
@@ -175,7 +175,7 @@ def test_options_become_a_plan() -> None:
 
 
 def test_an_overlay_tells_hits_from_errors() -> None:
-    """White, red, blue, and black where neither sees a cable."""
+    """Hits are white, false alarms red, misses blue, and the rest black."""
     seen, true = np.array([[True, True, False, False]]), np.array([[True, False, True, False]])
     hit, false_alarm, miss, nothing = overlay(seen, true)[0]
     assert hit.min() == 255

@@ -1,4 +1,4 @@
-"""Pictures as a network takes them: from datasets, from folders of photographs, and augmented."""
+"""Pictures for a network: from datasets, from folders of photographs, and augmented."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from worker.service.upload import upload
 
 
 def made(folder: Path, resolution: int) -> Dataset:
-    """Two pictures each of two categories."""
+    """A dataset of two categories with two pictures each."""
     dataset = create_dataset(Destination(str(folder), "noise"), stand_in_header(resolution=resolution))
     for job in dataset.header.spec.jobs():
         upload(StandInRenderer().make(job, dataset.header), job, dataset)
@@ -24,7 +24,7 @@ def made(folder: Path, resolution: int) -> Dataset:
 
 
 def photograph(folder: Path, name: str, rows: int, columns: int, *, mask: bool = True) -> NDArray[np.uint8]:
-    """A red photograph whose left half shows a cable."""
+    """A red photograph whose left half is cable."""
     for part in ("images", "masks"):
         (folder / part).mkdir(parents=True, exist_ok=True)
     picture = np.zeros((rows, columns, 3), np.uint8)
@@ -39,7 +39,7 @@ def photograph(folder: Path, name: str, rows: int, columns: int, *, mask: bool =
 
 @pytest.mark.parametrize("resolution", [32, 512])
 def test_a_datasets_pictures_are_scaled(tmp_path: Path, resolution: int) -> None:
-    """Up or down, with the share of cable kept."""
+    """Pictures are scaled up or down, and the share of cable stays."""
     examples = examples_of(made(tmp_path, resolution))
     assert len(examples) == 4
     assert examples.pictures.shape == (4, EDGE_PX, EDGE_PX, 3)
@@ -47,13 +47,13 @@ def test_a_datasets_pictures_are_scaled(tmp_path: Path, resolution: int) -> None
 
 
 def test_an_empty_dataset_is_refused(dataset: Dataset) -> None:
-    """There is nothing to learn from it."""
+    """A dataset without finished pictures is refused."""
     with pytest.raises(VerificationError, match="no picture is done"):
         examples_of(dataset)
 
 
 def test_photographs_are_cut_square_about_their_middle(tmp_path: Path) -> None:
-    """Landscape, in RGB, with a mask of another ending."""
+    """A landscape photograph is cropped to its middle square, in RGB, with a mask of another ending."""
     photograph(tmp_path, "one", 300, 500)
     photograph(tmp_path, "two", 512, 512)
     examples = photographs_in(tmp_path)
@@ -66,7 +66,7 @@ def test_photographs_are_cut_square_about_their_middle(tmp_path: Path) -> None:
 
 
 def test_a_photograph_without_a_mask_is_refused(tmp_path: Path) -> None:
-    """Its file is named."""
+    """The error names a photograph without a mask."""
     photograph(tmp_path, "one", 300, 300)
     photograph(tmp_path, "two", 300, 300, mask=False)
     with pytest.raises(SpecError, match=r"two\.jpg: has no mask"):
@@ -74,7 +74,7 @@ def test_a_photograph_without_a_mask_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_mask_of_another_shape_is_refused(tmp_path: Path) -> None:
-    """It is not of this picture."""
+    """A mask of another shape than its photograph is refused."""
     photograph(tmp_path, "one", 300, 300)
     cv2.imwrite(str(tmp_path / "masks" / "one.png"), np.zeros((30, 30), np.uint8))
     with pytest.raises(SpecError, match="another shape"):
@@ -83,7 +83,7 @@ def test_a_mask_of_another_shape_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("content", [b"", b"no image"])
 def test_a_photograph_that_is_no_image_is_refused(tmp_path: Path, content: bytes) -> None:
-    """Empty, or text."""
+    """A photograph that is empty or text is refused."""
     photograph(tmp_path, "one", 300, 300)
     (tmp_path / "images" / "one.jpg").write_bytes(content)
     with pytest.raises(SpecError, match="can't decode"):
@@ -91,13 +91,13 @@ def test_a_photograph_that_is_no_image_is_refused(tmp_path: Path, content: bytes
 
 
 def test_a_folder_without_photographs_is_refused(tmp_path: Path) -> None:
-    """It says what must be there."""
+    """The error says what the folder must hold."""
     with pytest.raises(SpecError, match="images/ and masks/"):
         photographs_in(tmp_path)
 
 
 def test_picture_and_mask_are_turned_and_mirrored_together() -> None:
-    """Where the picture is bright, the mask is set, whatever was drawn."""
+    """The mask is set where the picture is bright, whatever was drawn."""
     picture = np.full((16, 16, 3), 40, np.uint8)
     picture[2:5, 1:12] = 220
     mask = picture[..., 0] > 100
@@ -111,7 +111,7 @@ def test_picture_and_mask_are_turned_and_mirrored_together() -> None:
 
 
 def test_augmentation_changes_light_and_colour_mildly() -> None:
-    """A grey picture stays near its grey, and the same draw gives the same picture."""
+    """A grey picture stays nearly grey, and the same draw gives the same picture."""
     picture, mask = np.full((8, 8, 3), 128, np.uint8), np.zeros((8, 8), np.bool_)
     plain = as_input(picture.astype(np.float32) / 255)
     changes = [augment(picture, mask, np.random.default_rng(seed))[0] - plain for seed in range(20)]

@@ -1,4 +1,4 @@
-"""Means in the published mix, ratios over the same scenes, growth, and what is written."""
+"""Means in the published mix, ratios on the same scenes, growth, and the report."""
 
 import json
 from pathlib import Path
@@ -24,7 +24,7 @@ def whole(category: Category, index: int = 0, render: float = 1.0, errors: Error
 
 
 def test_the_mix_has_the_published_shares() -> None:
-    """2:2:1:1:2:2 of ten; a category that was not made has none."""
+    """The shares are 2:2:1:1:2:2 of ten, without those of categories that weren't made."""
     values = dict.fromkeys(Category, 1.0) | {Category.CLOSE_DISTRIBUTED: 11.0, Category.FAR: 6.0}
     assert mix(values) == pytest.approx(3.0)
     assert mix({Category.FAR: 1.0, Category.CLOSE_DISTRIBUTED: 4.0}) == pytest.approx(2.0)
@@ -33,7 +33,7 @@ def test_the_mix_has_the_published_shares() -> None:
 
 
 def test_means_are_by_category_and_of_the_stages_asked_for() -> None:
-    """Stages keep their order, and one that a picture lacks counts nothing."""
+    """Stages keep their order, and one that a picture lacks counts as 0 s."""
     row = Row(
         Way.STANDARD,
         (
@@ -48,7 +48,7 @@ def test_means_are_by_category_and_of_the_stages_asked_for() -> None:
 
 
 def test_ratios_compare_the_same_scenes_and_the_stages_of_both() -> None:
-    """The standard's further scenes, and its other stages, do not count."""
+    """Further scenes and stages of the standard don't count."""
     standard = Row(Way.STANDARD, (whole(Category.FAR, 0, 1.0), whole(Category.FAR, 1, 100.0)))
     slow = Row(Way.BLENDER, (shot(Category.FAR, 0, render=30.0),))
     found = ratio(slow, standard)
@@ -62,14 +62,14 @@ def test_ratios_compare_the_same_scenes_and_the_stages_of_both() -> None:
 
 
 def test_the_mix_of_a_ratio_is_one_of_seconds() -> None:
-    """The sum of all seconds over the sum of all, not a mean of ratios."""
+    """The ratio is the quotient of the seconds' sums and not a mean of ratios."""
     standard = Row(Way.STANDARD, (shot(Category.FAR, render=1.0), shot(Category.CLOSE_DISTRIBUTED, render=7.0)))
     slow = Row(Way.BLENDER, (shot(Category.FAR, render=10.0), shot(Category.CLOSE_DISTRIBUTED, render=7.0)))
     assert ratio(slow, standard).value == pytest.approx(27 / 9)
 
 
 def test_errors_are_compared_on_the_same_scenes() -> None:
-    """Only scenes of which every way that was compared with references has an error count."""
+    """Only scenes count of which every way with references has an error."""
     pytest.importorskip("bpy")
     from benchmarks.whole.report import same_scenes  # noqa: PLC0415  # after importorskip
 

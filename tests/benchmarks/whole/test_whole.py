@@ -1,4 +1,4 @@
-"""The whole-image benchmark with Blender: others' defaults, the rendered mask, and one small run."""
+"""The whole-image benchmark with Blender: other programs' defaults, the rendered mask, and one small run."""
 
 import argparse
 import json
@@ -63,14 +63,14 @@ def stage() -> Stage:
 
 @pytest.fixture
 def far() -> SettledScene:
-    """Two cables that cross below the camera, under an HDRI that is there."""
+    """Two cables that cross below the camera, under an HDRI that exists."""
     scene = sample_scene(bench_header(1, 0), JOB, 0)
     two = scene.model_copy(update={"cables": (scene.cables * 2)[:2]})
     return SettledScene(JOB, two, shapes(rod(), rod(along_y=True, z=0.003)))
 
 
 def test_blenders_defaults_are_those_of_blender(stage: Stage, far: SettledScene) -> None:
-    """Every setting of the sampling is what a new file has, whatever was set before."""
+    """Every setting of the sampling is that of a new file, whatever was set before."""
     set_picture(stage, far, BLENDERPROC)
     set_picture(stage, far, BLENDER)
     cycles = bpy.data.scenes[names.PICTURE_SCENE].cycles
@@ -84,7 +84,7 @@ def test_blenders_defaults_are_those_of_blender(stage: Stage, far: SettledScene)
 
 
 def test_blenderprocs_defaults_differ_in_samples_and_paths(stage: Stage, far: SettledScene) -> None:
-    """At most 1,024 samples, three bounces, none of them glossy."""
+    """BlenderProc takes at most 1,024 samples and three bounces, none of them glossy."""
     set_picture(stage, far, BLENDERPROC)
     cycles = bpy.data.scenes[names.PICTURE_SCENE].cycles
     assert (cycles.samples, cycles.adaptive_min_samples, cycles.use_denoising) == (1024, 0, True)
@@ -93,7 +93,7 @@ def test_blenderprocs_defaults_differ_in_samples_and_paths(stage: Stage, far: Se
 
 
 def test_a_rendered_mask_is_of_its_scene_and_no_other(stage: Stage, far: SettledScene) -> None:
-    """The geometry's mask agrees with it, and that of other cables does not."""
+    """The mask from geometry agrees with the rendered one, and the mask of other cables doesn't."""
     set_picture(stage, far, BLENDER)
     bpy.data.scenes[names.PICTURE_SCENE].cycles.samples = 4
     mask = render_mask()
@@ -104,7 +104,7 @@ def test_a_rendered_mask_is_of_its_scene_and_no_other(stage: Stage, far: Settled
 
 
 def test_options_are_the_plans() -> None:
-    """What is not given is as the plan has it."""
+    """An option that isn't given has the plan's default."""
     parser, shared = argparse.ArgumentParser(), argparse.ArgumentParser(add_help=False)
     shared.add_argument("--seed", type=int, default=0)
     add_whole(parser.add_subparsers(), shared)
@@ -116,14 +116,14 @@ def test_options_are_the_plans() -> None:
 
 
 def test_more_slow_images_than_images_are_refused(tmp_path: Path) -> None:
-    """They are among the standard ones."""
+    """More slow images than images are refused, as the slow ones are among them."""
     with pytest.raises(SpecError, match="--slow-images"):
         run(tmp_path, Plan(images=1, slow_images=2))
 
 
 @pytest.mark.slow
 def test_a_small_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """One scene of 32 pixels in every way, whose published cables hardly begin to fall."""
+    """One scene of 32 pixels is made in every way; the published cables hardly begin to fall."""
     monkeypatch.setattr(published, "FRAMES", 2)
     plan = Plan(
         images=1,

@@ -1,4 +1,4 @@
-"""Placing things."""
+"""Placing things in environments."""
 
 import numpy as np
 import pytest
@@ -20,7 +20,7 @@ PIECES = (Piece(block, EDGE, EDGE),)
 
 
 def middles(a: Assembly) -> Points:
-    """Of the cubes, (N, 3)."""
+    """The middles of the cubes, (N, 3)."""
     return np.array([part.points.mean(axis=0) for part in a.parts.get("paint", [])])
 
 
@@ -38,7 +38,7 @@ def test_a_line_fills_its_length_without_overlap(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_clutter_stays_on_the_table_and_apart(seed: int) -> None:
-    """However it is strewn."""
+    """Things stay on the table and apart, whatever is drawn."""
     rng = np.random.default_rng(seed)
     a = Assembly(rng)
     clutter(a, rng, PIECES, (2.0, 1.0), 0.8, density=0.9)
@@ -52,7 +52,7 @@ def test_clutter_stays_on_the_table_and_apart(seed: int) -> None:
 
 
 def test_a_full_shelf_has_nothing_over_its_ends() -> None:
-    """What no longer fits is left out."""
+    """A thing that no longer fits on the shelf is left out."""
     rng = np.random.default_rng(0)
     a = Assembly(rng)
     row_on(a, rng, PIECES, 1.2, 0.5)
@@ -61,7 +61,7 @@ def test_a_full_shelf_has_nothing_over_its_ends() -> None:
 
 @pytest.mark.parametrize("wall", list(Wall))
 def test_what_stands_along_a_wall_is_in_the_room(wall: Wall) -> None:
-    """Its back to the wall, wherever along it."""
+    """A thing along a wall stands in the room with its back to the wall."""
     room = Room(-3.0, 5.0, -2.0, 4.0, 3.0, Style("wall", (0.5,) * 3, (0.5,) * 3, "wall"))
     rng = np.random.default_rng(0)
     for u in (-0.4 * room.length(wall), 0.4 * room.length(wall)):

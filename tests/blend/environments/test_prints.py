@@ -1,4 +1,4 @@
-"""What is printed in rooms."""
+"""The prints of environments."""
 
 import numpy as np
 

@@ -43,7 +43,7 @@ def coarse_surfaces(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(scope="module")
 def rendered(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with one environment."""
+    """A folder with one rendered environment."""
     folder = tmp_path_factory.mktemp("assets")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("blend.environments.materials.SURFACE_PIXELS", 64)
@@ -57,7 +57,7 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def content() -> list[tuple[str, bytes]]:
-    """The open file's meshes, images and lamps, by name."""
+    """Names of the open file's meshes, images and lamps."""
     found: list[tuple[str, bytes]] = []
     for collection, values, width in (("meshes", "vertices", 3), ("images", "pixels", 1)):
         for block in getattr(bpy.data, collection):
@@ -80,7 +80,7 @@ def shapes(assembly: Assembly) -> list[tuple[str, bytes, bytes]]:
 
 @pytest.mark.parametrize("name", list(ENVIRONMENTS))
 def test_every_environment_is_furnished_and_lit(name: str) -> None:
-    """It has many things of many materials, lamps or the sun, and nothing stands in the camera."""
+    """Each has many things of many materials, and lamps or the sun; nothing stands in the camera."""
     assembly, light = assemble(ENVIRONMENTS[name])
     assert assembly.things > FEWEST_THINGS
     assert sum(len(parts) for parts in assembly.parts.values()) > FEWEST_SOLIDS
@@ -96,7 +96,7 @@ def test_every_environment_is_furnished_and_lit(name: str) -> None:
 
 
 def test_two_builds_agree() -> None:
-    """A recipe's scene is the same again."""
+    """Two builds of a recipe give the same scene."""
     recipe = ENVIRONMENTS["workshop_2"]
     before = shapes(build_environment(recipe).assembly)
     described = content()
@@ -105,12 +105,12 @@ def test_two_builds_agree() -> None:
 
 
 def test_variants_differ() -> None:
-    """The second of a kind is another place."""
+    """The two variants of a kind are different places."""
     assert shapes(assemble(ENVIRONMENTS["office_1"])[0]) != shapes(assemble(ENVIRONMENTS["office_2"])[0])
 
 
 def test_a_panorama_can_light_a_scene(rendered: Path) -> None:
-    """It passes every check of a user's own HDRI, with the brightness that was aimed at."""
+    """A panorama passes every check of a user's own HDRI, with the intended brightness."""
     found = read_hdri(load_environment(rendered, "storeroom_2").path)
     assert found.mean_luminance == pytest.approx(TARGET_LUMINANCE, rel=0.02)
     assert found.backdrop
@@ -118,7 +118,7 @@ def test_a_panorama_can_light_a_scene(rendered: Path) -> None:
 
 
 def test_a_panorama_is_no_even_grey(rendered: Path) -> None:
-    """It has dark corners, bright lamps, and colours."""
+    """A panorama has dark corners, bright lamps, and colours."""
     for name in ("storeroom_2", "yard_2"):
         path = load_environment(rendered, name).path
         light = decode_exr(path, read_bounded(path))
@@ -130,7 +130,7 @@ def test_a_panorama_is_no_even_grey(rendered: Path) -> None:
 
 
 def test_what_is_there_is_not_rendered_again(rendered: Path) -> None:
-    """Nor touched."""
+    """A panorama that exists isn't even touched."""
     before = {path: path.stat().st_mtime_ns for path in rendered.rglob("*.*")}
     assert (
         list(render_environments(rendered, pixels=PIXELS, names=("yard_2",), device=DeviceChoice.CPU, threads=0)) == []
@@ -140,7 +140,7 @@ def test_what_is_there_is_not_rendered_again(rendered: Path) -> None:
 
 
 def test_the_middle_column_looks_along_x(monkeypatch: pytest.MonkeyPatch) -> None:
-    """And what is right of it lies towards -y, as `worker.backdrop.panorama` has it; the zenith is at the top."""
+    """What lies to the right of +x is at -y, as in `worker.backdrop.panorama`, and the zenith is at the top."""
 
     def three_lamps(_recipe: object) -> Built:
         bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -161,7 +161,7 @@ def test_the_middle_column_looks_along_x(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_the_band_about_the_horizon_is_the_finer(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What lies above and below is a coarser render of the same scene, and the two meet without a step."""
+    """Above and below the band a coarser render shows the same scene, and the two meet without a step."""
     sizes: list[tuple[int, int, int]] = []
 
     def ramp(_scene: object, pixels: int, first: int, last: int) -> NDArray[np.float32]:
@@ -181,7 +181,7 @@ def test_the_band_about_the_horizon_is_the_finer(monkeypatch: pytest.MonkeyPatch
 
 
 def test_the_seam_is_mended() -> None:
-    """A small step between the first and the last column goes, an object's edge stays, the middle is not touched."""
+    """A small step between the first and last column goes, an object's edge and the middle stay."""
     light = np.ones((64, 256, 3), np.float32)
     light[:32, :128] = 1.06
     light[32:, :128] = 3.0
@@ -192,7 +192,7 @@ def test_the_seam_is_mended() -> None:
 
 
 def test_bright_lamps_are_clipped_and_the_mean_is_kept() -> None:
-    """Scale and clip are found together."""
+    """Scale and clipping are found together."""
     light = np.full((64, 128, 3), 0.1, np.float32)
     light[30:34, 60:64] = 500.0
     light[0, 0] = -1.0
@@ -204,13 +204,13 @@ def test_bright_lamps_are_clipped_and_the_mean_is_kept() -> None:
 
 @pytest.mark.parametrize("value", [0.0, np.nan, np.inf])
 def test_light_that_can_not_be_used_is_refused(value: float) -> None:
-    """Black, undefined or infinite light."""
+    """Light that is black, undefined or infinite is refused."""
     with pytest.raises(RenderError):
         normalised(np.full((8, 16, 3), value, np.float32))
 
 
 def test_a_panorama_reads_back_as_written(tmp_path: Path) -> None:
-    """Its compression loses less than a hundredth of what is seen."""
+    """Compression loses less than a hundredth of the visible light."""
     ramp = np.linspace(0.02, 3.0, 128, dtype=np.float32)
     light = np.broadcast_to(ramp[None, :, None], (64, 128, 3)).copy()
     write_environment(tmp_path, ENVIRONMENTS["factory_1"], light)
@@ -222,13 +222,13 @@ def test_a_panorama_reads_back_as_written(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("pixels", [0, 63, 129, 10_000])
 def test_sizes_that_make_no_panorama_are_refused(tmp_path: Path, pixels: int) -> None:
-    """Before anything is rendered."""
+    """A size that isn't a panorama's is refused before anything is rendered."""
     with pytest.raises(AssetError, match="even number"):
         list(render_environments(tmp_path, pixels=pixels, names=None, device=DeviceChoice.CPU, threads=0))
 
 
 def test_the_workers_command_tells_each_name(tmp_path: Path, rendered: Path) -> None:
-    """One line for each on standard output, Blender's own talk in the log; nothing to do, nothing told."""
+    """Standard output has a line for each environment, the log Blender's messages; a second run prints nothing."""
     command = [sys.executable, "-P", "-m", "worker", "environments", "--logs", str(tmp_path / "logs")]
     renderer = RendererSettings(device=DeviceChoice.CPU).as_argument()
     small = ["--renderer", renderer, "--pixels", "64", "--name", "switch_room_1", "--out"]
@@ -242,7 +242,7 @@ def test_the_workers_command_tells_each_name(tmp_path: Path, rendered: Path) -> 
 
 
 def test_the_workers_command_refuses_an_unknown_name(tmp_path: Path) -> None:
-    """With the exit code of an asset's error."""
+    """An unknown name has the exit code of an asset's error."""
     command = [sys.executable, "-P", "-m", "worker", "environments", "--logs", str(tmp_path)]
     done = subprocess.run(
         [*command, "--out", str(tmp_path), "--name", "cave"], capture_output=True, text=True, check=False

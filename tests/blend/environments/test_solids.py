@@ -10,7 +10,7 @@ GREY = (0.5, 0.5, 0.5)
 
 
 def solid_of(assembly: Assembly) -> Solid:
-    """What was placed, of the only material there is."""
+    """The solid that was placed, of the only material there is."""
     (parts,) = assembly.parts.values()
     points = np.concatenate([part.points for part in parts])
     starts = np.cumsum([0, *(len(part.points) for part in parts)])
@@ -19,7 +19,7 @@ def solid_of(assembly: Assembly) -> Solid:
 
 
 def volume(solid: Solid) -> float:
-    """Of a closed solid whose faces all look outwards: each face's fan of tetrahedra about the origin."""
+    """Volume of a closed solid whose faces look outwards, as a sum of tetrahedra about the origin."""
     total = 0.0
     for faces in solid.faces:
         corners = solid.points[faces]
@@ -29,13 +29,13 @@ def volume(solid: Solid) -> float:
 
 
 def assembly() -> Assembly:
-    """An empty one."""
+    """An empty assembly."""
     return Assembly(np.random.default_rng(0))
 
 
 @pytest.mark.parametrize("bevel", [0.0, 0.01])
 def test_a_box_is_closed_and_looks_outwards(bevel: float) -> None:
-    """Its volume by its faces is that of its edges, less the chamfers."""
+    """The volume within its faces is the product of its edges, less the chamfers."""
     a = assembly()
     a.box((1.0, 2.0, 3.0), (0.4, 0.3, 0.2), "paint", GREY, bevel=bevel)
     solid = solid_of(a)
@@ -46,35 +46,35 @@ def test_a_box_is_closed_and_looks_outwards(bevel: float) -> None:
 
 @pytest.mark.parametrize("axis", ["x", "y", "z"])
 def test_a_cylinder_is_closed_and_looks_outwards(axis: str) -> None:
-    """Its volume is that of a prism of as many sides."""
+    """The volume is that of a prism with the same number of sides."""
     a = assembly()
     a.cylinder((0.1, 0.2, 0.3), 0.5, 2.0, "paint", GREY, axis=axis, sides=12)
     assert volume(solid_of(a)) == pytest.approx(0.5 * 12 * 0.25 * np.sin(np.pi / 6) * 2.0)
 
 
 def test_a_prism_is_closed_and_looks_outwards() -> None:
-    """Its volume is the outline's area times its width."""
+    """The volume is the outline's area times its width."""
     a = assembly()
     a.prism([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)], 2.0, 0.5, "paint", GREY)
     assert volume(solid_of(a)) == pytest.approx(0.25)
 
 
 def test_a_tube_keeps_its_radius_round_a_corner() -> None:
-    """Every point of a ring is as far from the line as the radius."""
+    """Every point of a ring is a radius away from the line."""
     line = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1)], np.float64)
     rings = swept(line, 0.1).points.reshape(4, -1, 3)
     assert np.linalg.norm(rings - line[:, None], axis=2) == pytest.approx(0.1)
 
 
 def test_a_hanging_cable_sags_in_its_middle() -> None:
-    """By as much as told, and ends where it should."""
+    """A cable sags by the given amount and ends at its ends."""
     points = hanging((0, 0, 2), (4, 0, 2), 0.5)
     assert points[[0, -1]] == pytest.approx(np.array([(0, 0, 2), (4, 0, 2)]))
     assert points[:, 2].min() == pytest.approx(1.5)
 
 
 def test_frames_nest() -> None:
-    """What is placed within a turned thing turns with it."""
+    """A thing that is placed within a turned one turns with it."""
     a = assembly()
     with a.at(1.0, 0.0, turn=90), a.at(0.0, 2.0):
         assert a.frame[:3, 3] == pytest.approx([-1.0, 0.0, 0.0])
@@ -83,12 +83,12 @@ def test_frames_nest() -> None:
 
 
 def test_a_lean_tips_forwards_about_x() -> None:
-    """A positive one takes what is above towards -y."""
+    """A positive lean takes the top towards -y."""
     assert turned(0, 0, 0, 0, 90)[:3, :3] @ [0, 0, 1] == pytest.approx([0, -1, 0])
 
 
 def test_a_picture_is_read_from_the_front() -> None:
-    """Seen from +y, its left edge lies at +x and shows the left of the atlas's cell."""
+    """Seen from +y, the left edge lies at +x and shows the left of the atlas's cell."""
     a = assembly()
     a.picture((0.0, 0.0, 0.0), (1.0, 1.0), (0.1, 0.2, 0.3, 0.4))
     (part,) = a.parts["print"]
@@ -101,7 +101,7 @@ def test_a_picture_is_read_from_the_front() -> None:
 
 
 def test_walls_keep_their_courses_level() -> None:
-    """Bricks lie level on a pier that is higher than wide, too."""
+    """Bricks lie level even on a pier that is higher than wide."""
     a = assembly()
     a.box((0.0, 0.0, 0.0), (0.3, 0.2, 3.0), "brick", GREY)
     (part,) = a.parts["brick"]

@@ -1,7 +1,7 @@
-"""Read by Python at its start where a clock may be set wrong; see `tests.chaos.clock`.
+"""Module that Python loads at its start in processes whose clock may be set wrong; `tests.chaos.clock` adds it.
 
-Python sleeps until a monotonic time by clock_nanosleep, which libfaketime 0.9.10 gets wrong even where it is told to
-leave monotonic clocks alone: the call fails. It does no harm to select.
+Python's sleep waits for a monotonic time with clock_nanosleep. libfaketime 0.9.10 makes that call fail, even if it is
+told to leave monotonic clocks alone. It does no harm to select, which replaces the call here.
 """
 
 import select

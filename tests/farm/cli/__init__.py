@@ -2,5 +2,5 @@
 
 import pytest
 
-# Only tests and conftest.py have their asserts explained unasked.
+# By default pytest explains the asserts of tests and of conftest.py only.
 pytest.register_assert_rewrite("tests.farm.cli.result")

@@ -1,4 +1,4 @@
-"""What the tests of the commands share: a way to run one, and a finished dataset."""
+"""Shared fixtures of the commands' tests: a way to run one, and a finished dataset."""
 
 import signal
 import sys
@@ -15,7 +15,7 @@ from worker.service.upload import upload
 
 @pytest.fixture
 def farm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Farm:
-    """Runs a command in a folder of its own, in this process, which saves a start for each."""
+    """A function that runs a command in a folder of its own, in this process, which saves a start."""
     monkeypatch.chdir(tmp_path)
     for name in ("FARM_BROKER_URL", "FARM_STORE", "FARM_ASSETS", "FARM_LOGS"):
         monkeypatch.delenv(name, raising=False)
@@ -23,7 +23,7 @@ def farm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capture
     monkeypatch.setattr(signal, "signal", lambda *_: None)
 
     def run(*arguments: str) -> Result:
-        capsys.readouterr()  # what fixtures printed
+        capsys.readouterr()  # discard what fixtures printed
         monkeypatch.setattr(sys, "argv", ["farm", *arguments])
         with pytest.raises(SystemExit) as ended:
             main()

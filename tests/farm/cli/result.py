@@ -1,4 +1,4 @@
-"""How a command ended, and what the tests of all commands ask of that."""
+"""The result of a command, and the assertions that the tests of all commands share."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ USAGE = 2
 
 @dataclass(frozen=True)
 class Result:
-    """How a command ended."""
+    """The result of a command."""
 
     returncode: int
     stdout: str
@@ -19,7 +19,7 @@ Farm = Callable[..., Result]
 
 
 def assert_refused(result: Result, code: int, *words: str) -> None:
-    """The command ended with this code, in one line on standard error that has these words."""
+    """Assert that the command ended with this code and one line on standard error that holds these words."""
     assert result.returncode == code, result.stderr
     lines = result.stderr.strip().splitlines()
     assert len(lines) == 1, result.stderr

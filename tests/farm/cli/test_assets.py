@@ -18,12 +18,12 @@ from tests.stand_in import stand_in_header
 
 
 def test_assets_to_check(farm: Farm) -> None:
-    """Without a folder there is nothing to check."""
+    """Without a folder the command says that there is nothing to check."""
     assert_refused(farm("assets", "check"), SpecError.exit_code, "--textures DIR")
 
 
 def test_photographs_are_checked(farm: Farm, tmp_path: Path) -> None:
-    """Each is told with its size; one that can't be used is refused."""
+    """Each photograph is listed with its size, and an unusable one is refused."""
     Image.new("RGB", (400, 300)).save(tmp_path / "lab.jpg")
     assert farm("assets", "check", "--backgrounds", str(tmp_path)).stdout == "photograph lab: 400 x 300\n"
     Image.new("RGB", (40, 30)).save(tmp_path / "thumb.jpg")
@@ -32,7 +32,7 @@ def test_photographs_are_checked(farm: Farm, tmp_path: Path) -> None:
 
 
 def test_assets_are_listed(farm: Farm) -> None:
-    """The list has surfaces and HDRIs, and tells which are drawn."""
+    """The list has surfaces and HDRIs, and says which are drawn."""
     result = farm("assets", "list")
     assert result.returncode == 0
     assert "not yet" in result.stdout
@@ -40,7 +40,7 @@ def test_assets_are_listed(farm: Farm) -> None:
 
 
 def test_environments_are_listed(farm: Farm) -> None:
-    """With what they show."""
+    """Each environment is listed with its content."""
     result = farm("assets", "list")
     assert "switch_room_2" in result.stdout
     assert "switch room" in result.stdout
@@ -48,7 +48,7 @@ def test_environments_are_listed(farm: Farm) -> None:
 
 @pytest.fixture
 def asked(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
-    """What the worker's program is asked for; no surface is drawn."""
+    """Requests to the worker's program; no surface is drawn."""
     calls: list[list[str]] = []
     monkeypatch.setattr(
         importlib.import_module("farm.cli.assets"),
@@ -66,7 +66,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
 
 
 def test_a_build_renders_the_environments(farm: Farm, asked: list[list[str]], monkeypatch: pytest.MonkeyPatch) -> None:
-    """All that are missing, at the size asked for, in the folder of the surfaces."""
+    """A build renders all missing environments, at the size asked for, in the folder of the surfaces."""
     monkeypatch.setattr(importlib.import_module("farm.cli.assets"), "blender_is_installed", lambda: True)
     result = farm("assets", "build", "--assets", "here", "--pixels", "128")
     assert result.returncode == 0, result.stderr
@@ -77,13 +77,13 @@ def test_a_build_renders_the_environments(farm: Farm, asked: list[list[str]], mo
 
 
 def test_a_build_without_environments(farm: Farm, asked: list[list[str]]) -> None:
-    """They can be left out."""
+    """A build may leave environments out."""
     assert farm("assets", "build", "--no-environments").returncode == 0
     assert asked == []
 
 
 def test_a_build_without_blender(farm: Farm, asked: list[list[str]], monkeypatch: pytest.MonkeyPatch) -> None:
-    """A coordinator that renders nothing needs no environments; it is told so."""
+    """Without Blender the environments are skipped with a message, as a coordinator doesn't need them."""
     monkeypatch.setattr(importlib.import_module("farm.cli.assets"), "blender_is_installed", lambda: False)
     result = farm("assets", "build")
     assert result.returncode == 0
@@ -92,7 +92,7 @@ def test_a_build_without_blender(farm: Farm, asked: list[list[str]], monkeypatch
 
 
 def test_a_dataset_gets_the_environments_that_it_names(asked: list[list[str]], tmp_path: Path) -> None:
-    """And no others, before it is rendered."""
+    """The environments that a dataset names are rendered before it starts, and no others."""
     room = HdriRef(name="office_2", path=None, dark=False, recipe_version=1)
     header = stand_in_header(far=1)
     baking.bake_for(header.model_copy(update={"hdris": (*header.hdris, room)}), tmp_path, Console(quiet=True))
@@ -104,7 +104,7 @@ def test_a_dataset_gets_the_environments_that_it_names(asked: list[list[str]], t
 def test_pictures_under_lamps_need_no_environment(
     asked: list[list[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """None is rendered for them."""
+    """A dataset under lamps renders no environment."""
     monkeypatch.setattr(baking, "bake", lambda *_: None)
     room = HdriRef(name="office_2", path=None, dark=False, recipe_version=1)
     header = stand_in_header(close_concentrated_light=1)

@@ -17,19 +17,19 @@ pytestmark = pytest.mark.redis
 
 @pytest.fixture
 def submitted(dataset: Dataset, redis_url: str, redis_client: "redis.Redis") -> RunHandle:
-    """A run of four images that wait."""
+    """A run of four waiting images."""
     handle = open_handle(dataset, redis_url, redis_client)
     Coordinator(dataset, handle).submit_missing()
     return handle
 
 
 def on_the_board(handle: RunHandle) -> Run:
-    """The run's notice."""
+    """The run's notice in the registry."""
     return handle.registry.runs()[handle.run.key]
 
 
 def test_pause_and_resume(farm: Farm, submitted: RunHandle, dataset: Dataset, redis_url: str) -> None:
-    """A paused run keeps its queue and says how to go on; resumed, it is active again."""
+    """A paused run keeps its queue and says how to resume; a resumed one is active again."""
     place = [dataset.storage.location, "--broker", redis_url]
     assert "4 images wait; farm resume" in farm("pause", *place).stdout
     assert on_the_board(submitted).state is RunState.PAUSED
@@ -39,7 +39,7 @@ def test_pause_and_resume(farm: Farm, submitted: RunHandle, dataset: Dataset, re
 
 
 def test_resume_with_a_priority(farm: Farm, submitted: RunHandle, dataset: Dataset, redis_url: str) -> None:
-    """A run may be resumed with another priority, which what waits already does not get; pausing keeps it."""
+    """Resuming with another priority affects later messages alone; pausing keeps the priority."""
     place = [dataset.storage.location, "--broker", redis_url]
     result = farm("resume", *place, "--priority", "high")
     assert "the 4 images that wait keep their priority" in result.stderr
@@ -50,7 +50,7 @@ def test_resume_with_a_priority(farm: Farm, submitted: RunHandle, dataset: Datas
 
 
 def test_cancel(farm: Farm, submitted: RunHandle, dataset: Dataset, redis_url: str) -> None:
-    """A cancelled run has an empty queue, and whoever looks is told so."""
+    """A cancelled run has an empty queue, and a watcher is told so."""
     result = farm("cancel", dataset.storage.location, "--broker", redis_url)
     assert "4 images were waiting" in result.stdout
     assert on_the_board(submitted).state is RunState.CANCELLED
@@ -59,7 +59,7 @@ def test_cancel(farm: Farm, submitted: RunHandle, dataset: Dataset, redis_url: s
 
 @pytest.mark.parametrize("command", ["pause", "resume", "cancel"])
 def test_no_run(farm: Farm, dataset: Dataset, redis_url: str, redis_client: "redis.Redis", command: str) -> None:
-    """Of a dataset of which nothing was submitted there is nothing to control, and nothing comes up."""
+    """Without a submission there is nothing to control, and no run is registered."""
     result = farm(command, dataset.storage.location, "--broker", redis_url)
     assert_refused(result, ConflictError.exit_code, "it was not submitted")
     assert RedisRegistry(redis_client).runs() == {}
@@ -67,5 +67,5 @@ def test_no_run(farm: Farm, dataset: Dataset, redis_url: str, redis_client: "red
 
 @pytest.mark.parametrize("command", ["pause", "resume", "cancel", "repair", "retry"])
 def test_no_dataset(farm: Farm, redis_url: str, command: str) -> None:
-    """Where there is no dataset, that is told."""
+    """Without a dataset the command says so."""
     assert_refused(farm(command, "data", "--broker", redis_url), DestinationError.exit_code, "no dataset here")

@@ -15,7 +15,7 @@ HELD = WorkerReport(name="a@b", state=WorkerState.HELD, reason="disk full")
 
 
 def progress(done: int) -> Progress:
-    """So many of four images."""
+    """Progress with this many of four images done."""
     return Progress(
         location="store/cables",
         spec_sha256="0" * 64,
@@ -35,12 +35,12 @@ def progress(done: int) -> Progress:
     ("seconds", "words"), [(0.4, "0 s"), (59.6, "1 min 00 s"), (95, "1 min 35 s"), (7500, "2 h 05 min")]
 )
 def test_duration(seconds: float, words: str) -> None:
-    """Seconds are told as people do."""
+    """Durations are written in the units that people use."""
     assert duration(seconds) == words
 
 
 def test_summary() -> None:
-    """One line has all that is known."""
+    """One line holds everything that is known."""
     assert summary(progress(3)) == "3 of 4 done, 1 running, 120 an hour, 1 min 35 s left, 1 failed"
 
 
@@ -56,18 +56,18 @@ def test_summary() -> None:
     ],
 )
 def test_summary_tells_what_holds_a_run_up(known: dict[str, object], words: str) -> None:
-    """A paused run, a Redis that is away and workers that are held back are told."""
+    """A paused run, an absent Redis and workers that are held back are mentioned."""
     assert summary(progress(3).model_copy(update=known)).endswith(f"1 failed, {words}")
 
 
 @pytest.mark.parametrize("known", [{"state": RunState.ACTIVE}, {"workers": (IDLE,)}])
 def test_summary_is_short_when_all_is_well(known: dict[str, object]) -> None:
-    """What is as it should be is not told."""
+    """Things that are in order aren't mentioned."""
     assert summary(progress(3).model_copy(update=known)) == summary(progress(3))
 
 
 def test_plain_lines_are_few() -> None:
-    """Without a terminal, many looks make few lines: the first and the last."""
+    """Without a terminal, many looks print few lines: the first and the last."""
     out = StringIO()
     with ProgressDisplay(Console(file=out, width=200)) as display:
         for done in (0, 1, 1, 2, 3, 4, 4):
@@ -78,7 +78,7 @@ def test_plain_lines_are_few() -> None:
 
 
 def test_bars_on_a_terminal() -> None:
-    """On a terminal each category that has a quota has a bar, and the last picture is told."""
+    """On a terminal each category with a quota has a bar, and the last picture is named."""
     out = StringIO()
     with ProgressDisplay(Console(file=out, width=200, force_terminal=True)) as display:
         display.show(progress(3))

@@ -1,4 +1,4 @@
-"""What the doctor finds."""
+"""The findings of `farm doctor`."""
 
 from importlib import import_module
 from pathlib import Path
@@ -7,17 +7,17 @@ import pytest
 
 from farm.cli.doctor import examine
 
-doctor = import_module("farm.cli.doctor")  # the package's own `doctor` is the command
+doctor = import_module("farm.cli.doctor")  # the package's own name `doctor` is the command
 
 
 @pytest.fixture(autouse=True)
 def no_blender_started(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Starting Blender takes seconds; its check is tried with the real one elsewhere."""
+    """Skip the check that starts Blender, which takes seconds; other tests run it for real."""
     monkeypatch.setattr(doctor, "_blender", lambda: doctor.Check(name="Blender", ok=True, needed=True, detail="4.5"))
 
 
 def test_every_lack_has_a_remedy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whatever is missing, the command that mends it is told; what is there needs none."""
+    """For everything that is missing the remedy is a command; nothing else has one."""
     monkeypatch.setattr(doctor, "find_redis_server", lambda: None)
     monkeypatch.setenv("FARM_ASSETS", str(tmp_path))
     checks = examine(tmp_path)
@@ -30,7 +30,7 @@ def test_every_lack_has_a_remedy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     ("device", "backend"), [("nvidia0", "optix or cuda"), ("kfd", "hip"), ("dri/renderD128", "oneapi"), (None, "CPU")]
 )
 def test_gpu(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, device: str | None, backend: str) -> None:
-    """The devices of the kernel tell which backends are worth a try."""
+    """The kernel's devices tell which backends are worth a try."""
     monkeypatch.setattr(doctor, "_DEVICES", tmp_path)
     monkeypatch.setenv("PATH", str(tmp_path))
     if device is not None:
@@ -40,7 +40,7 @@ def test_gpu(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, device: str | None
 
 
 def test_eevee_needs_a_driver(monkeypatch: pytest.MonkeyPatch) -> None:
-    """EGL without a driver below it is lacking, and the package is named."""
+    """EGL without a driver is reported, with the package that holds one."""
     monkeypatch.setattr("ctypes.CDLL", lambda _: None)
     monkeypatch.setattr(doctor, "_DRIVERS", ("nowhere/*.so",))
     assert doctor._egl().remedy.endswith("libgl1-mesa-dri")
@@ -49,7 +49,7 @@ def test_eevee_needs_a_driver(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_missing_libraries_are_named_with_their_packages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A library that the loader does not find is told with Debian's package."""
+    """A library that the loader doesn't find is reported with Debian's package."""
     ldd = tmp_path / "ldd"
     ldd.write_text("#!/bin/sh\necho '\tlibXi.so.6 => not found'\necho '\tlibc.so.6 => /lib/libc.so.6'\n")
     ldd.chmod(0o755)

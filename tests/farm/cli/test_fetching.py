@@ -13,7 +13,7 @@ from tests.farm.cli.result import Farm, assert_refused
 
 @pytest.fixture
 def server(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[ShelfServer]:
-    """One that has the HDRI `hall`."""
+    """A server that has the HDRI `hall`."""
     monkeypatch.setenv("no_proxy", "*")
     with shelf_server() as running:
         running.put("/hall", panorama(tmp_path))
@@ -22,7 +22,7 @@ def server(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[ShelfSer
 
 @pytest.fixture
 def registry(server: ShelfServer, tmp_path: Path) -> str:
-    """One of one's own, which has `hall`, and `yard` that the server lacks."""
+    """A registry with `hall`, and with `yard`, which the server lacks."""
     content = panorama(tmp_path)
     path = tmp_path / "mine.toml"
     path.write_text(
@@ -37,7 +37,7 @@ def registry(server: ShelfServer, tmp_path: Path) -> str:
 
 
 def test_what_there_is(farm: Farm) -> None:
-    """The list asks no server."""
+    """The list doesn't ask the server."""
     result = farm("assets", "fetch", "--list")
     assert result.returncode == 0
     assert "forest_slope" in result.stdout
@@ -45,7 +45,7 @@ def test_what_there_is(farm: Farm) -> None:
 
 
 def test_an_hdri_is_fetched_to_the_cache(farm: Farm, registry: str, tmp_path: Path) -> None:
-    """The command tells what happened and which option takes the folder; `farm assets check` takes it too."""
+    """The command names the file and the option for its folder, which `farm assets check` takes, too."""
     result = farm("assets", "fetch", "hall", "--registry", registry)
     assert result.returncode == 0, result.stderr
     folder = tmp_path / "cache" / "cable-farm" / "fetched" / "hdris"
@@ -58,7 +58,7 @@ def test_an_hdri_is_fetched_to_the_cache(farm: Farm, registry: str, tmp_path: Pa
 
 
 def test_one_failure_does_not_keep_the_others(farm: Farm, registry: str, tmp_path: Path) -> None:
-    """It is told, and decides the exit code."""
+    """A failure is reported and decides the exit code, and the other assets are fetched."""
     result = farm("assets", "fetch", "--registry", registry, "--to", "here")
     assert result.returncode == AssetError.exit_code
     assert (tmp_path / "here" / "hdris" / "hall.hdr").is_file()
@@ -68,7 +68,7 @@ def test_one_failure_does_not_keep_the_others(farm: Farm, registry: str, tmp_pat
 
 
 def test_a_single_failure_is_one_line(farm: Farm, registry: str) -> None:
-    """As with every command."""
+    """A single failure is one line on standard error, as with every command."""
     result = farm("assets", "fetch", "yard", "--registry", registry)
     assert_refused(result, AssetError.exit_code, "yard: ", "/yard: answered 404", "--mirror")
 
@@ -82,5 +82,5 @@ def test_a_single_failure_is_one_line(farm: Farm, registry: str) -> None:
     ],
 )
 def test_wrong_use_is_refused(farm: Farm, options: list[str], words: list[str]) -> None:
-    """Before anything is asked for."""
+    """Wrong use is refused before the server is asked."""
     assert_refused(farm("assets", "fetch", *options), AssetError.exit_code, *words)

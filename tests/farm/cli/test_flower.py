@@ -24,7 +24,7 @@ EVERYWHERE = "0.0.0.0"  # noqa: S104  # nothing is bound to it here
 
 @contextmanager
 def flower(redis_url: str, *, password: str | None) -> Iterator[str]:
-    """Run the real Flower by the farm's command inside `with`; yields its address."""
+    """Run the real Flower with the farm's command within the context; yields its address."""
     port = free_port()
     command = [sys.executable, "-P", "-m", "farm", "flower", "--broker", redis_url, f"--port={port}"]
     environment = {key: value for key, value in os.environ.items() if key != "FLOWER_BASIC_AUTH"}
@@ -64,7 +64,7 @@ def status(url: str, user: str | None = None, method: str = "GET") -> int | None
 
 @pytest.mark.redis
 def test_flower_asks_for_the_password(redis_url: str) -> None:
-    """401 without it or with another, for pages and for commands to workers; with it, pages."""
+    """Pages and commands to workers answer 401 without the right password; with it pages are shown."""
     with flower(redis_url, password=PASSWORD) as url:
         for place, method in (("/workers", "GET"), ("/api/workers", "GET"), ("/api/worker/shutdown/x", "POST")):
             assert status(url + place, None, method) == 401
@@ -74,7 +74,7 @@ def test_flower_asks_for_the_password(redis_url: str) -> None:
 
 @pytest.mark.redis
 def test_flower_without_a_password_stays_on_this_machine(redis_url: str) -> None:
-    """Unless told, it listens on 127.0.0.1 and nowhere else; and takes no commands to workers."""
+    """By default Flower listens on 127.0.0.1 alone, and takes no commands to workers."""
     with flower(redis_url, password=None) as url:
         port = int(url.rpartition(":")[2])
         assert status(f"{url}/workers") == 200
@@ -84,13 +84,13 @@ def test_flower_without_a_password_stays_on_this_machine(redis_url: str) -> None
 
 @pytest.mark.parametrize("address", [EVERYWHERE, "::", "", "192.168.0.1", "example.org", "127.0.0.1.example.org"])
 def test_the_network_needs_a_password(farm: Farm, monkeypatch: pytest.MonkeyPatch, address: str) -> None:
-    """Refused before anything is started, with what to set."""
+    """The network without a password is refused before anything starts, and the error says what to set."""
     monkeypatch.delenv("FLOWER_BASIC_AUTH", raising=False)
     assert_refused(farm("flower", f"--address={address}"), SpecError.exit_code, "FLOWER_BASIC_AUTH", "127.0.0.1")
 
 
 def test_the_network_is_let_in_with_a_password(farm: Farm, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Then the next thing to fail is Redis, which isn't there."""
+    """With a password the network is allowed, and the missing Redis is the next error."""
     monkeypatch.setenv("FLOWER_BASIC_AUTH", PASSWORD)
     refused = farm("flower", f"--address={EVERYWHERE}", "--broker", "redis://127.0.0.1:1/0")
     assert_refused(refused, BrokerError.exit_code, "no Redis at")
@@ -99,7 +99,7 @@ def test_the_network_is_let_in_with_a_password(farm: Farm, monkeypatch: pytest.M
 @pytest.mark.parametrize("password", ["hush", ":", "me:", ":hush", "me:hush,"])
 @pytest.mark.parametrize("address", ["127.0.0.1", EVERYWHERE])
 def test_half_a_password_is_none(farm: Farm, monkeypatch: pytest.MonkeyPatch, address: str, password: str) -> None:
-    """User and password, both with something in them; the text isn't repeated."""
+    """User and password must both be non-empty; the error doesn't repeat the text."""
     monkeypatch.setenv("FLOWER_BASIC_AUTH", password)
     result = farm("flower", f"--address={address}")
     assert_refused(result, SpecError.exit_code, "USER:PASSWORD")

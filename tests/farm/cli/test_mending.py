@@ -1,4 +1,4 @@
-"""`farm repair`, `farm retry` and what `farm replay` refuses."""
+"""`farm repair`, `farm retry` and the refusals of `farm replay`."""
 
 from pathlib import Path
 
@@ -28,7 +28,7 @@ def lacking(made: Dataset) -> Dataset:
 
 
 def queued(dataset: Dataset, redis_url: str, client: "redis.Redis") -> list[str]:
-    """The images that wait."""
+    """The waiting images."""
     handle = open_handle(dataset, redis_url, client)
     return sorted(job.id for job in handle.queue.queued(handle.run))
 
@@ -45,7 +45,7 @@ def test_repair_queues_what_is_missing(farm: Farm, made: Dataset, redis_url: str
 
 @pytest.mark.redis
 def test_repair_of_a_whole_dataset(farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
-    """Nothing of a whole dataset is touched or queued, checksums and all."""
+    """A repair touches and queues nothing of a whole dataset, also with checksums."""
     before = made.storage.files()
     result = farm("repair", made.storage.location, "--checksums", "--broker", redis_url)
     assert result.stdout.startswith("0 of 4 images queued")
@@ -55,14 +55,14 @@ def test_repair_of_a_whole_dataset(farm: Farm, made: Dataset, redis_url: str, re
 
 @pytest.mark.redis
 def test_repair_leaves_the_given_up(farm: Farm, lacking: Dataset, redis_url: str) -> None:
-    """What was given up is not queued by a repair."""
+    """A repair doesn't queue jobs that were given up."""
     result = farm("repair", lacking.storage.location, "--broker", redis_url)
     assert result.stdout.startswith("0 of 4 images queued")
 
 
 @pytest.mark.redis
 def test_retry_of_one(farm: Farm, lacking: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
-    """The image that is named is put back and queued, with its attempts forgotten; the other stays given up."""
+    """The named image is put back and queued with no attempts counted; the other stays given up."""
     handle = open_handle(lacking, redis_url, redis_client)
     handle.ledger.claim(JOB.id, "a:1")
     handle.ledger.release(JOB.id, "a:1")
@@ -75,7 +75,7 @@ def test_retry_of_one(farm: Farm, lacking: Dataset, redis_url: str, redis_client
 
 @pytest.mark.redis
 def test_retry_of_all(farm: Farm, lacking: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
-    """Without a name all are put back."""
+    """Without a name all images are put back."""
     result = farm("retry", lacking.storage.location, "--broker", redis_url)
     assert result.stdout.startswith("2 images put back; 2 queued"), result.stderr
     assert queued(lacking, redis_url, redis_client) == [OTHER.id, JOB.id]
@@ -83,7 +83,7 @@ def test_retry_of_all(farm: Farm, lacking: Dataset, redis_url: str, redis_client
 
 
 def test_retry_without_redis(farm: Farm, lacking: Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where no Redis is, images are put back for whoever comes next."""
+    """Without Redis, images are put back for the next run."""
     monkeypatch.setenv("FARM_BROKER_URL", "redis://127.0.0.1:1/0")
     result = farm("retry", lacking.storage.location)
     assert result.stdout.startswith("2 images put back; farm run or farm submit"), result.stderr
@@ -91,7 +91,7 @@ def test_retry_without_redis(farm: Farm, lacking: Dataset, monkeypatch: pytest.M
 
 
 def test_retry_with_a_redis_that_is_not_there(farm: Farm, lacking: Dataset) -> None:
-    """A Redis that was asked for and is not there ends the command."""
+    """A named Redis that isn't there ends the command."""
     result = farm("retry", lacking.storage.location, "--broker", "redis://127.0.0.1:1/0")
     assert "127.0.0.1:1" in result.stderr
     assert result.returncode == 8
@@ -105,7 +105,7 @@ def test_retry_with_a_redis_that_is_not_there(farm: Farm, lacking: Dataset) -> N
 def test_retry_of_what_was_not_given_up(
     farm: Farm, lacking: Dataset, job_id: str, kind: type[SpecError] | type[MessageError], words: str
 ) -> None:
-    """A name that is not in quarantine is refused, and nothing is put back, not even what is."""
+    """A name that isn't in quarantine is refused, and nothing is put back, not even the names that are."""
     assert_refused(farm("retry", lacking.storage.location, JOB.id, job_id), kind.exit_code, words)
     assert len(Quarantine(lacking).look()) == 2
 
@@ -121,7 +121,7 @@ def test_retry_of_what_was_not_given_up(
 def test_replay_that_cannot_be(
     farm: Farm, made: Dataset, tmp_path: Path, job_id: str, options: list[str], kind: type[SpecError], words: str
 ) -> None:
-    """What can't be replayed is refused before Blender is loaded, and the dataset stays as it is."""
+    """An impossible replay is refused before Blender is loaded, and the dataset stays as it is."""
     before = made.storage.files()
     assert_refused(farm("replay", made.storage.location, job_id, *options), kind.exit_code, words)
     assert made.storage.files() == before

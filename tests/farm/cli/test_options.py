@@ -1,4 +1,4 @@
-"""The options and the file that describe a dataset: what makes no sense is refused by its name."""
+"""The options and the file that describe a dataset: nonsense is refused by the name of the option or key."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from tests.farm.cli.result import USAGE, Farm, assert_refused
 
 
 def write_toml(folder: Path, text: str) -> str:
-    """A description in a file."""
+    """Write a description's file."""
     (folder / "cables.toml").write_text(text)
     return "cables.toml"
 
@@ -34,7 +34,7 @@ def write_toml(folder: Path, text: str) -> str:
 )
 @pytest.mark.parametrize("command", ["run", "submit"])
 def test_bad_flags(farm: Farm, tmp_path: Path, command: str, options: list[str], words: list[str]) -> None:
-    """A description that makes no sense is refused with the flag and what was wrong with it."""
+    """The error names the flag and what is wrong with it."""
     assert_refused(farm(command, *options, "--out", "data"), SpecError.exit_code, *words)
     assert list(tmp_path.iterdir()) == []
 
@@ -49,7 +49,7 @@ def test_bad_flags(farm: Farm, tmp_path: Path, command: str, options: list[str],
     ],
 )
 def test_bad_usage(farm: Farm, tmp_path: Path, options: list[str]) -> None:
-    """A flag of the wrong type, or that does not exist, is wrong usage."""
+    """A flag that doesn't exist, or has a value of the wrong type, is wrong usage."""
     assert farm("run", *options, "--out", "data").returncode == USAGE
     assert list(tmp_path.iterdir()) == []
 
@@ -70,14 +70,14 @@ def test_bad_usage(farm: Farm, tmp_path: Path, options: list[str]) -> None:
     ],
 )
 def test_bad_file(farm: Farm, tmp_path: Path, text: str, words: list[str]) -> None:
-    """A wrong file is refused with its name, the key and what was wrong with it."""
+    """The error names the file, the key and what is wrong with it."""
     file = write_toml(tmp_path, text)
     assert_refused(farm("run", file, "--out", "data"), SpecError.exit_code, *words)
     assert [path.name for path in tmp_path.iterdir()] == ["cables.toml"]
 
 
 def test_no_file(farm: Farm) -> None:
-    """A description that is not there is named."""
+    """The error names a description that isn't there."""
     assert_refused(farm("run", "none.toml", "--out", "data"), SpecError.exit_code, "none.toml")
 
 
@@ -92,7 +92,7 @@ def test_file_and_flags(farm: Farm, tmp_path: Path) -> None:
     ("content", "words"), [(None, ["No such file"]), (b"", [".blend"]), (b"<html>", ["not a .blend file"])]
 )
 def test_bad_template(farm: Farm, tmp_path: Path, content: bytes | None, words: list[str]) -> None:
-    """A template that is not there, or is no .blend file, is refused by its name."""
+    """A template that isn't there, or isn't a .blend file, is refused by its name."""
     inputs = tmp_path / "inputs"
     inputs.mkdir()
     if content is not None:
@@ -115,7 +115,7 @@ def test_bad_template(farm: Farm, tmp_path: Path, content: bytes | None, words: 
     ],
 )
 def test_bad_assets(farm: Farm, tmp_path: Path, flag: str, name: str | None, content: bytes) -> None:
-    """A texture that is no image, a truncated HDRI or photograph and an empty folder are refused by their names."""
+    """A texture that isn't an image, a truncated HDRI or photograph and an empty folder are refused by their names."""
     inputs = tmp_path / "inputs"
     inputs.mkdir()
     if name is not None:

@@ -1,4 +1,4 @@
-"""`farm run`, and what `farm submit` and `farm worker` refuse as it does."""
+"""`farm run`, and the refusals that `farm submit` and `farm worker` share with it."""
 
 import importlib
 from pathlib import Path
@@ -18,7 +18,7 @@ from tests.farm.cli.result import Farm, assert_refused
 def test_destination_that_cannot_be_written(
     farm: Farm, tmp_path: Path, redis_url: str, redis_client: "redis.Redis", command: str
 ) -> None:
-    """A place below a file can't be written, which is told before anything is queued."""
+    """A place below a file is refused before anything is queued."""
     (tmp_path / "file").write_text("")
     broker = ["--broker", redis_url] if command == "submit" else []
     result = farm(command, "--quota", "far=1", "--out", "file/data", *broker)
@@ -65,7 +65,7 @@ def test_name_that_is_none(farm: Farm) -> None:
     ],
 )
 def test_threads_of_each_worker(farm: Farm, monkeypatch: pytest.MonkeyPatch, options: list[str], threads: int) -> None:
-    """As told, else the cores divided by the workers, one a core by default, and at least one."""
+    """Threads are as given, else the cores divided by the workers, which are one per core by default; at least 1."""
     used: list[int] = []
 
     def note(_: object, __: object, how: LocalRun, ___: object) -> None:

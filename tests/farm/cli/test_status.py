@@ -18,18 +18,18 @@ from farm.run.registry.redis import RedisRegistry
 from farm.spec.job import Job
 from tests.farm.cli.result import Farm, assert_refused
 
-submit_command = import_module("farm.cli.submit")  # the package's own `submit` is the command
+submit_command = import_module("farm.cli.submit")  # the package's own name `submit` is the command
 
 
 @pytest.mark.parametrize("command", ["status", "verify", "report"])
 def test_no_dataset(farm: Farm, tmp_path: Path, command: str) -> None:
-    """Commands on a dataset say when there is none."""
+    """A command on a dataset says if there is none."""
     assert_refused(farm(command, "data"), DestinationError.exit_code, "no dataset here")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_status(farm: Farm, made: Dataset) -> None:
-    """Without Redis the folder alone tells how far a dataset is."""
+    """Without Redis the folder alone shows the progress."""
     result = farm("status", made.storage.location, "--json")
     progress = json.loads(result.stdout)
     assert progress["categories"]["far"] == {"done": 2, "quota": 2}
@@ -39,7 +39,7 @@ def test_status(farm: Farm, made: Dataset) -> None:
 
 @pytest.mark.redis
 def test_status_names_the_last_picture(farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
-    """Of a finished dataset, too, the newest picture is told by a path that can be opened from anywhere."""
+    """Even for a finished dataset, the newest picture's path can be opened from anywhere."""
     ledger = RedisLedger(redis_client, made.name, made.header.spec_sha256)
     ledger.claim("far-000001", "a:1")
     ledger.finish("far-000001", "a:1", "far/images/far-000001.png")
@@ -53,7 +53,7 @@ def test_status_names_the_last_picture(farm: Farm, made: Dataset, redis_url: str
 def test_watch_and_submit_leave_index_and_report(
     farm: Farm, made: Dataset, redis_url: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Whoever waits for the end of a dataset finds its index and page, as after `farm run`."""
+    """After watching or waiting for a dataset its index and page exist, as after `farm run`."""
     monkeypatch.setattr(submit_command, "make_header", lambda *_: made.header)
     commands = [("watch", made.storage.location), ("submit", "--images", "1", "--out", made.storage.location, "--wait")]
     for arguments in commands:
@@ -66,7 +66,7 @@ def test_watch_and_submit_leave_index_and_report(
 
 @pytest.mark.redis
 def test_watch_of_a_failure_leaves_index_and_report(farm: Farm, made: Dataset, redis_url: str) -> None:
-    """What could be made is listed though the rest failed."""
+    """The images that were made are listed, even if the others failed."""
     made.storage.remove("far/manifests/far-000001.json")
     job = Job.from_id("far-000001")
     put_in_quarantine(made, job, "no scene passed", attempts=1, worker="host:1", log="")
@@ -85,7 +85,7 @@ def test_watch_ends_with_the_dataset(farm: Farm, made: Dataset, redis_url: str) 
 
 
 def test_status_names_the_given_up(farm: Farm, made: Dataset) -> None:
-    """Without Redis, too, the given-up images are told with their reasons, for people and for programs."""
+    """Even without Redis, given-up images are listed with their reasons, for people and for programs."""
     job = Job.from_id("far-000001")
     made.storage.remove("far/manifests/far-000001.json")
     put_in_quarantine(made, job, "no scene passed", attempts=1, worker="host:1", log="")
@@ -98,7 +98,7 @@ def test_status_names_the_given_up(farm: Farm, made: Dataset) -> None:
 def test_status_tells_of_workers_and_state(
     farm: Farm, dataset: Dataset, redis_url: str, redis_client: "redis.Redis"
 ) -> None:
-    """A paused run says so, and each worker what it does and why it does nothing."""
+    """A paused run says so, and each worker says what it does or why it does nothing."""
     registry = RedisRegistry(redis_client)
     registry.register(run_of(dataset).model_copy(update={"state": RunState.PAUSED}))
     registry.report(WorkerReport(name="one@host", state=WorkerState.HELD, reason="disk full", done=7))

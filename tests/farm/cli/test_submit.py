@@ -11,8 +11,8 @@ from tests.farm.cli.result import Farm, assert_refused
 
 @pytest.mark.redis
 def test_submit_queues_once(farm: Farm, redis_url: str, redis_client: object) -> None:
-    """A submission is queued; repeated, nothing is added; described otherwise, it is refused."""
-    del redis_client  # empties the queue
+    """A submission is queued; a repeated one adds nothing, and another description is refused."""
+    del redis_client  # this fixture empties the queue
     options = ["--out", "data", "--broker", redis_url]
     first = farm("submit", "--images", "12", *options)
     assert first.stdout.startswith("12 of 12 images queued"), first.stderr
@@ -24,7 +24,7 @@ def test_submit_queues_once(farm: Farm, redis_url: str, redis_client: object) ->
 
 @pytest.mark.redis
 def test_submit_again_goes_on(farm: Farm, redis_url: str, redis_client: "redis.Redis") -> None:
-    """A cancelled run goes on when it is submitted again, with the priority then asked for."""
+    """A cancelled run continues when it is submitted again, with the new priority."""
     options = ["--images", "12", "--out", "data", "--broker", redis_url]
     farm("submit", *options)
     assert farm("cancel", "data", "--broker", redis_url).returncode == 0

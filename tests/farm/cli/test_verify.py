@@ -13,7 +13,7 @@ from tests.farm.cli.result import Farm, assert_refused
 
 
 def test_verify_clean(farm: Farm, made: Dataset) -> None:
-    """A finished dataset passes, with its index and report in it."""
+    """A finished dataset passes, and its index and report count as its own files."""
     write_index(made)
     assert farm("report", made.storage.location).returncode == 0
     result = farm("verify", made.storage.location)
@@ -22,7 +22,7 @@ def test_verify_clean(farm: Farm, made: Dataset) -> None:
 
 
 def test_verify_finds(farm: Farm, made: Dataset) -> None:
-    """A missing and an extra file are listed, and the exit code tells."""
+    """A missing and an extra file are listed, and the exit code says so."""
     made.storage.remove("far/masks/far-000001.png")
     made.storage.write("far/stray.txt", b"")
     result = farm("verify", made.storage.location)
@@ -38,7 +38,7 @@ def test_verify_finds(farm: Farm, made: Dataset) -> None:
 
 
 def test_verify_of_a_dataset_with_given_up_images(farm: Farm, made: Dataset) -> None:
-    """A dataset whose only lack is what was given up ends with a code of its own, and says what to do."""
+    """A dataset that lacks only given-up images has an exit code of its own, and the output says what to do."""
     job = Job.from_id("far-000001")
     for path in (manifest_path(job), *(file_path(job, output) for output in OUTPUTS)):
         made.storage.remove(path)

@@ -1,4 +1,4 @@
-"""The worker's program, started by a command: its errors stay what they are."""
+"""The worker's program as a command starts it: its errors keep their kind."""
 
 import sys
 from pathlib import Path
@@ -20,7 +20,7 @@ KINDS = [
 def test_worker_program_keeps_its_kind_of_error(
     kind: type[FarmError], header: DatasetHeader, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Each of the farm's errors crosses from the worker's program to the command line, with its code and words."""
+    """Each of the farm's errors passes from the worker's program to the command line, with its code and words."""
     program = [sys.executable, "-c", f"import sys; sys.stderr.write('why'); sys.exit({kind.exit_code})"]
     monkeypatch.setattr(worker_program, "WORKER_COMMAND", program)
     with pytest.raises(kind, match="why") as refused:
@@ -30,7 +30,7 @@ def test_worker_program_keeps_its_kind_of_error(
 
 @pytest.mark.parametrize("command", ["check", "preview"])
 def test_worker_program_without_a_place_for_logs(command: str, header: DatasetHeader, tmp_path: Path) -> None:
-    """A log folder that can't be made is one clear line, not a traceback."""
+    """A log folder that can't be made gives one line and no traceback."""
     (tmp_path / "file").write_text("")
     options = ["--job", "far-000000", "--out", "x.png"] if command == "preview" else []
     with pytest.raises(DestinationError, match=r"^\S*file/logs: can't write logs[^\n]*$"):

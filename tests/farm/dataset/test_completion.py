@@ -1,4 +1,4 @@
-"""Which jobs are done: what a look finds, and what only an audit does."""
+"""Done jobs: what a look finds, and what only an audit finds."""
 
 import os
 import time
@@ -26,7 +26,7 @@ OTHERS = ALL[:-1]
 
 
 def make(dataset: Dataset, job: Job, *, seed: int = 0) -> None:
-    """Make one job, with the pixels of a seed."""
+    """Make one job, with pixels from a seed."""
     header = stand_in_header(seed=seed)
     upload(StandInRenderer().make(job, header), job, dataset)
 
@@ -58,12 +58,12 @@ def test_finished_dataset(made: Dataset, kind: str) -> None:
 
 @pytest.mark.parametrize("kind", ["look", "audit"])
 def test_empty_dataset(dataset: Dataset, kind: str) -> None:
-    """Nothing is done where nothing was made, and no folder yet is no error."""
+    """A dataset without any image, or without its folder, has no done job, and that is no error."""
     assert ids(getattr(Completion(dataset), kind)()) == []
 
 
 def test_look_finds_what_is_new(dataset: Dataset) -> None:
-    """A job counts from the first look after its manifest is there, and no more once that is gone."""
+    """A job counts from the first look after its manifest exists, and no longer once the manifest is gone."""
     completion = Completion(dataset)
     completion.look()
     make(dataset, JOB)
@@ -110,7 +110,7 @@ def test_audit_reads_what_changed(made: Dataset, output: Output) -> None:
 
 
 def test_damaged_job_that_was_made_again(made: Dataset) -> None:
-    """A look sees that a job that was damaged has been made again, with pictures of other sizes even."""
+    """A look sees that a damaged job has been made again, even with pictures of other sizes."""
     completion = Completion(made)
     made.storage.remove(file_path(JOB, IMAGE))
     assert ids(completion.audit()) == OTHERS
@@ -120,7 +120,7 @@ def test_damaged_job_that_was_made_again(made: Dataset) -> None:
 
 
 def test_picture_that_came_back(made: Dataset) -> None:
-    """A picture that is whole again counts from the next audit, as its manifest has not changed."""
+    """A picture that is whole again counts from the next audit, although its manifest hasn't changed."""
     completion = Completion(made)
     path = file_path(JOB, IMAGE)
     content = made.storage.read(path)
@@ -176,7 +176,7 @@ def test_manifest_of_another_dataset(made: Dataset, tmp_path: Path) -> None:
     ],
 )
 def test_foreign_names_count_for_nothing(dataset: Dataset, made: Dataset, path: str) -> None:
-    """Files that are of no job, or not where a job's lie, change nothing."""
+    """Files that belong to no job, or don't lie where a job's do, change nothing."""
     made.storage.write(path, made.storage.read(manifest_path(JOB)))
     assert ids(Completion(made).audit()) == ALL
     made.storage.remove(manifest_path(JOB))
@@ -184,7 +184,7 @@ def test_foreign_names_count_for_nothing(dataset: Dataset, made: Dataset, path: 
 
 
 def test_manifest_is_read_once(made: Dataset) -> None:
-    """What has not changed is not read again, by looks or audits; what was touched is."""
+    """Looks and audits don't read an unchanged manifest again, and do read a touched one."""
     read: list[str] = []
 
     class Recording(LocalStorage):
@@ -205,7 +205,7 @@ def test_manifest_is_read_once(made: Dataset) -> None:
 
 
 class GrowingStorage(LocalStorage):
-    """Another process acts before one folder is listed."""
+    """A storage in which another process acts before one folder is listed."""
 
     def __init__(self, root: Path, watched: str, act: Callable[[], None]) -> None:
         super().__init__(root)
@@ -213,7 +213,7 @@ class GrowingStorage(LocalStorage):
         self._act: Callable[[], None] | None = act
 
     def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
-        """See `Storage.files`."""
+        """Implement `Storage.files`."""
         if under == self._watched and self._act is not None:
             act, self._act = self._act, None
             act()
@@ -221,13 +221,13 @@ class GrowingStorage(LocalStorage):
 
 
 def test_job_that_is_made_during_an_audit(dataset: Dataset) -> None:
-    """A job whose files come between the listings of manifests and of pictures is done, not damaged."""
+    """A job whose files appear between the listings of manifests and of pictures is done and not damaged."""
     storage = GrowingStorage(Path(dataset.storage.location), "far/images", lambda: make(dataset, JOB))
     assert ids(Completion(replace(dataset, storage=storage)).audit()) == [JOB.id]
 
 
 def test_done_by_checksum(made: Dataset) -> None:
-    """A single job is done when its files are those of its manifest to the last bit."""
+    """A single job is done if its files equal those of its manifest to the last bit."""
     assert is_done(made, JOB)
     path = file_path(JOB, IMAGE)
     content = bytearray(made.storage.read(path))
@@ -243,13 +243,13 @@ def test_done_by_checksum(made: Dataset) -> None:
     [("far/manifests/far-000001.json", "far-000001"), ("manifests/far-000001.json", None), ("far-000001.json", None)],
 )
 def test_job_of_a_path(path: str, job_id: str | None) -> None:
-    """A manifest's path tells its job if it lies in the job's place."""
+    """The path of a manifest gives its job if the manifest lies in the job's place."""
     job = job_of_manifest(path)
     assert (None if job is None else job.id) == job_id
 
 
 def test_leftovers(made: Dataset) -> None:
-    """Temporary files of done jobs go, and those that no living writer can own; others stay."""
+    """Temporary files of done jobs are removed, and those that no living writer can own; others stay."""
     made.storage.remove(manifest_path(JOB))
     folder = "far/images/.tmp-far-"
     for name in ("000000.png.host.1", "000001.png.host.1", "000001.png.host.2"):

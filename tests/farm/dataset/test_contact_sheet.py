@@ -13,7 +13,7 @@ from worker.service.upload import upload
 
 
 def test_a_row_for_each_category_with_a_quota(dataset: Dataset) -> None:
-    """Two categories of two pictures, 20 pixels wide with gaps of 4."""
+    """Two categories have a row of two pictures each, 20 pixels wide with gaps of 4."""
     for job in dataset.header.spec.jobs():
         upload(StandInRenderer().make(job, dataset.header), job, dataset)
     sheet = Image.open(io.BytesIO(make_contact_sheet(dataset, columns=4, edge_px=20)))
@@ -21,6 +21,6 @@ def test_a_row_for_each_category_with_a_quota(dataset: Dataset) -> None:
 
 
 def test_a_dataset_that_is_not_finished_has_no_sheet(dataset: Dataset) -> None:
-    """The first missing picture is named."""
+    """The error names the first missing picture."""
     with pytest.raises(IncompleteError, match="close_concentrated_light-000000"):
         make_contact_sheet(dataset, columns=4, edge_px=20)

@@ -1,4 +1,4 @@
-"""Laying down and opening datasets."""
+"""Creating and opening datasets."""
 
 from collections.abc import Callable
 
@@ -27,14 +27,14 @@ def destination(any_store: Callable[[str], str]) -> Destination:
 
 
 def test_opens_what_was_created(destination: Destination, header: DatasetHeader) -> None:
-    """A header survives the disk, fingerprint and all."""
+    """A header is the same after it was written and read, and so is its fingerprint."""
     create_dataset(destination, header)
     assert open_dataset(destination).header == header
     assert open_dataset(destination).header.spec_sha256 == header.spec_sha256
 
 
 def test_same_again(destination: Destination, header: DatasetHeader) -> None:
-    """The same description is welcome a second time, even from another version of the farm."""
+    """The same description is accepted a second time, even from another version of the farm."""
     create_dataset(destination, header)
     create_dataset(destination, header.model_copy(update={"farm_version": "9.9"}))
     assert open_dataset(destination).header.farm_version == header.farm_version
@@ -59,7 +59,7 @@ def test_foreign_files(destination: Destination, header: DatasetHeader) -> None:
 
 @pytest.mark.parametrize("content", [b"", b"{", b"[]", b'{"format": 2}', b"\xff\xfe"])
 def test_damaged_header(destination: Destination, header: DatasetHeader, content: bytes) -> None:
-    """A header that can't be read is refused, not replaced."""
+    """A header that can't be read is refused and not replaced."""
     open_storage(destination.location).write(HEADER_FILE, content)
     with pytest.raises(ConflictError):
         create_dataset(destination, header)
@@ -67,7 +67,7 @@ def test_damaged_header(destination: Destination, header: DatasetHeader, content
 
 
 def test_no_dataset(destination: Destination) -> None:
-    """Opening an empty place says what is missing."""
+    """Opening an empty place names what is missing."""
     with pytest.raises(DestinationError, match="no dataset here"):
         open_dataset(destination)
 
@@ -81,7 +81,7 @@ def test_message_of_another_description(destination: Destination, header: Datase
 
 
 def test_message_beyond_the_quota(destination: Destination, header: DatasetHeader) -> None:
-    """A worker refuses a job that the dataset does not ask for."""
+    """A worker refuses a job that the dataset doesn't ask for."""
     dataset = create_dataset(destination, header)
     with pytest.raises(MessageError, match="quotas"):
         open_for_message(destination.store, dataset.message(Job.from_id("far-000002")))

@@ -28,7 +28,7 @@ def record(dataset: Dataset, job: Job = JOB) -> QuarantineRecord:
 
 
 def test_record_survives(any_store: Callable[[str], str], header: DatasetHeader) -> None:
-    """A given-up job is told with its reason by whoever opens the folder, in a bucket too."""
+    """A record is read from the folder with its reason, also in a bucket."""
     place = Destination(any_store("store"), "cables")
     give_up(create_dataset(place, header))
     dataset = open_dataset(place)
@@ -38,7 +38,7 @@ def test_record_survives(any_store: Callable[[str], str], header: DatasetHeader)
 
 
 def test_record_tells_how_to_go_on(dataset: Dataset) -> None:
-    """A record has the job, its attempts, who gave it up, what it printed, and the command that makes it again."""
+    """A record holds the job, its attempts, who gave it up, its output, and the command that makes it again."""
     give_up(dataset)
     found = record(dataset)
     assert (found.dataset, found.job_id, found.attempts, found.worker) == ("cables", JOB.id, 3, "host:1")
@@ -48,7 +48,7 @@ def test_record_tells_how_to_go_on(dataset: Dataset) -> None:
 
 
 def test_long_texts_are_cut(dataset: Dataset) -> None:
-    """Of a long reason the beginning is kept, of a long log the end."""
+    """The beginning of a long reason is kept, and the end of a long log."""
     give_up(dataset, reason="a" + "b" * 5000, log="c" * LOG_LENGTH + "d")
     found = record(dataset)
     assert found.reason.startswith("ab")
@@ -59,12 +59,12 @@ def test_long_texts_are_cut(dataset: Dataset) -> None:
 
 
 def test_empty_quarantine(dataset: Dataset) -> None:
-    """Where nothing was given up, nothing is told."""
+    """An empty quarantine has no records."""
     assert Quarantine(dataset).look() == {}
 
 
 def test_new_and_changed_records(dataset: Dataset) -> None:
-    """Each look sees what came, changed and went since the last, in order."""
+    """Each look reports the records that are new, changed or gone since the last one, in order."""
     quarantine = Quarantine(dataset)
     give_up(dataset)
     assert quarantine.look() == {JOB.id: "no scene passed"}
@@ -79,21 +79,21 @@ def test_new_and_changed_records(dataset: Dataset) -> None:
 
 @pytest.mark.parametrize("content", [b"", b"{}", b"\xff\xfe", b"no json", b"[" * 100_000])
 def test_unreadable_record(dataset: Dataset, content: bytes) -> None:
-    """A job whose record is damaged is given up all the same, and the reason says so."""
+    """A job whose record is damaged still counts as given up, and the reason says so."""
     dataset.storage.write(quarantine_path(JOB), content)
     assert Quarantine(dataset).look() == {JOB.id: "its record in the quarantine folder can't be read"}
     assert is_in_quarantine(dataset, JOB)
 
 
 def test_record_of_another_job(dataset: Dataset) -> None:
-    """A record whose name is not its job's does not tell that job's reason."""
+    """A record whose name isn't its job's doesn't give that job's reason."""
     give_up(dataset, OTHER, reason="its own")
     dataset.storage.write(quarantine_path(JOB), dataset.storage.read(quarantine_path(OTHER)))
     assert Quarantine(dataset).look()[JOB.id] == "its record in the quarantine folder can't be read"
 
 
 def test_release(dataset: Dataset) -> None:
-    """A released job is no longer given up; releasing it twice is no error."""
+    """A released job is no longer given up, and releasing it twice is no error."""
     give_up(dataset)
     give_up(dataset, OTHER)
     quarantine = Quarantine(dataset)
@@ -119,7 +119,7 @@ def test_release(dataset: Dataset) -> None:
     ],
 )
 def test_foreign_names_count_for_nothing(dataset: Dataset, name: str) -> None:
-    """Files in the folder that are no job's record give nothing up."""
+    """Files in the folder that aren't records give no job up."""
     give_up(dataset, OTHER)
     content = dataset.storage.read(quarantine_path(OTHER))
     dataset.storage.write(f"quarantine/{name}", content)
@@ -127,13 +127,13 @@ def test_foreign_names_count_for_nothing(dataset: Dataset, name: str) -> None:
 
 
 def test_folder_in_the_place_of_a_record(dataset: Dataset) -> None:
-    """A folder that bears a record's name is none."""
+    """A folder with the name of a record isn't a record."""
     dataset.storage.write(f"{quarantine_path(JOB)}/file", b"")
     assert Quarantine(dataset).look() == {}
 
 
 def test_record_is_no_extra_file(dataset: Dataset) -> None:
-    """A check of the dataset takes a record for what it is, and of its job nothing is missing."""
+    """A check of the dataset accepts records, and misses nothing of their jobs."""
     for job in dataset.header.spec.jobs():
         if job != JOB:
             upload(StandInRenderer().make(job, dataset.header), job, dataset)

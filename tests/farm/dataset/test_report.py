@@ -25,7 +25,7 @@ def made(dataset: Dataset) -> Dataset:
 
 
 class Page(HTMLParser):
-    """Collects what a page refers to."""
+    """Collects the addresses to which a page refers."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -34,13 +34,13 @@ class Page(HTMLParser):
         self.feed(text)
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Note a tag and where it points."""
+        """Note a tag and its address."""
         self.tags.append(tag)
         self.references += [value for name, value in attrs if name in {"src", "href"} and value]
 
 
 def page_of(dataset: Dataset) -> str:
-    """The page, freshly written."""
+    """Write the page and read it."""
     write_report(dataset)
     return dataset.storage.read(REPORT_FILE).decode()
 
@@ -108,7 +108,7 @@ def test_page_of_nothing(dataset: Dataset) -> None:
 
 
 def test_page_shows_only_so_many(made: Dataset) -> None:
-    """A large category shows its first pictures and tells how many there are."""
+    """A large category shows its first pictures and says how many there are."""
     write_report(made, pictures_per_category=1)
     text = made.storage.read(REPORT_FILE).decode()
     assert Page(text).tags.count("img") == 4
@@ -116,7 +116,7 @@ def test_page_shows_only_so_many(made: Dataset) -> None:
 
 
 def test_report_is_no_extra_file(made: Dataset, tmp_path: Path) -> None:
-    """Both collected files lie in the dataset's folder."""
+    """The index and the page in the dataset's folder don't count as extra files."""
     write_index(made)
     write_report(made)
     assert (tmp_path / "store/cables" / REPORT_FILE).exists()

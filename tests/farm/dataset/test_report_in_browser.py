@@ -31,7 +31,7 @@ def chromium() -> str:
 
 
 def test_a_browser_shows_the_pictures_and_masks(dataset: Dataset, chromium: str, tmp_path: Path) -> None:
-    """Every picture and mask of the page loads: green and blue stand-ins fill their places in the screenshot."""
+    """Every picture and mask of the page loads: plain green and blue stand-ins fill their places in a screenshot."""
     for number, job in enumerate(dataset.header.spec.jobs()):
         made = StandInRenderer().make(job, dataset.header)
         made.files["image"][:] = (0, 200, 0) if number % 2 else (0, 0, 200)

@@ -1,4 +1,4 @@
-"""What a check of a dataset finds."""
+"""The findings of a check of a dataset."""
 
 import os
 from collections.abc import Callable
@@ -34,7 +34,7 @@ def made(dataset: Dataset) -> Dataset:
 
 
 def found(dataset: Dataset) -> list[tuple[Fault, str]]:
-    """What is wrong, and where."""
+    """Each finding's kind and path."""
     return [(finding.fault, finding.path) for finding in verify(dataset).findings]
 
 
@@ -49,14 +49,14 @@ def replace_file(dataset: Dataset, output: Output, content: bytes) -> None:
 
 
 def test_clean(made: Dataset) -> None:
-    """A finished dataset has nothing wrong."""
+    """A finished dataset has no findings."""
     verdict = verify(made)
     assert verdict.clean
     assert verdict.images == verdict.quota == 4
 
 
 def test_unmade(dataset: Dataset) -> None:
-    """Of a job that was not made, the manifest is missed."""
+    """The manifest of a job that wasn't made is missing."""
     assert [fault for fault, _ in found(dataset)] == [Fault.MISSING] * 4
 
 
@@ -70,14 +70,14 @@ def test_missing(made: Dataset, path: str) -> None:
 @pytest.mark.parametrize("path", ALL_PATHS)
 @pytest.mark.parametrize("size", [0, 20])
 def test_truncated(made: Dataset, path: str, size: int) -> None:
-    """A file that is shorter than its manifest tells is truncated."""
+    """A file that is shorter than its manifest says is truncated."""
     os.truncate(Path(made.storage.location) / path, size)
     assert found(made) == [(Fault.TRUNCATED, path)]
 
 
 @pytest.mark.parametrize("path", ALL_PATHS)
 def test_altered(made: Dataset, path: str) -> None:
-    """A file of the right size with one other bit is altered."""
+    """A file of the right size with one changed bit is altered."""
     content = bytearray(made.storage.read(path))
     content[-20] ^= 1
     made.storage.write(path, bytes(content))
@@ -104,7 +104,7 @@ def test_anywhere(any_store: Callable[[str], str], header: DatasetHeader) -> Non
 
 @pytest.mark.swift
 def test_unfinished_upload_to_a_bucket(bucket: str, object_store: ObjectStore, header: DatasetHeader) -> None:
-    """Parts of an object that its killed writer never completed count for nothing."""
+    """Parts of an object that its killed writer never completed are no findings."""
     dataset = create_dataset(Destination(bucket, "cables"), header)
     for job in header.spec.jobs():
         upload(StandInRenderer().make(job, header), job, dataset)
@@ -118,7 +118,7 @@ def test_unfinished_upload_to_a_bucket(bucket: str, object_store: ObjectStore, h
 
 
 class GrowingStorage(LocalStorage):
-    """Another process acts at the first look at one file."""
+    """A storage in which another process acts at the first look at one file."""
 
     def __init__(self, root: Path, watched: str, act: Callable[[], None]) -> None:
         super().__init__(root)
@@ -126,7 +126,7 @@ class GrowingStorage(LocalStorage):
         self._act: Callable[[], None] | None = act
 
     def read(self, path: str) -> bytes:
-        """See `Storage.read`."""
+        """Implement `Storage.read`."""
         if path == self._watched and self._act is not None:
             act, self._act = self._act, None
             act()
@@ -184,13 +184,13 @@ def test_extra(made: Dataset, path: str) -> None:
 
 
 def test_young_temporary_file(made: Dataset) -> None:
-    """A file still being written is nobody's fault."""
+    """A file that may still be being written is no finding."""
     made.storage.write("far/images/.tmp-far-000001.png.host.1", b"")
     assert found(made) == []
 
 
 def test_old_temporary_file(made: Dataset) -> None:
-    """One that no living writer can own is extra."""
+    """A temporary file that no living writer can own is extra."""
     path = "far/images/.tmp-far-000001.png.host.1"
     made.storage.write(path, b"")
     os.utime(Path(made.storage.location) / path, (0, 0))
@@ -223,7 +223,7 @@ def test_instances_that_do_not_agree(made: Dataset) -> None:
 
 
 def test_tells_how_far_it_is(made: Dataset) -> None:
-    """Each job is counted as it is checked."""
+    """Each checked job is counted."""
     counts: list[int] = []
     verify(made, counts.append)
     assert counts == [1, 2, 3, 4]

@@ -1,4 +1,4 @@
-"""A run with stand-in workers as a program of its own, to be stopped: DATASET LOGS WORKER."""
+"""A run with stand-in workers as a program of its own, for tests that stop it: DATASET LOGS WORKER."""
 
 import sys
 from pathlib import Path

@@ -29,7 +29,7 @@ PATIENCE_S = 60.0
 
 @pytest.fixture
 def how(tmp_path: Path, worker_command: list[str]) -> LocalRun:
-    """Two workers."""
+    """Options for two workers."""
     return LocalRun(
         workers=2,
         renderer=RendererSettings(),
@@ -41,7 +41,7 @@ def how(tmp_path: Path, worker_command: list[str]) -> LocalRun:
 
 @pytest.fixture
 def destination(tmp_path: Path) -> Destination:
-    """A free place."""
+    """A free place for a dataset."""
     return Destination(str(tmp_path / "store"), "cables")
 
 
@@ -64,7 +64,7 @@ def once(action: Callable[[], None], after: int) -> Callable[[Progress], None]:
 
 
 def assert_whole(destination: Destination, made: Progress, logs: Path) -> Dataset:
-    """The quota is full, every file is right, there is no other, and each image was made to its end once."""
+    """Assert that the quota is full, every file is right, there is no other, and each image was finished once."""
     dataset = open_dataset(destination)
     assert made.done == made.quota == dataset.header.spec.total
     assert verify(dataset).findings == ()
@@ -91,7 +91,7 @@ def test_chatter_goes_to_the_log(
 
 
 def test_second_run_has_nothing_to_do(destination: Destination, header: DatasetHeader, how: LocalRun) -> None:
-    """A finished dataset is left as it is."""
+    """A run of a finished dataset leaves it as it is."""
     run_locally(destination, header, how)
     before = open_dataset(destination).storage.files()
     assert run_locally(destination, header, how).done == 4
@@ -113,7 +113,7 @@ def test_number_of_workers_decides_nothing(tmp_path: Path, header: DatasetHeader
 @pytest.mark.slow
 @pytest.mark.parametrize("victim", ["child", "worker"])
 def test_killed_process(destination: Destination, how: LocalRun, monkeypatch: pytest.MonkeyPatch, victim: str) -> None:
-    """When the process that makes a picture, or a whole worker, is killed, the run still fills its quota, once each."""
+    """If a renderer's process or a whole worker is killed, the run still makes every image, once each."""
     monkeypatch.setenv("STAND_IN_DELAY_S", "0.4")
 
     def kill() -> None:
@@ -128,7 +128,7 @@ def test_killed_process(destination: Destination, how: LocalRun, monkeypatch: py
 
 @pytest.mark.slow
 def test_killed_redis(destination: Destination, how: LocalRun, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """When the private Redis is killed amid a run, it comes back empty, and the run fills its quota, once each."""
+    """If the private Redis is killed, it restarts empty, and the run makes every image, once each."""
     monkeypatch.setenv("STAND_IN_DELAY_S", "0.2")
     monkeypatch.setenv("STAND_IN_STARTS", str(tmp_path / "starts"))
     others = servers_of(os.getpid())
@@ -144,14 +144,15 @@ def test_killed_redis(destination: Destination, how: LocalRun, monkeypatch: pyte
     assert len(killed) == 1
     assert made.done == made.quota == 14
     assert verify(open_dataset(destination)).clean
-    assert len((tmp_path / "starts").read_text().splitlines()) <= 14 + how.workers  # what ran then may be begun twice
+    # A job that ran at that moment may begin twice.
+    assert len((tmp_path / "starts").read_text().splitlines()) <= 14 + how.workers
     assert servers_of(os.getpid()) == others
 
 
 @pytest.mark.slow
 @pytest.mark.swift
 def test_killed_worker_of_a_bucket(bucket: str, how: LocalRun, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A run into a bucket fills its quota, once each, though a whole worker is killed amid it."""
+    """If a worker is killed, a run into a bucket still makes every image, once each."""
     monkeypatch.setenv("STAND_IN_DELAY_S", "0.4")
     monkeypatch.delenv("AWS_MAX_ATTEMPTS")
 
@@ -171,7 +172,7 @@ def test_killed_worker_of_a_bucket(bucket: str, how: LocalRun, monkeypatch: pyte
 def test_job_that_always_kills_its_process(
     destination: Destination, header: DatasetHeader, how: LocalRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A job that takes its process with it each time ends as a failure, and the others are made."""
+    """A job that always takes its process with it ends as a failure, and the others are made."""
     monkeypatch.setenv("STAND_IN_FAILS", "far-000001=crash")
     with pytest.raises(IncompleteError, match=r"far-000001: its process died"):
         run_locally(destination, header, how)
@@ -201,7 +202,7 @@ def test_passing_failure(
 
 
 def test_worker_that_does_not_start(destination: Destination, header: DatasetHeader, how: LocalRun) -> None:
-    """A worker that ends at each start ends the run, with the last line of its log."""
+    """A worker that ends at each start ends the run, and the error holds the last line of its log."""
     broken = replace(how, worker_command=[sys.executable, "-c", "raise SystemExit('no such library')"])
     with pytest.raises(MachineError, match="no such library"):
         run_locally(destination, header, broken)
@@ -210,7 +211,7 @@ def test_worker_that_does_not_start(destination: Destination, header: DatasetHea
 def test_unfit_worker_ends_the_run(
     destination: Destination, header: DatasetHeader, how: LocalRun, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What this machine lacks ends the run at once, as the error that it is, and no job has failed."""
+    """Something that this machine lacks ends the run at once with its own error, and no job has failed."""
     monkeypatch.setenv("STAND_IN_UNFIT", "--device optix: no such device")
     with pytest.raises(MachineError, match=r"optix: no such device; .*log"):
         run_locally(destination, header, how)
@@ -221,7 +222,7 @@ def test_unfit_worker_ends_the_run(
 def test_logs_that_cannot_be_written(
     destination: Destination, header: DatasetHeader, how: LocalRun, tmp_path: Path
 ) -> None:
-    """A log folder that can't be made is told as such."""
+    """A log folder that can't be made is reported as such."""
     (tmp_path / "file").write_text("")
     with pytest.raises(DestinationError, match="file/logs: can't write logs"):
         run_locally(destination, header, replace(how, logs=tmp_path / "file/logs"))
@@ -229,7 +230,7 @@ def test_logs_that_cannot_be_written(
 
 @pytest.fixture
 def running(destination: Destination, how: LocalRun, worker_command: list[str]) -> Iterator["subprocess.Popen[bytes]"]:
-    """A run in a process of its own, with pictures that take long, under way."""
+    """A run in its own process, under way, with pictures that take long."""
     program = Path(__file__).with_name("stand_in_run.py")
     process = subprocess.Popen(
         [sys.executable, "-P", str(program), destination.location, str(how.logs), worker_command[-1]],

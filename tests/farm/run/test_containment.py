@@ -1,4 +1,4 @@
-"""Names from a message, a manifest, a header or the command line lead to no file outside their dataset."""
+"""Names in messages, manifests, headers and commands lead to no file outside their dataset."""
 
 import json
 from pathlib import Path, PurePosixPath
@@ -40,14 +40,14 @@ BORROWED = settings(suppress_health_check=[HealthCheck.function_scoped_fixture],
 
 
 def is_one_name(name: str) -> bool:
-    """Joined to a folder, the name is a child of it, whatever the folder is."""
+    """Assert that the name, joined to any folder, is a child of it."""
     inside = PurePosixPath("/store") / name
     return inside.parent == PurePosixPath("/store") and inside.name == name and name not in {"", ".", ".."}
 
 
 @given(NAMES)
 def test_a_dataset_name_is_one_plain_name(name: str) -> None:
-    """What is accepted is one visible folder, of letters that every system takes."""
+    """An accepted name is one visible folder, of letters that every system allows."""
     try:
         accepted = TypeAdapter(DatasetName).validate_python(name)
     except ValidationError:
@@ -60,7 +60,7 @@ def test_a_dataset_name_is_one_plain_name(name: str) -> None:
 
 @given(NAMES, NAMES)
 def test_a_message_names_a_job_of_a_dataset_and_nothing_else(dataset: str, job_id: str) -> None:
-    """Whatever stands in for the names, an accepted message leads into the dataset's folder."""
+    """An accepted message leads into the dataset's folder, whatever stands in for its names."""
     try:
         message = JobMessage.decode({"version": 1, "dataset": dataset, "spec_sha256": SHA, "job_id": job_id})
     except MessageError:
@@ -83,7 +83,7 @@ def test_a_destination_is_a_folder_in_its_store(out: str) -> None:
 
 @pytest.fixture
 def manifest(dataset: Dataset) -> bytes:
-    """Of a job that is done."""
+    """The manifest of a done job."""
     job = Job.from_id("far-000000")
     upload(StandInRenderer().make(job, dataset.header), job, dataset)
     return dataset.storage.read(manifest_path(job))
@@ -103,13 +103,13 @@ def test_a_manifest_names_its_own_files_alone(dataset: Dataset, manifest: bytes,
 @BORROWED
 @given(key=st.sampled_from(["dataset", "job_id", "spec_sha256"]), value=NAMES)
 def test_a_manifest_of_another_is_none(dataset: Dataset, manifest: bytes, key: str, value: str) -> None:
-    """It says whose it is, and must say so rightly."""
+    """A manifest that names another dataset or job is refused."""
     altered = json.loads(manifest) | {key: value}
     assert parse_manifest(json.dumps(altered).encode(), dataset, Job.from_id("far-000000")) is None
 
 
 def test_a_manifest_that_names_a_secret_file_is_not_followed(dataset: Dataset, manifest: bytes) -> None:
-    """A worker that asks whether the job is done doesn't read what the manifest leads to."""
+    """A worker that asks whether the job is done doesn't read the file to which a manifest leads."""
     job = Job.from_id("far-000000")
     assert is_done(dataset, job)
     altered = json.loads(manifest)
@@ -120,6 +120,6 @@ def test_a_manifest_that_names_a_secret_file_is_not_followed(dataset: Dataset, m
 
 @pytest.mark.parametrize("name", ["..", "../x", "baked/../../x", "/etc", ".", ""])
 def test_a_headers_surface_is_in_the_folder_of_surfaces(tmp_path: Path, name: str) -> None:
-    """The name of a built-in surface in a header leads nowhere else, before anything is looked for there."""
+    """A header's surface name leads nowhere but into the folder of surfaces, before any file is looked for."""
     with pytest.raises(AssetError, match="can't name a surface"):
         load_surface(tmp_path, name)

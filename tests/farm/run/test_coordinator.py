@@ -44,24 +44,24 @@ class StopWatchingError(Exception):
 
 @pytest.fixture(autouse=True)
 def _no_rest(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One look follows the other at once."""
+    """Look again at once, without a pause."""
     monkeypatch.setattr(farm.run.coordinator, "_REST", 0)
 
 
 @pytest.fixture
 def bench(dataset: Dataset) -> Bench:
-    """Nothing submitted yet."""
+    """A run without any submission."""
     return Bench(dataset)
 
 
 @pytest.fixture
 def large(tmp_path: Path) -> Dataset:
-    """A hundred jobs."""
+    """A run of a hundred jobs."""
     return create_dataset(Destination(str(tmp_path / "store"), "large"), stand_in_header(far=60, far_aligned=40))
 
 
 def looks(coordinator: Coordinator, count: int, act: Callable[[], None] = lambda: None) -> list[Progress]:
-    """Watch for so many looks."""
+    """Watch for this many looks."""
     seen: list[Progress] = []
 
     def look(progress: Progress) -> None:
@@ -75,12 +75,12 @@ def looks(coordinator: Coordinator, count: int, act: Callable[[], None] = lambda
 
 
 def dead_process() -> str:
-    """A process of this machine that is no more."""
+    """A process of this machine that has ended."""
     return f"{this_process().rpartition(':')[0]}:{2**22 + 1}"
 
 
 def test_submits_all(bench: Bench) -> None:
-    """The first submission queues the whole plan, and puts the run on the board."""
+    """The first submission queues the whole plan, and registers the run."""
     assert bench.coordinator.submit_missing() == 4
     assert bench.queued() == sorted(job.id for job in bench.dataset.header.spec.jobs())
     assert bench.registry.runs() == {bench.handle.run.key: bench.handle.run}
@@ -88,7 +88,7 @@ def test_submits_all(bench: Bench) -> None:
 
 
 def test_submission_tells_how_far_it_is(large: Dataset) -> None:
-    """The number so far is told now and then, the last time the whole."""
+    """The number of submitted jobs is reported now and then, the last time the whole."""
     told: list[int] = []
     Bench(large).coordinator.submit_missing(told.append)
     assert told == sorted(told)
@@ -96,14 +96,14 @@ def test_submission_tells_how_far_it_is(large: Dataset) -> None:
 
 
 def test_submits_nothing_twice(bench: Bench) -> None:
-    """Jobs that wait already are not queued again, by another process either."""
+    """Jobs that wait already aren't queued again, by another process either."""
     bench.coordinator.submit_missing()
     assert bench.coordinator.submit_missing() == 0
     assert Coordinator(bench.dataset, bench.handle).submit_missing() == 0
 
 
 def test_jobs_of_a_former_dataset_do_not_count(bench: Bench, tmp_path: Path) -> None:
-    """A dataset that takes the place of a removed one of its name is queued whole, and made."""
+    """A dataset that replaces a removed one of its name is queued whole, and made."""
     bench.coordinator.submit_missing()
     shutil.rmtree(tmp_path / "store/cables")
     place = Destination(str(tmp_path / "store"), "cables")
@@ -136,7 +136,7 @@ def test_submits_only_what_is_missing(bench: Bench) -> None:
 
 
 def test_finished_dataset_needs_no_run(bench: Bench) -> None:
-    """A dataset that is whole is not put on the board."""
+    """A whole dataset isn't registered."""
     bench.coordinator.submit_missing()
     bench.finish()
     assert bench.coordinator.submit_missing() == 0
@@ -144,7 +144,7 @@ def test_finished_dataset_needs_no_run(bench: Bench) -> None:
 
 
 def test_truncated_picture_is_missing(bench: Bench, tmp_path: Path) -> None:
-    """A picture of another size than its manifest tells is made again, to the same bytes."""
+    """A picture with another size than its manifest says is made again, to the same bytes."""
     bench.coordinator.submit_missing()
     bench.finish()
     picture = tmp_path / "store/cables/far/images/far-000000.png"
@@ -156,7 +156,7 @@ def test_truncated_picture_is_missing(bench: Bench, tmp_path: Path) -> None:
 
 
 def test_last_audit_finds_a_truncated_picture(bench: Bench, tmp_path: Path) -> None:
-    """A picture that is damaged after its job was seen to be done is made again before the run ends."""
+    """A picture that is damaged after its job was done is made again before the run ends."""
     picture = tmp_path / "store/cables/far/images/far-000000.png"
     whole: list[bytes] = []
 
@@ -173,7 +173,7 @@ def test_last_audit_finds_a_truncated_picture(bench: Bench, tmp_path: Path) -> N
 
 
 def test_picture_that_comes_back(bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A picture that was away at an audit and is whole again does not keep the run from its end."""
+    """A picture that was away at an audit and is whole again doesn't keep the run from ending."""
     monkeypatch.setattr(farm.run.coordinator, "_AUDIT_S", 0.0)
     monkeypatch.setattr(farm.run.coordinator, "_AUDIT_REST", 0)
     bench.coordinator.submit_missing()
@@ -186,7 +186,7 @@ def test_picture_that_comes_back(bench: Bench, tmp_path: Path, monkeypatch: pyte
 
 
 def test_watch_tells_of_progress(bench: Bench) -> None:
-    """Each look is passed on; the last one is complete."""
+    """Each look is reported; the last one is complete."""
     seen: list[Progress] = []
     bench.coordinator.submit_missing()
     last = bench.coordinator.watch(seen.append, supervise=bench.work)
@@ -198,7 +198,7 @@ def test_watch_tells_of_progress(bench: Bench) -> None:
 
 
 def test_nothing_is_left_in_redis(bench: Bench) -> None:
-    """A run that has ended is off the board, its queue is empty and nobody leads it."""
+    """A run that has ended isn't registered, has an empty queue and no leader."""
     bench.coordinator.submit_missing()
     bench.queue.messages.append(bench.queue.messages[0])
     bench.finish()
@@ -208,13 +208,13 @@ def test_nothing_is_left_in_redis(bench: Bench) -> None:
 
 
 def test_watch_submits_too(bench: Bench) -> None:
-    """A dataset that nobody submitted is queued by whoever watches it."""
+    """A dataset that nobody submitted is queued by a watch."""
     assert bench.finish().done == 4
 
 
 @pytest.mark.parametrize("window", [1, 2, 10])
 def test_window(large: Dataset, window: int) -> None:
-    """However small the window, no more than it waits at any time, and the whole is made, each job once."""
+    """No more jobs than the window ever wait, and all are made, once each."""
     bench = Bench(large, window=window, lost_after_s=NEVER_S)
     longest = 0
 
@@ -247,7 +247,7 @@ def test_large_plan_is_submitted_whole(tmp_path: Path) -> None:
 
 
 def test_lost_messages_come_again(bench: Bench) -> None:
-    """When messages vanish and nobody holds their jobs, they are submitted again."""
+    """If messages vanish and no process holds their jobs, they are submitted again."""
     bench.coordinator.submit_missing()
     bench.queue.messages.popleft()
     bench.queue.messages.popleft()
@@ -255,7 +255,7 @@ def test_lost_messages_come_again(bench: Bench) -> None:
 
 
 def test_lost_messages_of_a_window_come_again(large: Dataset) -> None:
-    """Messages that vanish now and then while a window moves on are made up for."""
+    """Messages that vanish while a window moves on are replaced."""
     bench = Bench(large, window=10)
     steps = itertools.count()
 
@@ -269,7 +269,7 @@ def test_lost_messages_of_a_window_come_again(large: Dataset) -> None:
 
 
 def test_emptied_redis(large: Dataset) -> None:
-    """A Redis that comes back empty is filled again at once, without waiting until each job counts as lost."""
+    """A Redis that restarts empty is filled again at once, without waiting until each job counts as lost."""
     bench = Bench(large, window=10, lost_after_s=NEVER_S)
 
     def work() -> None:
@@ -283,14 +283,14 @@ def test_emptied_redis(large: Dataset) -> None:
 
 
 def test_two_coordinators_do_not_double(large: Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of two machines that watch one dataset, one queues and the other looks on, even where messages get lost."""
+    """Of two machines that watch one dataset, only one queues jobs, even if messages get lost."""
     bench = Bench(large, window=10, lost_after_s=NEVER_S)
     other = Coordinator(large, bench.handle, poll_s=0.0, lost_after_s=0.0, window=50)
     longest, steps = 0, itertools.count()
 
     def work() -> None:
         nonlocal longest
-        assert next(steps) < 1000  # each would survey for ever if both led
+        assert next(steps) < 1000  # Each would survey for ever if both led.
         with monkeypatch.context() as patch:
             patch.setattr(farm.run.coordinator, "this_process", lambda: "elsewhere:1")
             looks(other, 1)
@@ -307,13 +307,13 @@ def test_two_coordinators_do_not_double(large: Dataset, monkeypatch: pytest.Monk
 
 
 def test_dead_leader_is_followed(bench: Bench) -> None:
-    """A coordinator of this machine that ended without a word does not keep another from queueing."""
+    """A coordinator of this machine that died doesn't keep another one from queueing."""
     bench.ledger.lead(dead_process(), NEVER_S)
     assert bench.finish().done == 4
 
 
 def test_silent_leader_is_followed(dataset: Dataset) -> None:
-    """One of another machine is followed when its time is over, and not before."""
+    """A silent coordinator of another machine is replaced after its term, and not before."""
     now_s = 0.0
     bench = Bench(dataset, ledger=MemoryLedger(lambda: now_s))
     bench.ledger.lead("elsewhere:1", 60)
@@ -324,7 +324,7 @@ def test_silent_leader_is_followed(dataset: Dataset) -> None:
 
 
 def test_stopped_watch_hands_over(bench: Bench) -> None:
-    """Whoever stops watching leads no more."""
+    """A watch that stops gives up the lead."""
     looks(bench.coordinator, 1)
     assert bench.ledger.leader() is None
 
@@ -342,7 +342,7 @@ def test_paused_run_is_not_fed(large: Dataset) -> None:
 
 
 def test_cancelled_run_ends_the_watch(bench: Bench) -> None:
-    """Whoever waits for a run is told that it was cancelled, with what is done kept."""
+    """A watch is told that its run was cancelled, and the done images stay."""
     bench.coordinator.submit_missing()
 
     def cancel_after_two() -> None:
@@ -359,12 +359,12 @@ def test_cancelled_run_ends_the_watch(bench: Bench) -> None:
 
 
 class FlakyLedger(MemoryLedger):
-    """Can't be reached for a number of calls."""
+    """A ledger that can't be reached for a number of calls."""
 
     away = 0
 
     def claims(self) -> dict[str, str]:
-        """See `Ledger.claims`."""
+        """Implement `Ledger.claims`."""
         self.away -= 1
         if self.away >= 0:
             raise BrokerError("Redis went away")
@@ -372,12 +372,12 @@ class FlakyLedger(MemoryLedger):
 
 
 class FlakyQueue(MemoryQueue):
-    """Can't be reached for a number of calls, once it has taken some messages."""
+    """A queue that can't be reached for a number of calls, after it has taken some messages."""
 
     away = 0
 
     def length(self, run: Run) -> int:
-        """See `JobQueue.length`."""
+        """Implement `JobQueue.length`."""
         self.away -= 1
         if self.away >= 0:
             raise BrokerError("Redis went away")
@@ -386,7 +386,7 @@ class FlakyQueue(MemoryQueue):
 
 @pytest.mark.parametrize("what", ["ledger", "queue"])
 def test_redis_that_is_away_is_waited_for(large: Dataset, what: str) -> None:
-    """While Redis is away the watch says so and goes on; when it is back the rest is made, each job once."""
+    """While Redis is away the watch says so and continues; afterwards the rest is made, each job once."""
     ledger, queue = FlakyLedger(), FlakyQueue()
     bench = Bench(large, ledger=ledger, queue=queue, window=10, lost_after_s=NEVER_S)
     gone = False
@@ -410,7 +410,7 @@ def test_redis_that_is_away_is_waited_for(large: Dataset, what: str) -> None:
 
 
 def test_submission_without_redis(dataset: Dataset) -> None:
-    """A submission, which a person waits for, does not wait for Redis."""
+    """A submission, for which a person waits, doesn't wait for Redis."""
     queue = FlakyQueue()
     queue.away = 1
     with pytest.raises(BrokerError):
@@ -418,7 +418,7 @@ def test_submission_without_redis(dataset: Dataset) -> None:
 
 
 def test_end_needs_no_redis(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A dataset that is done ends its run, whether Redis is there or not."""
+    """A done dataset ends its run, whether Redis can be reached or not."""
     bench.coordinator.submit_missing()
     bench.work(4)
 
@@ -433,12 +433,12 @@ def test_end_needs_no_redis(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> No
 
 
 class FlakyStorage(LocalStorage):
-    """Can't be listed for a number of times."""
+    """A storage that can't be listed a number of times."""
 
     away = 0
 
     def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
-        """See `Storage.files`."""
+        """Implement `Storage.files`."""
         self.away -= 1
         if self.away >= 0:
             raise DestinationError("stale file handle")
@@ -462,7 +462,7 @@ def test_folder_that_is_away_is_waited_for(dataset: Dataset) -> None:
 
 
 def test_absences_end_the_watch(bench: Bench) -> None:
-    """When one worker after the other lacks the dataset, the watch ends and says what to do."""
+    """If one worker after the other lacks the dataset, the watch ends and says what to do."""
     bench.coordinator.submit_missing()
     for _ in range(MAX_ABSENCES + 1):
         bench.ledger.count_absence()
@@ -471,7 +471,7 @@ def test_absences_end_the_watch(bench: Bench) -> None:
 
 
 def test_submission_forgives_absences(bench: Bench) -> None:
-    """Submitted again, a dataset that no worker had is given another chance."""
+    """A dataset that no worker had gets another chance when it is submitted again."""
     for _ in range(MAX_ABSENCES + 1):
         bench.ledger.count_absence()
     bench.coordinator.submit_missing()
@@ -479,7 +479,7 @@ def test_submission_forgives_absences(bench: Bench) -> None:
 
 
 def test_permanent_failure_ends_the_run(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The run ends when all but the failed are done, and tells each reason and what to do."""
+    """The run ends when all jobs but the failed ones are done, and gives each reason and what to do."""
     monkeypatch.setenv("STAND_IN_FAILS", "far-000001=permanent")
     bench.coordinator.submit_missing()
     with pytest.raises(
@@ -506,7 +506,7 @@ def test_given_up_job_is_not_submitted(bench: Bench, monkeypatch: pytest.MonkeyP
 
 
 def test_given_up_job_that_was_made_after_all(bench: Bench) -> None:
-    """The record of a job that is done, say by a worker that was thought dead, is removed."""
+    """The record of a job that was made after all, say by a worker that was thought dead, is removed."""
     bench.coordinator.submit_missing()
     bench.work(4)
     put_in_quarantine(bench.dataset, JOB, "died", attempts=3, worker="host:1", log="")
@@ -515,7 +515,7 @@ def test_given_up_job_that_was_made_after_all(bench: Bench) -> None:
 
 
 def test_many_reasons_are_cut(tmp_path: Path) -> None:
-    """Of many failures some are told, and how many more there are."""
+    """Only some of many failures are listed, with the number of the others."""
     bench = Bench(create_dataset(Destination(str(tmp_path), "large"), stand_in_header(far=30)))
     for job in bench.dataset.header.spec.jobs():
         put_in_quarantine(bench.dataset, job, "died", attempts=3, worker="host:1", log="")
@@ -524,7 +524,7 @@ def test_many_reasons_are_cut(tmp_path: Path) -> None:
 
 
 def test_leftovers_of_done_jobs_are_removed(bench: Bench) -> None:
-    """What a killed writer left beside a picture that was made after all goes at the end of the run."""
+    """Files that a killed writer left beside a picture that was made after all are removed at the end."""
     bench.dataset.storage.write("far/images/.tmp-far-000000.png.host.1", b"half")
     bench.coordinator.submit_missing()
     bench.finish()
@@ -532,14 +532,14 @@ def test_leftovers_of_done_jobs_are_removed(bench: Bench) -> None:
 
 
 def test_work_in_progress_is_not_removed(bench: Bench) -> None:
-    """A young temporary file of an undone job may be somebody's work."""
+    """A young temporary file of an undone job may be in use, so it stays."""
     bench.dataset.storage.write("far/images/.tmp-far-000000.png.host.1", b"half")
     bench.coordinator.submit_missing()
     assert [path for path in bench.dataset.storage.files() if is_temporary(path)]
 
 
 def test_bucket(any_store: Callable[[str], str], header: DatasetHeader) -> None:
-    """The whole path works in a folder and in a bucket alike."""
+    """The whole path works in a folder and in a bucket."""
     store = any_store("store")
     bench = Bench(create_dataset(Destination(store, "cables"), header), store)
     bench.coordinator.submit_missing()
@@ -559,7 +559,7 @@ def test_done_job_of_another_description_does_not_count(tmp_path: Path, dataset:
 
 
 def looks_of(bench: Bench, number: int) -> list[Progress]:
-    """So many looks of a watch."""
+    """A function that ends a watch after this many looks."""
     seen: list[Progress] = []
 
     def look(progress: Progress) -> None:
@@ -573,7 +573,7 @@ def looks_of(bench: Bench, number: int) -> list[Progress]:
 
 
 def test_folder_that_vanished_is_not_taken_for_an_empty_one(bench: Bench, tmp_path: Path) -> None:
-    """While a mount is gone nothing is queued anew, and the watch says what it waits for."""
+    """While a mount is gone nothing is queued again, and the watch says what it waits for."""
     bench.coordinator.submit_missing()
     bench.work(4)
     (tmp_path / "store/cables").rename(tmp_path / "gone")
@@ -585,7 +585,7 @@ def test_folder_that_vanished_is_not_taken_for_an_empty_one(bench: Bench, tmp_pa
 
 
 def test_emptied_redis_does_not_undo_a_pause(bench: Bench) -> None:
-    """The notice is put up again as it was last seen."""
+    """The notice is registered again as it was last seen."""
     bench.coordinator.submit_missing()
     bench.want(RunState.PAUSED)
     looks_of(bench, 1)
@@ -595,13 +595,13 @@ def test_emptied_redis_does_not_undo_a_pause(bench: Bench) -> None:
 
 
 def test_changed_priority_holds_for_what_is_queued_next(large: Dataset) -> None:
-    """A coordinator that watches follows the notice."""
+    """A watching coordinator adopts the notice's new priority."""
 
     class Noting(MemoryQueue):
         priorities: tuple[Priority, ...] = ()
 
         def submit(self, run: Run, messages: Iterable[JobMessage]) -> int:
-            """See `JobQueue.submit`."""
+            """Implement `JobQueue.submit`."""
             self.priorities += (run.priority,)
             return super().submit(run, messages)
 
@@ -615,7 +615,7 @@ def test_changed_priority_holds_for_what_is_queued_next(large: Dataset) -> None:
 
 
 def test_cancelled_run_takes_no_jobs(bench: Bench) -> None:
-    """Mending a cancelled run says so, and what a coordinator had queued after the cancelling goes."""
+    """Mending a cancelled run says so, and jobs that a coordinator queued after the cancelling are removed."""
     bench.coordinator.submit_missing()
     bench.want(RunState.CANCELLED)
     with pytest.raises(RunCancelledError, match="submit it again"):
@@ -624,7 +624,7 @@ def test_cancelled_run_takes_no_jobs(bench: Bench) -> None:
 
 
 def test_complete_run_needs_no_worker(bench: Bench) -> None:
-    """Whether all is done is told without queueing anything."""
+    """A complete run is recognised without queueing anything."""
     assert bench.coordinator.end_if_complete() is None
     bench.coordinator.submit_missing()
     bench.work(4)

@@ -1,4 +1,4 @@
-"""Filling a run's queue, and noticing what got lost on the way."""
+"""Filling a run's queue, and noticing lost messages."""
 
 import pytest
 
@@ -14,7 +14,7 @@ WINDOW = 10
 
 @pytest.fixture
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Bench:
-    """A hundred jobs, none queued."""
+    """A hundred jobs, none of them queued."""
     place = Destination(str(tmp_path_factory.mktemp("store")), "cables")
     return Bench(create_dataset(place, stand_in_header(far=100)))
 
@@ -25,12 +25,12 @@ def undone(dataset: Dataset) -> JobSet:
 
 
 def feeder(bench: Bench, lost_after_s: float = 0.0) -> Feeder:
-    """One with a small window."""
+    """A feeder with a small window."""
     return Feeder(bench.dataset, bench.handle, window=WINDOW, lost_after_s=lost_after_s)
 
 
 def test_fills_the_window(bench: Bench) -> None:
-    """The first jobs of the plan are queued, as many as the window takes, and the number is told."""
+    """The first jobs of the plan are queued until the window is full, and their number is reported."""
     told: list[int] = []
     full = feeder(bench)
     assert full.feed(undone(bench.dataset), told.append) == WINDOW
@@ -40,7 +40,7 @@ def test_fills_the_window(bench: Bench) -> None:
 
 
 def test_tops_up_when_half_empty(bench: Bench) -> None:
-    """Nothing is added until half of the window was taken; then it is filled, without doubling what was taken."""
+    """Nothing is added until half of the window was taken; then it is filled, without doubling those taken."""
     full = feeder(bench)
     full.feed(undone(bench.dataset))
     for _ in range(WINDOW // 2 - 1):
@@ -52,7 +52,7 @@ def test_tops_up_when_half_empty(bench: Bench) -> None:
 
 
 def test_a_submission_fills_the_window(bench: Bench) -> None:
-    """What one call queues does not wait for the queue to drain: a job that is put back, say."""
+    """A submission, of a job that is put back, say, doesn't wait for the queue to drain."""
     full = feeder(bench)
     full.feed(undone(bench.dataset))
     bench.queue.messages.popleft()
@@ -60,12 +60,12 @@ def test_a_submission_fills_the_window(bench: Bench) -> None:
 
 
 def test_survey_finds_what_is_on_its_way(bench: Bench) -> None:
-    """Jobs that wait, that a process holds, or that wait for a retry are not queued by another feeder."""
+    """Jobs that wait, that a process holds, or that wait for a retry aren't queued by another feeder."""
     first = feeder(bench)
     first.feed(undone(bench.dataset))
     for _ in range(WINDOW):
         bench.queue.messages.popleft()
-    first.feed(undone(bench.dataset))  # 10 to 19
+    first.feed(undone(bench.dataset))  # jobs 10 to 19
     while len(bench.queue.messages) > 3:
         bench.queue.messages.pop()
     bench.ledger.claim("far-000050", this_process())
@@ -74,13 +74,13 @@ def test_survey_finds_what_is_on_its_way(bench: Bench) -> None:
     bench.ledger.claim("not a job", "elsewhere:1")
     second = feeder(bench)
     second.survey()
-    assert second.left_out(undone(bench.dataset)) == 95  # three wait, two are held
+    assert second.left_out(undone(bench.dataset)) == 95  # three jobs wait, two are held
     assert second.feed(undone(bench.dataset)) == WINDOW - 3
     assert bench.queued()[:4] == ["far-000000", "far-000001", "far-000002", "far-000003"]
 
 
 def test_lost_messages_are_queued_again(bench: Bench) -> None:
-    """What is neither done, held nor queued counts as lost, and only that."""
+    """Exactly the jobs that are neither done, held nor queued count as lost."""
     mending = feeder(bench)
     mending.feed(undone(bench.dataset))
     messages = [bench.queue.messages.popleft() for _ in range(7)]
@@ -98,7 +98,7 @@ def test_lost_messages_are_queued_again(bench: Bench) -> None:
 
 
 def test_suspicion_takes_its_time(bench: Bench) -> None:
-    """A message that is in nobody's hands for an instant is not queued again."""
+    """A message that nobody holds for an instant isn't queued again."""
     patient = feeder(bench, lost_after_s=3600)
     patient.feed(undone(bench.dataset))
     bench.queue.messages.clear()
@@ -109,7 +109,7 @@ def test_suspicion_takes_its_time(bench: Bench) -> None:
 
 
 def test_jobs_of_a_dead_process_are_lost(bench: Bench) -> None:
-    """A claim of a process of this machine that has ended holds no job back."""
+    """A claim of an ended process of this machine holds no job back."""
     mending = feeder(bench)
     mending.feed(undone(bench.dataset))
     gone = bench.queue.messages.popleft()
@@ -120,7 +120,7 @@ def test_jobs_of_a_dead_process_are_lost(bench: Bench) -> None:
 
 
 def test_duplicates_hide_a_loss_for_a_while_only(bench: Bench) -> None:
-    """A loss that a message queued twice makes up for in number is found when that was taken."""
+    """If a duplicate makes up for a loss in number, the loss is found once the duplicate was taken."""
     mending = feeder(bench)
     mending.feed(undone(bench.dataset))
     bench.queue.messages.popleft()
@@ -134,6 +134,6 @@ def test_duplicates_hide_a_loss_for_a_while_only(bench: Bench) -> None:
 
 
 def test_nothing_to_feed(bench: Bench) -> None:
-    """Where nothing is undone, nothing is queued."""
+    """If all jobs are done, nothing is queued."""
     assert feeder(bench).feed(JobSet(bench.dataset.header.spec.quotas)) == 0
     assert bench.queued() == []

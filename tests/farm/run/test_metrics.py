@@ -1,4 +1,4 @@
-"""What Prometheus reads, over real Redis, parsed as Prometheus does."""
+"""The metrics that Prometheus reads, over real Redis, parsed as Prometheus does."""
 
 import os
 import subprocess
@@ -41,7 +41,7 @@ def scrape(text: str) -> Values:
 
 
 def values_of(collector: FarmCollector) -> Values:
-    """What a scrape of a collector tells."""
+    """The values of a collector's scrape."""
     registry = CollectorRegistry(auto_describe=False)
     registry.register(collector)
     return scrape(generate_latest(registry).decode())
@@ -72,7 +72,7 @@ def test_images_by_category_and_state(half_done: Dataset, handle: RunHandle) -> 
 
 
 def test_queue_and_totals(dataset: Dataset, handle: RunHandle) -> None:
-    """What waits, what runs, and what was counted."""
+    """Waiting and running jobs and the totals are counted."""
     handle.registry.register(handle.run)
     handle.queue.submit(handle.run, [dataset.message(DONE), dataset.message(GIVEN_UP)])
     handle.ledger.claim(DONE.id, "elsewhere:1")
@@ -87,7 +87,7 @@ def test_queue_and_totals(dataset: Dataset, handle: RunHandle) -> None:
 
 
 def test_workers(handle: RunHandle) -> None:
-    """Each state's number of workers, each worker's jobs and memory."""
+    """The metrics hold the number of workers in each state, and each worker's jobs and memory."""
     handle.registry.report(WorkerReport(name="a@host", state=WorkerState.WORKING, done=7, rss_bytes=1000))
     handle.registry.report(WorkerReport(name="b@host", state=WorkerState.HELD, reason="full"))
     values = values_of(FarmCollector(list, handle.registry))
@@ -98,7 +98,7 @@ def test_workers(handle: RunHandle) -> None:
 
 
 def test_redis_that_is_away(half_done: Dataset, handle: RunHandle) -> None:
-    """The folder is told of all the same, and that Redis is away."""
+    """If Redis is away, the folder's metrics remain, and one says that Redis is away."""
     away = False
 
     def find() -> list[tuple[Dataset, RunHandle]]:
@@ -116,7 +116,7 @@ def test_redis_that_is_away(half_done: Dataset, handle: RunHandle) -> None:
 
 
 def test_folder_is_not_listed_at_every_scrape(dataset: Dataset, handle: RunHandle) -> None:
-    """A new image shows after a while, not at once."""
+    """A new image shows after a while and not at once."""
     now_s = 0.0
 
     def clock() -> float:
@@ -139,7 +139,7 @@ def test_served_to_prometheus(
     tmp_path: Path,
     named: bool,
 ) -> None:
-    """`farm metrics` serves a dataset by its name, or all of a store that are worked on, on this host alone."""
+    """`farm metrics` serves a dataset by its name, or all active ones of a store, on this host alone."""
     handle = open_handle(half_done, redis_url, redis_client)
     RedisRegistry(redis_client).register(handle.run)
     place = [half_done.storage.location] if named else ["--store", str(tmp_path / "store")]

@@ -29,7 +29,7 @@ def test_published_quotas() -> None:
 
 @given(TOTALS, WEIGHTS)
 def test_split_adds_up(total: int, weights: dict[Category, int]) -> None:
-    """Every image goes to one category, and to none without weight."""
+    """Every image goes to one category, and none to a category without weight."""
     quotas = split_total(total, weights)
     assert sum(quotas.values()) == total
     assert all(not quotas[category] for category in Category if not weights.get(category))
@@ -62,7 +62,7 @@ def test_plan_has_the_quotas(quotas: dict[str, int]) -> None:
 
 
 def test_plan_is_lazy() -> None:
-    """The first jobs of ten million come without the others."""
+    """The first jobs of ten million are made without the others."""
     spec = parse_spec({"quotas": {"far": 10**7}}, source="test")
     assert [job.index for job in itertools.islice(spec.jobs(), 3)] == [0, 1, 2]
 
@@ -76,7 +76,7 @@ def test_description_survives_the_disk(quotas: dict[str, int], seed: int, resolu
 
 @given(st.dictionaries(st.text(), st.integers() | st.text() | st.floats() | st.lists(st.integers())))
 def test_any_mapping_is_read_or_refused(data: dict[str, object]) -> None:
-    """Whatever a file holds, the answer is a description or one line that names the file."""
+    """Whatever a file holds, the result is a description or one line that names the file."""
     refusal = ""
     try:
         parse_spec(data, source="cables.toml")
@@ -88,6 +88,6 @@ def test_any_mapping_is_read_or_refused(data: dict[str, object]) -> None:
 
 @pytest.mark.parametrize("seed", [-1, 2**64, 1.0, True, "1"])
 def test_seeds(seed: object) -> None:
-    """A seed is a whole number that fits 64 bits."""
+    """A seed is a whole number that fits in 64 bits."""
     with pytest.raises(SpecError, match="seed"):
         parse_spec({"images": 1, "seed": seed}, source="test")

@@ -1,4 +1,4 @@
-"""Job ids and messages: what they accept, and that nothing else gets through."""
+"""Job ids and messages: what they accept, and that they refuse everything else."""
 
 import json
 from contextlib import suppress
@@ -22,7 +22,7 @@ GOOD = {"version": 1, "dataset": "cables", "spec_sha256": "0" * 64, "job_id": "f
 
 
 def assert_decoded_or_refused(payload: object) -> None:
-    """The payload decodes to what it says, or is refused in one line."""
+    """Assert that the payload decodes to what it says, or is refused in one line."""
     refusal = ""
     try:
         assert JobMessage.decode(payload).encode() == payload
@@ -33,7 +33,7 @@ def assert_decoded_or_refused(payload: object) -> None:
 
 @given(JOBS)
 def test_id_is_read_back(job: Job) -> None:
-    """Every job's id gives the job."""
+    """The id of every job gives the job back."""
     assert Job.from_id(job.id) == job
 
 
@@ -96,7 +96,7 @@ def test_message_survives_the_wire(job: Job) -> None:
 
 @given(JSON)
 def test_any_json_is_decoded_or_refused(payload: object) -> None:
-    """Whatever comes off the wire, the answer is a message or one line."""
+    """Whatever the payload, the result is a message or one line."""
     assert_decoded_or_refused(payload)
 
 

@@ -30,7 +30,7 @@ def some(job_ids: set[str]) -> tuple[JobSet, set[str]]:
 
 
 def told(jobs: JobSet) -> set[str]:
-    """The ids in a set, each of which must come once."""
+    """The ids in a set, after asserting that each occurs once."""
     found = [job.id for job in jobs]
     assert len(set(found)) == len(found) == len(jobs)
     return set(found)
@@ -38,7 +38,7 @@ def told(jobs: JobSet) -> set[str]:
 
 @given(ids, ids)
 def test_algebra(one_ids: set[str], other_ids: set[str]) -> None:
-    """Union, intersection, difference and complement are those of sets, and change neither operand."""
+    """Union, intersection, difference and complement equal those of sets, and change neither operand."""
     (one, one_set), (other, other_set) = some(one_ids), some(other_ids)
     assert told(one | other) == one_set | other_set
     assert told(one & other) == one_set & other_set
@@ -50,7 +50,7 @@ def test_algebra(one_ids: set[str], other_ids: set[str]) -> None:
 
 @given(ids, st.lists(st.tuples(st.booleans(), st.sampled_from([*sorted(ALL, key=lambda job: job.id), *OUTSIDE]))))
 def test_adding_and_removing(first: set[str], steps: list[tuple[bool, Job]]) -> None:
-    """Members come and go as in a set; jobs that the quotas do not ask for never enter."""
+    """Members come and go as in a set; jobs outside the quotas never enter."""
     jobs, expected = some(first)
     for add, job in steps:
         if add:
@@ -65,7 +65,7 @@ def test_adding_and_removing(first: set[str], steps: list[tuple[bool, Job]]) -> 
 
 @given(ids)
 def test_counts(members: set[str]) -> None:
-    """Members are counted by category, with those that have none."""
+    """Members are counted by category, and categories without any have 0."""
     jobs, _ = some(members)
     assert jobs.counts() == {
         category: sum(Job.from_id(job_id).category is category for job_id in members) for category in QUOTAS
@@ -74,13 +74,13 @@ def test_counts(members: set[str]) -> None:
 
 @pytest.mark.parametrize("quotas", [{"far": 3, "close_concentrated_light": 5, "far_aligned": 1}, {"far": 1}])
 def test_order_is_that_of_the_plan(quotas: dict[str, int]) -> None:
-    """A full set is gone through in the order in which a dataset's jobs are planned."""
+    """The jobs of a full set come in the order of the dataset's plan."""
     spec = stand_in_header(**quotas).spec
     assert list(JobSet(spec.quotas).others()) == list(spec.jobs())
 
 
 def test_members_of_arrays_are_copied() -> None:
-    """A set does not change with the arrays that it was made of."""
+    """A set doesn't change with the arrays from which it was made."""
     array = np.array([True, False])
     jobs = JobSet.of({Category.FAR: array})
     array[:] = False
@@ -88,7 +88,7 @@ def test_members_of_arrays_are_copied() -> None:
 
 
 def test_jobs_that_come_out_are_whole() -> None:
-    """A job that was in a set is like any other."""
+    """A job from a set equals any other job with its id."""
     jobs, _ = some({"far-000003"})
     (job,) = jobs
     assert job == Job.from_id("far-000003")
@@ -96,5 +96,5 @@ def test_jobs_that_come_out_are_whole() -> None:
 
 
 def test_empty_quotas() -> None:
-    """A set of nothing is empty, and so is what is not in it."""
+    """An empty set is empty, and so is its complement under empty quotas."""
     assert list(JobSet({})) == list(JobSet({}).others()) == []

@@ -1,4 +1,4 @@
-"""From inputs to a header."""
+"""Making a header from inputs."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -23,33 +23,33 @@ class Shelf:
     """Implements `farm.spec.make_header.AssetSource` with names instead of files."""
 
     def builtin_surfaces(self, _style: Style) -> Sequence[SurfaceRef]:
-        """One of our own."""
+        """One built-in surface."""
         return [BuiltinSurfaceRef(name="oak", recipe_version=1)]
 
     def surfaces_in(self, folder: Path) -> Sequence[SurfaceRef]:
-        """One called as its folder."""
+        """A surface called as its folder."""
         return [BuiltinSurfaceRef(name=folder.name, recipe_version=1)]
 
     def builtin_hdris(self) -> Sequence[HdriRef]:
-        """One of Blender's."""
+        """One of Blender's HDRIs."""
         return [HdriRef(name="city", path=None, sha256=SHA, dark=False)]
 
     def environments(self) -> Sequence[HdriRef]:
-        """One of our own."""
+        """One environment."""
         return [HdriRef(name="workshop", path=None, dark=False, recipe_version=1)]
 
     def hdris_in(self, folder: Path) -> Sequence[HdriRef]:
-        """One called as its folder."""
+        """An HDRI called as its folder."""
         return [HdriRef(name=folder.name, path=str(folder), sha256=SHA, dark=True)]
 
     def plates_in(self, folder: Path) -> Sequence[PlateRef]:
-        """One called as its folder."""
+        """A photograph called as its folder."""
         return [PlateRef(name=folder.name, path=str(folder), sha256=SHA)]
 
 
 @pytest.fixture
 def template(tmp_path: Path) -> Path:
-    """What begins like a .blend file."""
+    """A file that begins like a .blend file."""
     path = tmp_path / "mine.blend"
     path.write_bytes(b"BLENDER-v405")
     return path
@@ -57,12 +57,12 @@ def template(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def spec() -> DatasetSpec:
-    """One image."""
+    """A description of one image."""
     return parse_spec({"images": 1, "style": "published"}, source="test")
 
 
 def test_folders_add_to_the_builtin(spec: DatasetSpec, template: Path) -> None:
-    """The user's folders come after our own."""
+    """The user's folders come after the built-in assets."""
     inputs = Inputs(template, (Path("a"), Path("b")), (Path("sky"),), environments=False)
     header = make_header(spec, inputs, Shelf())
     assert [surface.name for surface in header.surfaces] == ["oak", "a", "b"]
@@ -70,7 +70,7 @@ def test_folders_add_to_the_builtin(spec: DatasetSpec, template: Path) -> None:
 
 
 def test_folders_replace_the_builtin(spec: DatasetSpec, template: Path) -> None:
-    """Our own can be left out."""
+    """The built-in assets can be left out."""
     inputs = Inputs(
         template, (Path("a"),), (Path("sky"),), builtin_textures=False, builtin_hdris=False, environments=False
     )
@@ -80,27 +80,27 @@ def test_folders_replace_the_builtin(spec: DatasetSpec, template: Path) -> None:
 
 
 def test_photographs_are_all_the_users(spec: DatasetSpec, template: Path) -> None:
-    """None, unless folders are named; then in their order."""
+    """There are no photographs unless folders are named; they come in the folders' order."""
     assert make_header(spec, Inputs(template), Shelf()).plates == ()
     header = make_header(spec, Inputs(template, backgrounds=(Path("lab"), Path("hall"))), Shelf())
     assert [plate.name for plate in header.plates] == ["lab", "hall"]
 
 
 def test_photographs_decide_the_pictures(spec: DatasetSpec, template: Path) -> None:
-    """With others, it is another dataset."""
+    """Other photographs make another dataset."""
     without = make_header(spec, Inputs(template), Shelf())
     with_one = make_header(spec, Inputs(template, backgrounds=(Path("lab"),)), Shelf())
     assert without.spec_sha256 != with_one.spec_sha256
 
 
 def test_one_photograph_twice(spec: DatasetSpec, template: Path) -> None:
-    """Two of one name, from two folders, are refused."""
+    """Two photographs of one name, from two folders, are refused."""
     with pytest.raises(AssetError, match="2 photographs are called 'lab'; rename one"):
         make_header(spec, Inputs(template, backgrounds=(Path("a/lab"), Path("b/lab"))), Shelf())
 
 
 def test_environments_take_part_unless_they_are_left_out(spec: DatasetSpec, template: Path) -> None:
-    """They come after Blender's own."""
+    """Environments come after Blender's HDRIs, unless they are left out."""
 
     def names(*, environments: bool) -> list[str]:
         header = make_header(spec, Inputs(template, environments=environments), Shelf())
@@ -111,7 +111,7 @@ def test_environments_take_part_unless_they_are_left_out(spec: DatasetSpec, temp
 
 
 def test_environments_of_this_program() -> None:
-    """All of the registry's, each by its version, as another machine renders other bytes."""
+    """All registered environments are named, each by its version, since another machine renders other bytes."""
     references = InstalledAssets().environments()
     assert {hdri.name: hdri.recipe_version for hdri in references} == {
         name: recipe.version for name, recipe in ENVIRONMENTS.items()
@@ -120,7 +120,7 @@ def test_environments_of_this_program() -> None:
 
 
 def test_an_environment_is_none_of_blenders_own(spec: DatasetSpec, template: Path) -> None:
-    """Names are unique among all that are installed."""
+    """Names are unique among all installed HDRIs and environments."""
     names = [hdri.name for hdri in make_header(spec, Inputs(template, environments=True), InstalledAssets()).hdris]
     assert len(set(names)) == len(names)
 
@@ -135,19 +135,19 @@ def test_an_environment_is_none_of_blenders_own(spec: DatasetSpec, template: Pat
     ],
 )
 def test_an_hdri_is_either_a_file_or_an_environment(fields: dict[str, object]) -> None:
-    """A file has a checksum, an environment a version and no path."""
+    """A file has a checksum; an environment has a version and no path."""
     with pytest.raises(ValidationError):
         HdriRef.model_validate({"name": "room", "dark": False, **fields})
 
 
 def test_one_name_twice(spec: DatasetSpec, template: Path) -> None:
-    """Two things of one name can't be told apart in a scene, and are refused."""
+    """Two assets of one name, which a scene couldn't tell apart, are refused."""
     with pytest.raises(AssetError, match="'oak'"):
         make_header(spec, Inputs(template, (Path("oak"),)), Shelf())
 
 
 def test_content_of_the_template_counts(spec: DatasetSpec, template: Path) -> None:
-    """Another content of the template is another dataset."""
+    """A template with other content makes another dataset."""
     before = make_header(spec, Inputs(template), Shelf())
     template.write_bytes(b"BLENDER-v406")
     after = make_header(spec, Inputs(template), Shelf())
@@ -162,7 +162,7 @@ def test_template_that_is_a_folder(spec: DatasetSpec, tmp_path: Path) -> None:
 
 
 def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:
-    """A description can be used from any folder."""
+    """Paths in a description count from its file, so it can be used from any folder."""
     file = tmp_path / "cables.toml"
     file.write_text(
         'images = 3\ntemplate = "mine.blend"\ntextures = ["wood"]\nhdris = ["/sky"]\nbuiltin_hdris = false\n'
@@ -176,7 +176,7 @@ def test_paths_in_a_file_are_relative_to_it(tmp_path: Path) -> None:
 
 
 def test_flags_override_the_file(tmp_path: Path) -> None:
-    """A flag wins over the file's key; the others stay."""
+    """A flag overrides the file's key; the others stay."""
     file = tmp_path / "cables.toml"
     file.write_text('images = 3\nseed = 4\nresolution = 64\ntemplate = "mine.blend"')
     found = describe(file, {"seed": 5, "quotas": {"far": 2}}, {"template": Path("yours.blend")})
@@ -194,7 +194,7 @@ def test_ranges_from_a_file(tmp_path: Path) -> None:
 
 
 def test_hdri_over_the_floor_must_be_there(template: Path) -> None:
-    """The HDRI that a description names is one of the dataset's."""
+    """The HDRI that a description names must be one of the dataset's."""
     spec = parse_spec({"images": 1, "close_distributed_hdri": "moon"}, source="test")
     with pytest.raises(SpecError, match="there are city"):
         make_header(spec, Inputs(template), Shelf())

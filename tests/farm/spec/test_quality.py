@@ -39,7 +39,7 @@ ROWS = st.lists(
 def test_the_cheapest_within_the_budget_is_chosen(
     rows: tuple[CalibratedSettings, ...], flip: float, psnr: float
 ) -> None:
-    """It keeps to the budget, nothing cheaper does, and nothing is chosen only if nothing does."""
+    """The choice keeps to the budget, nothing cheaper does, and there is none only if nothing keeps to it."""
     within = [row for row in rows if row.flip <= flip and row.psnr_db >= psnr]
     chosen = cheapest(rows, Budget(flip=flip, psnr_db=psnr))
     assert (chosen is None) == (not within)
@@ -51,7 +51,7 @@ def test_the_cheapest_within_the_budget_is_chosen(
 @pytest.mark.parametrize("category", Category)
 @pytest.mark.parametrize("preset", PRESETS)
 def test_every_preset_keeps_to_its_budget(preset: Preset, category: Category) -> None:
-    """In every category, by the calibration that comes with the farm."""
+    """In every category, each preset keeps to its budget by the farm's own calibration."""
     chosen = settings_for(preset, category)
     assert chosen.expected_flip is not None
     assert chosen.expected_flip <= budget_of(preset, category).flip
@@ -59,27 +59,27 @@ def test_every_preset_keeps_to_its_budget(preset: Preset, category: Category) ->
 
 @pytest.mark.parametrize("category", Category)
 def test_draft_is_faster_than_standard(category: Category) -> None:
-    """Or as fast, where the cheapest settings are good enough."""
+    """Draft is faster than standard, or equally fast if the cheapest settings are good enough."""
     rows = {row.settings: row.seconds for row in calibration().categories[category]}
     assert rows[settings_for(Preset.DRAFT, category).settings] <= rows[settings_for(Preset.STANDARD, category).settings]
 
 
 @pytest.mark.parametrize("category", Category)
 def test_standard_takes_enough_samples_for_smooth_edges(category: Category) -> None:
-    """Far pictures would do with two by their mean error, and cables are smeared then."""
+    """By mean error two samples would do for far pictures, but then cables are smeared."""
     least = 4 if category.traits.background is Background.HDRI else 6
     assert settings_for(Preset.STANDARD, category).settings.cycles.samples >= least
 
 
 def test_the_reference_leaves_nothing_out() -> None:
-    """And has no expected error, being what errors are measured against."""
+    """The reference leaves nothing out and has no expected error, as errors are measured against it."""
     chosen = settings_for(Preset.REFERENCE, Category.FAR)
     assert chosen.settings is REFERENCE
     assert chosen.expected_flip is None
 
 
 def test_a_number_is_a_budget_in_every_category() -> None:
-    """The chosen settings' expected error is within it."""
+    """The expected error of the chosen settings is within the number."""
     for category in Category:
         expected = settings_for(0.08, category).expected_flip
         assert expected is not None
@@ -87,7 +87,7 @@ def test_a_number_is_a_budget_in_every_category() -> None:
 
 
 def test_a_budget_that_nothing_keeps_names_the_least() -> None:
-    """So that a user knows what can be asked for."""
+    """The error names the least error that a user can ask for."""
     with pytest.raises(ValueError, match=r"the least FLIP is 0\.\d+; for less ask for 'reference'"):
         settings_for(1e-9, Category.FAR)
 
@@ -117,7 +117,7 @@ def test_a_category_without_calibration_is_rendered_as_a_reference() -> None:
 
 
 def test_calibrated_settings_are_worth_having() -> None:
-    """None is both slower and worse than another of its category."""
+    """No settings are both slower and worse than others of their category."""
     for rows in calibration().categories.values():
         for row in rows:
             assert not [

@@ -1,4 +1,4 @@
-"""Styles: what a description has where it names no range."""
+"""Styles: the ranges of a description that names none."""
 
 import tomllib
 
@@ -16,7 +16,7 @@ from farm.spec.styles import RANGES_OF, Style
 
 @pytest.mark.parametrize("style", Style)
 def test_a_named_style_gives_all_of_its_ranges(style: Style) -> None:
-    """Where nothing is overridden."""
+    """A style gives every range that isn't overridden."""
     spec = parse_spec({"images": 6, "style": style.value}, source="test")
     assert (spec.style, spec.ranges) == (style, RANGES_OF[style])
 
@@ -35,7 +35,7 @@ def test_the_published_style_has_nothing_that_the_publication_has_not() -> None:
 
 @given(share=st.floats(0, 1), style=st.sampled_from(Style))
 def test_an_override_changes_one_range_alone(share: float, style: Style) -> None:
-    """However deep it is nested."""
+    """An override changes its own range alone, however deep it is nested."""
     data = {"images": 6, "style": style.value, "ranges": {"cable": {"skin": {"stripe_share": share}}}}
     ranges = parse_spec(data, source="test").ranges
     assert ranges.cable.skin.stripe_share == share
@@ -46,26 +46,26 @@ def test_an_override_changes_one_range_alone(share: float, style: Style) -> None
 
 @pytest.mark.parametrize("style", ["glossy", 3, ["wide"], {}])
 def test_an_unknown_style_is_refused_by_name(style: object) -> None:
-    """With those that there are."""
+    """The error for an unknown style lists the known ones."""
     with pytest.raises(SpecError, match=r"style: expected one of published, wide"):
         parse_spec({"images": 6, "style": style}, source="test")
 
 
 def test_ranges_that_are_no_table_are_refused() -> None:
-    """By the key."""
+    """The error names the key."""
     with pytest.raises(SpecError, match="ranges: expected a table"):
         parse_spec({"images": 6, "ranges": 3}, source="test")
 
 
 def test_an_unknown_range_of_a_style_is_refused_with_its_place() -> None:
-    """The merged tables are validated as a whole."""
+    """The error for an unknown range gives its place, as the merged tables are validated as a whole."""
     with pytest.raises(SpecError, match=r"ranges\.cable\.skin\.shine"):
         parse_spec({"images": 6, "style": "wide", "ranges": {"cable": {"skin": {"shine": 1}}}}, source="test")
 
 
 @pytest.mark.parametrize("style", Style)
 def test_farm_ranges_prints_what_a_description_takes(style: Style) -> None:
-    """All of it, so that it may be changed and given back."""
+    """The printed ranges are complete, so that they may be changed and given back."""
     printed = CliRunner().invoke(app, ["ranges", "--style", style.value]).output
     description = tomllib.loads(printed)
     spec = parse_spec({**description, "images": 6}, source="test")

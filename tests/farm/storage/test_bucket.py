@@ -1,4 +1,4 @@
-"""What goes wrong with a bucket: every fault of a real object store is foreseen and told without credentials."""
+"""Faults of a bucket: each one of a real object store is foreseen and reported without credentials."""
 
 import threading
 
@@ -15,7 +15,7 @@ pytestmark = pytest.mark.swift
 
 
 def faults(storage: Storage) -> list[str]:
-    """What each thing that can be done with a storage says, all of them going wrong."""
+    """The error of each operation of a storage, after asserting that all of them fail."""
     told = []
     for act in (
         lambda: storage.read("a/b"),
@@ -32,7 +32,7 @@ def faults(storage: Storage) -> list[str]:
 
 
 def test_missing_bucket(bucket: str) -> None:
-    """A bucket that is not there is neither an empty folder nor a missing file."""
+    """A bucket that doesn't exist is neither an empty folder nor a missing file."""
     del bucket
     for told in faults(open_storage("s3://no-such-bucket/place")):
         assert told.startswith("s3://no-such-bucket/place")
@@ -40,7 +40,7 @@ def test_missing_bucket(bucket: str) -> None:
 
 
 def test_wrong_secret(bucket: str, object_store: ObjectStore, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A refused signature names the variables to look at, and shows neither key nor secret."""
+    """A refused signature names the variables to check, and shows neither key nor secret."""
     monkeypatch.setenv("AWS_SECRET_ACCESS_KEY", "not-the-secret")
     for told in faults(open_storage(f"{bucket}/wrong")):
         assert "AWS_SECRET_ACCESS_KEY" in told
@@ -49,14 +49,14 @@ def test_wrong_secret(bucket: str, object_store: ObjectStore, monkeypatch: pytes
 
 
 def test_no_credentials(bucket: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without any credentials, the variables are named too."""
+    """Without any credentials, the error names the variables, too."""
     monkeypatch.delenv("AWS_ACCESS_KEY_ID")
     monkeypatch.delenv("AWS_SECRET_ACCESS_KEY")
     assert all("AWS_ACCESS_KEY_ID" in told for told in faults(open_storage(f"{bucket}/none")))
 
 
 def test_stopped_server(bucket: str, object_store: ObjectStore) -> None:
-    """A server that is not there is told of by its address; once it is back, the same storage works on."""
+    """A server that isn't there is reported by its address; once it is back, the same storage works again."""
     storage = open_storage(bucket)
     storage.write("a/b", b"1")
     object_store.kill()
@@ -75,26 +75,26 @@ def test_endpoint_with_a_password(bucket: str, object_store: ObjectStore, monkey
 
 
 def test_endpoint_that_is_none(bucket: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An address that is no URL is foreseen."""
+    """An endpoint that isn't a URL is foreseen."""
     monkeypatch.setenv("AWS_ENDPOINT_URL", "nowhere")
     assert all("AWS_ENDPOINT_URL" in told for told in faults(open_storage(f"{bucket}/nowhere")))
 
 
 def test_bad_bucket_name(bucket: str) -> None:
-    """A name that no bucket can have is told in one line."""
+    """A name that no bucket can have gives one line."""
     del bucket
     assert not any("\n" in told for told in faults(open_storage("s3://no_bucket!/place")))
 
 
 def test_server_that_hangs_up(bucket: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A server that takes a connection and closes it without a word is foreseen."""
-    with relay(server_port=0) as between:  # nobody listens there, so each connection is closed at once
+    """A server that accepts a connection and closes it is foreseen."""
+    with relay(server_port=0) as between:  # nothing listens there, so each connection is closed at once
         monkeypatch.setenv("AWS_ENDPOINT_URL", f"http://127.0.0.1:{between.port}")
         assert len(faults(open_storage(f"{bucket}/closed"))) == 6
 
 
 def test_server_that_hangs(bucket: str, object_store: ObjectStore, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A server that takes a request and never answers is given up."""
+    """A server that accepts a request and never answers is given up."""
     monkeypatch.setattr(fsspec.get_filesystem_class("s3"), "read_timeout", 0.2)
     monkeypatch.setattr(services, "PUT_PATIENCE_S", 0.5)
     ended = threading.Event()
@@ -108,7 +108,7 @@ def test_server_that_hangs(bucket: str, object_store: ObjectStore, monkeypatch: 
 
 
 def test_server_in_trouble(bucket: str, object_store: ObjectStore) -> None:
-    """When the store answers that it can't serve, with an HTTP status of 5xx, that is told, and nothing is lost."""
+    """A store that answers with an HTTP status of 5xx is reported, and nothing is lost."""
     storage = open_storage(bucket)
     storage.write("a", b"1")
     object_store.kill("object")
@@ -123,13 +123,13 @@ def test_server_in_trouble(bucket: str, object_store: ObjectStore) -> None:
 
 
 def test_no_file_is_no_fault(bucket: str) -> None:
-    """Of a bucket that is there, a missing object is a missing file."""
+    """A missing object in an existing bucket is a missing file."""
     with pytest.raises(FileNotFoundError):
         open_storage(bucket).read("a/b")
 
 
 def test_others_changes_are_seen(bucket: str, object_store: ObjectStore) -> None:
-    """What another process puts and removes shows in the next look, whatever was looked at before."""
+    """Another process's changes show in the next look, whatever was looked at before."""
     storage = open_storage(bucket)
     client, place = object_store.client(), bucket.removeprefix("s3://")
     storage.write("a/1", b"old")
@@ -146,7 +146,7 @@ def test_others_changes_are_seen(bucket: str, object_store: ObjectStore) -> None
 
 
 def test_markers_of_folders(bucket: str, object_store: ObjectStore) -> None:
-    """The empty object by which a console makes a folder is no file."""
+    """The empty object by which a console makes a folder isn't a file."""
     client = object_store.client()
     for name in ("", "far/"):
         client.call_s3("put_object", Bucket=bucket.split("/")[2], Key=f"{bucket.split('/', 3)[3]}/{name}", Body=b"")
@@ -160,7 +160,7 @@ def test_markers_of_folders(bucket: str, object_store: ObjectStore) -> None:
 def test_store_that_holds_something_else(
     bucket: str, object_store: ObjectStore, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A put that the store has taken, but whose object is another when looked at, is a failure."""
+    """A put fails if the stored object is another one when it is looked at."""
     others = object_store.client()
     path = f"{bucket}/a".removeprefix("s3://")
     contents = iter([b"theirs", b"other lengths"])
@@ -180,17 +180,17 @@ def test_store_that_holds_something_else(
 
 
 class ForgetfulFileSystem(MemoryFileSystem):  # type: ignore[misc]  # fsspec is untyped
-    """Gives no checksums, and loses a bit of what is put."""
+    """A file system that gives no checksums, and loses a bit of each object."""
 
     protocol = "forgetful"
 
     def pipe_file(self, path: str, value: bytes, mode: str = "overwrite", **options: object) -> None:
-        """Put something like it."""
+        """Put an object with one bit lost."""
         super().pipe_file(path, value[:-1] + b"?", mode, **options)
 
 
 def test_store_without_checksums_is_read_back() -> None:
-    """Where a store tells no MD5, what it holds is compared byte by byte."""
+    """If a store has no MD5 of an object, the object is compared byte by byte."""
     fsspec.register_implementation("forgetful", ForgetfulFileSystem, clobber=True)
     with pytest.raises(DestinationError, match="holds other than was sent"):
         open_storage("forgetful://place").write("a", b"12")

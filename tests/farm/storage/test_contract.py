@@ -14,20 +14,20 @@ def storage(any_store: Callable[[str], str]) -> Storage:
 
 
 def test_reads_back(storage: Storage) -> None:
-    """What was written is read, folders being made on the way."""
+    """A written file is read back, and its folders are made."""
     storage.write("a/b/c.bin", b"\x00\x01")
     assert storage.read("a/b/c.bin") == b"\x00\x01"
 
 
 def test_replaces(storage: Storage) -> None:
-    """A second write takes the first one's place."""
+    """A second write replaces the first."""
     storage.write("a", b"first and longer")
     storage.write("a", b"second")
     assert storage.read("a") == b"second"
 
 
 def test_missing_file(storage: Storage) -> None:
-    """A file that is not there is told apart from one that can't be read."""
+    """A file that isn't there is distinguished from one that can't be read."""
     storage.write("here", b"")
     with pytest.raises(FileNotFoundError):
         storage.read("not/here")
@@ -41,7 +41,7 @@ def test_lists_sizes(storage: Storage) -> None:
 
 
 def test_lists_age(storage: Storage) -> None:
-    """A listing tells when a file was written."""
+    """A listing has the time at which a file was written."""
     storage.write("a", b"1")
     assert storage.files()["a"].modified_s > 1.6e9
 
@@ -53,7 +53,7 @@ def test_place_that_is_not_there(storage: Storage) -> None:
 
 
 def test_is_empty_until_written(storage: Storage) -> None:
-    """A file makes a place not empty, even below a folder."""
+    """A place with a file is not empty, even if the file is below a folder."""
     storage.write("a/b", b"")
     assert not storage.is_empty()
 
@@ -73,7 +73,7 @@ def test_write_leaves_no_temporary_file(storage: Storage) -> None:
 
 
 def test_lists_one_folder(storage: Storage) -> None:
-    """A listing of one folder has what is below it, its own folders included, by the same paths as the whole has."""
+    """A listing of one folder has the files below it, subfolders included, by the same paths as the whole listing."""
     for path in ("far/images/1", "far/images/more/2", "far/images2/3", "far/image", "images/4"):
         storage.write(path, b"")
     assert storage.files("far/images").keys() == {"far/images/1", "far/images/more/2"}
@@ -81,7 +81,7 @@ def test_lists_one_folder(storage: Storage) -> None:
 
 
 def test_lists_folder_that_is_not_there(storage: Storage) -> None:
-    """A folder that does not exist has no files, though others begin with its name, or a file has it."""
+    """A folder that doesn't exist has no files, even if others begin with its name, or a file has it."""
     storage.write("far2/1", b"")
     storage.write("near", b"")
     assert storage.files("far") == {}
@@ -90,7 +90,7 @@ def test_lists_folder_that_is_not_there(storage: Storage) -> None:
 
 
 def test_lists_its_own_folder_alone(any_store: Callable[[str], str]) -> None:
-    """A place whose name begins another's does not list that one's files."""
+    """A listing omits the files of a place whose name begins with this one's."""
     open_storage(any_store("place2")).write("a", b"")
     storage = open_storage(any_store("place"))
     assert storage.files() == {}
@@ -98,7 +98,7 @@ def test_lists_its_own_folder_alone(any_store: Callable[[str], str]) -> None:
 
 
 def test_lists_many(storage: Storage) -> None:
-    """A listing that a store gives in several pages is whole."""
+    """A listing that a store gives in several pages is complete."""
     paths = {f"a/{number:02d}" for number in range(45)}
     for path in paths:
         storage.write(path, b"")
@@ -106,7 +106,7 @@ def test_lists_many(storage: Storage) -> None:
 
 
 def test_odd_names(storage: Storage) -> None:
-    """A path with signs that mean something in URLs is a path like others."""
+    """A path with characters that mean something in URLs is a path like others."""
     path = "a b/c+d%20?e=1&f#g/ä.bin"
     storage.write(path, b"1")
     assert storage.files().keys() == {path}

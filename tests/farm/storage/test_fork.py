@@ -15,14 +15,14 @@ PATIENCE_S = 60
 
 
 def in_child(act: Callable[[], str]) -> str:
-    """Do something in a forked child, and return what it tells; one that hangs is ended."""
+    """Run a function in a forked child and return its result; a child that hangs is killed."""
     told, tell = os.pipe()
     child = os.fork()
     if child == 0:
         signal.alarm(PATIENCE_S)
         try:
             answer = act()
-        except BaseException as error:  # whatever it is, the parent is to hear of it
+        except BaseException as error:  # whatever the error, the parent is to hear of it
             answer = repr(error)
         os.write(tell, answer.encode())
         os._exit(0)
@@ -34,7 +34,7 @@ def in_child(act: Callable[[], str]) -> str:
 
 
 def connections_to(port: int) -> int:
-    """How many sockets of this process are connected to a port of this machine."""
+    """Number of this process's sockets that are connected to a port of this machine."""
     table = [line.split() for line in Path("/proc/self/net/tcp").read_text().splitlines()[1:]]
     wanted = {f"socket:[{row[9]}]" for row in table if row[2].endswith(f":{port:04X}")}
     links = []
@@ -45,7 +45,7 @@ def connections_to(port: int) -> int:
 
 
 def test_used_on_both_sides(any_store: Callable[[str], str]) -> None:
-    """The parent uses a storage, forks, and both go on using that very one, and new ones."""
+    """The parent uses a storage and forks, and both go on using that very one, and new ones."""
     place = any_store("place")
     storage = open_storage(place)
     storage.write("a", b"parent")

@@ -27,7 +27,7 @@ open_storage(sys.argv[1]).write("large", sys.stdin.buffer.read())
 
 
 def after(sent_bytes: int, act: Callable[[Relay], None]) -> Callable[[Relay], None]:
-    """Act once, when clients have sent so much."""
+    """Act once, when clients have sent this many bytes."""
     acted = False
 
     def look(between: Relay) -> None:
@@ -40,7 +40,7 @@ def after(sent_bytes: int, act: Callable[[Relay], None]) -> Callable[[Relay], No
 
 
 def parts_of(object_store: ObjectStore, bucket: str) -> int:
-    """How many parts of unfinished uploads the store keeps for a folder."""
+    """Number of parts of unfinished uploads that the store keeps for a folder."""
     name, prefix = bucket.removeprefix("s3://").split("/", 1)
     client = object_store.client()
     uploads = client.call_s3("list_multipart_uploads", Bucket=name, Prefix=prefix).get("Uploads", [])
@@ -52,7 +52,7 @@ def parts_of(object_store: ObjectStore, bucket: str) -> int:
 
 
 def test_whole(bucket: str) -> None:
-    """A large object arrives, and replaces a former one."""
+    """A large object arrives, and replaces an earlier one."""
     storage = open_storage(bucket)
     storage.write("large", b"small")
     storage.write("large", LARGE)
@@ -67,7 +67,7 @@ def test_whole(bucket: str) -> None:
 def test_cut_off(
     bucket: str, object_store: ObjectStore, monkeypatch: pytest.MonkeyPatch, end: str, former: bytes | None
 ) -> None:
-    """When the line or the server goes down amid an upload, that fails, and what was there before is there still."""
+    """If the line or the server goes down during an upload, it fails, and the earlier object is still there."""
     storage = open_storage(bucket)
     if former is not None:
         storage.write("large", former)
@@ -95,7 +95,7 @@ def test_cut_off(
 
 @pytest.mark.parametrize("size", [60 * MB, 10 * MB], ids=["in parts", "in one piece"])
 def test_killed_writer(bucket: str, object_store: ObjectStore, size: int) -> None:
-    """A writer that is killed by SIGKILL amid an upload leaves the former object, and no other."""
+    """A writer that is killed by SIGKILL during an upload leaves the earlier object and no other."""
     storage = open_storage(bucket)
     storage.write("large", b"former")
     writers: list[subprocess.Popen[bytes]] = []

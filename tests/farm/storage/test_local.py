@@ -1,4 +1,4 @@
-"""What only a folder does."""
+"""Behaviour of a folder alone."""
 
 import os
 import stat
@@ -11,7 +11,7 @@ from farm.storage import LocalStorage
 
 
 def test_failed_write_keeps_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """When the disk gives out in the middle, the former content stays and nothing lies beside it."""
+    """If the disk fails in the middle, the earlier content stays and nothing lies beside it."""
     storage = LocalStorage(tmp_path)
     storage.write("a", b"old")
 
@@ -26,7 +26,7 @@ def test_failed_write_keeps_the_old_file(tmp_path: Path, monkeypatch: pytest.Mon
 
 
 def test_write_that_reads_back_wrong(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A disk that returns other bytes than were written never gets its file into place."""
+    """If a disk returns other bytes than were written, the file isn't put in place."""
     storage = LocalStorage(tmp_path)
     monkeypatch.setattr(Path, "read_bytes", lambda _path: b"rotten")
     with pytest.raises(DestinationError, match="reads back other than written"):

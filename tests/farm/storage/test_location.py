@@ -1,4 +1,4 @@
-"""From a URL to a storage."""
+"""Finding a storage for a URL."""
 
 import subprocess
 import sys
@@ -21,7 +21,7 @@ def test_unknown_kind(location: str) -> None:
     "location", ["s3://AKIAKEY:hush@bucket/a", "s3://AKIAKEY@bucket/a", "ftp://me:hush@host/a", "s3a://k:hush/x@b/a"]
 )
 def test_credentials_in_the_url(location: str) -> None:
-    """A URL with a key or password in it is refused before it is shown anywhere, without showing it."""
+    """A URL with a key or password is refused before it is shown anywhere, without showing it."""
     for take in (open_storage, parse_destination):
         with pytest.raises(DestinationError, match="holds credentials") as caught:
             take(location)

@@ -1,4 +1,4 @@
-"""What cables cover, and what is seen behind them."""
+"""The coverage of pixels by cables, and the backdrop behind them."""
 
 import numpy as np
 import pytest
@@ -15,24 +15,24 @@ VIEW = View(height_m=0.12, resolution=128)
 
 
 def bar(z: float = RADIUS, shift: float = 0.0) -> Points:
-    """A straight cable from top to bottom, right of the middle by `shift`."""
+    """A straight cable from top to bottom, `shift` to the right of the middle."""
     along = np.linspace(-0.2, 0.2, 401)
     return np.stack([np.full_like(along, shift), along, np.full_like(along, z)], axis=1)
 
 
 def covered(curve: Points, lens_radius_m: float) -> NDArray[np.float32]:
-    """Of one cable."""
+    """The coverage by one cable."""
     return covered_by([tubular(curve, RADIUS)], VIEW, lens_radius_m, SIDES)
 
 
 def profile(curve: Points, lens_radius_m: float) -> NDArray[np.float32]:
-    """Across a cable that runs down the picture."""
+    """The coverage across a cable that runs down the picture."""
     across: NDArray[np.float32] = covered(curve, lens_radius_m)[VIEW.resolution // 2]
     return across
 
 
 def test_a_pinhole_sees_the_width_of_a_cylinder() -> None:
-    """Of radius r at distance d: f 2 r / sqrt(d^2 - r^2) pixels; the edge pixels hold their share of it."""
+    """A cylinder of radius r at distance d is f 2 r / sqrt(d^2 - r^2) pixels wide; edge pixels hold their share."""
     distance = VIEW.height_m - RADIUS
     width = VIEW.resolution * 50 / 36 * 2 * RADIUS / np.sqrt(distance**2 - RADIUS**2)
     assert profile(bar(shift=0.0003), 0.0).sum() == pytest.approx(width, rel=2e-3)
@@ -48,7 +48,7 @@ def test_a_lens_blurs_by_its_disc(height: float) -> None:
     sharp, blurred = (covered_by([tubular(bar(height), radius)], view, a, SIDES)[256] for a in (0.0, lens))
     disc_px = lens * height / (view.height_m - height) * view.pixels_per_m
     reach = int(np.ceil(disc_px))
-    # The disc's share in each pixel, from twenty places in it.
+    # The share of the disc in each pixel, from twenty places in it.
     s = (np.arange(20 * (2 * reach + 1)) + 0.5) / 20 - (reach + 0.5)
     kernel = np.sqrt(np.maximum(1.0 - (s / disc_px) ** 2, 0.0)).reshape(-1, 20).sum(axis=1)
     expected = np.convolve(sharp, kernel / kernel.sum(), mode="same")
@@ -56,13 +56,13 @@ def test_a_lens_blurs_by_its_disc(height: float) -> None:
 
 
 def test_blur_takes_and_gives_alike() -> None:
-    """What is covered of a row in all does not depend on the lens, within 1 %."""
+    """The sum of a row's coverage doesn't depend on the lens, within 1 %."""
     sharp, blurred = (profile(bar(z=0.01), lens).sum() for lens in (0.0, 0.003))
     assert blurred == pytest.approx(sharp, rel=0.01)
 
 
 def test_what_lies_in_focus_stays_sharp() -> None:
-    """A cable on the floor is seen alike through any place of the lens, to within its own height."""
+    """A cable on the floor covers the same through any place of the lens, to within its own height."""
     change = np.abs(profile(bar(), 0.0003) - profile(bar(), 0.0))
     assert change.max() < 0.05
 
@@ -104,6 +104,6 @@ def test_ragged_samples_leave_the_edge_straight(matte: Matte) -> None:
 
 
 def test_a_wide_open_lens_close_by_is_bounded() -> None:
-    """A pile halfway up to a lens as wide as a hand blurs away in as many looks as any."""
+    """A pile halfway up to a lens as wide as a hand is blurred in the same number of looks as any other."""
     share = covered(bar(z=0.06), 0.05)
     assert 0.0 <= share.min() <= share.max() < 0.2

@@ -14,18 +14,18 @@ from worker.camera.view import View
 
 UPRIGHT = np.eye(3)
 QUARTER_TURN: NDArray[np.float64] = Rotation.from_euler("x", 90, degrees=True).as_matrix()
-"""The published tilt: what the camera sees, looking down, is the panorama's horizon."""
+"""The published tilt: a camera that looks down sees the panorama's horizon."""
 
 PINHOLE = Camera(height_m=0.2, f_number=128.0)
 
 
 def even(rows: int = 128) -> Panorama:
-    """The same light from everywhere."""
+    """A panorama with the same light from everywhere."""
     return np.ones((rows, 2 * rows, 3), np.float32)
 
 
 def spot(azimuth_deg: float, elevation_deg: float, rows: int = 256) -> Panorama:
-    """Light from a few degrees about one direction; azimuth 0 is x, 90 is y."""
+    """A panorama with light from a few degrees about one direction; azimuth 0 is x, 90 is y."""
     azimuth = np.pi - 2 * np.pi * (np.arange(2 * rows) + 0.5) / (2 * rows)
     elevation = 0.5 * np.pi - np.pi * (np.arange(rows) + 0.5) / rows
     a, e = np.radians([azimuth_deg, elevation_deg])
@@ -39,7 +39,7 @@ def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, reso
 
 
 def irradiance(panorama: Panorama) -> float:
-    """On a level floor: the integral of light times the cosine to the zenith over the upper half."""
+    """Irradiance on a level floor: the integral of light times the cosine to the zenith over the upper half."""
     rows, columns = panorama.shape[:2]
     elevation = 0.5 * np.pi - np.pi * (np.arange(rows) + 0.5) / rows
     weight = np.maximum(np.sin(elevation), 0.0) * np.cos(elevation) * (np.pi / rows) * (2 * np.pi / columns)
@@ -47,12 +47,12 @@ def irradiance(panorama: Panorama) -> float:
 
 
 def test_an_even_world_gives_a_floor_pi_times_its_light() -> None:
-    """The hemisphere's irradiance of unit radiance is pi."""
+    """A hemisphere of unit radiance gives an irradiance of pi."""
     assert irradiance(upper_world(even(), UPRIGHT)) == pytest.approx(np.pi, rel=1e-3)
 
 
 def test_below_the_horizon_it_is_black() -> None:
-    """But for two degrees, which may be seen past the floor's edge."""
+    """Below the horizon the panorama is black, except for two degrees, which may be seen past the floor's edge."""
     lit = upper_world(even(), QUARTER_TURN)
     assert (lit[: UPPER_WIDTH_PX // 4] > 0).all()
     assert not lit[int(UPPER_WIDTH_PX / 4 * (1 + 3 / 90)) :].any()
@@ -61,7 +61,7 @@ def test_below_the_horizon_it_is_black() -> None:
 @settings(max_examples=15, deadline=None)
 @given(azimuth=st.floats(0, 360), elevation=st.floats(20, 80), turn=st.floats(-180, 180))
 def test_a_small_sun_keeps_its_light_however_it_is_turned(azimuth: float, elevation: float, turn: float) -> None:
-    """About the zenith, the light that a floor gets does not depend on the turn, within 3 %."""
+    """The light on a floor doesn't depend on the turn about the zenith, within 3 %."""
     about_z = Rotation.from_euler("z", turn, degrees=True).as_matrix()
     sun = spot(azimuth, elevation)
     assert irradiance(upper_world(sun, about_z)) == pytest.approx(irradiance(sun), rel=0.03)
@@ -69,7 +69,7 @@ def test_a_small_sun_keeps_its_light_however_it_is_turned(azimuth: float, elevat
 
 @pytest.mark.parametrize("turn", [UPRIGHT, QUARTER_TURN, Rotation.from_euler("xz", [90, 40], degrees=True).as_matrix()])
 def test_light_comes_from_where_the_turn_takes_it(turn: NDArray[np.float64]) -> None:
-    """A spot at the panorama's image of a direction stands in that direction of the world."""
+    """A spot stands in the direction of the world to which the turn takes it."""
     direction = np.array([0.3, -0.5, 0.8]) / np.linalg.norm([0.3, -0.5, 0.8])
     x, y, z = turn @ direction
     lit = upper_world(spot(np.degrees(np.arctan2(y, x)), np.degrees(np.arcsin(z))), turn)[..., 0]
@@ -96,7 +96,7 @@ def test_the_backdrop_is_seen_upright() -> None:
 @settings(max_examples=15, deadline=None)
 @given(f_number=st.floats(2, 64), height=st.floats(0.09, 0.33))
 def test_blur_keeps_an_even_light(f_number: float, height: float) -> None:
-    """The lens's disc has unit sum, at the picture's edge too."""
+    """The blur by the lens's disc keeps an even light, also at the picture's edge."""
     seen = backdrop(even(), QUARTER_TURN, Camera(height_m=height, f_number=f_number), 64)
     assert seen.shape == (64, 64, 3)
     assert seen == pytest.approx(np.ones_like(seen), rel=1e-5)

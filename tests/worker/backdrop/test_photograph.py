@@ -1,4 +1,4 @@
-"""A photograph as the view behind the cables."""
+"""A photograph as the backdrop of the cables."""
 
 import numpy as np
 import pytest
@@ -16,12 +16,12 @@ WHOLE = Plate(name="lab", x=0.0, y=0.0, zoom=1.0, mirror=False, blur_px=0.0)
 
 
 def noise(height: int = 300, width: int = 400, seed: int = 0) -> NDArray[np.uint8]:
-    """A photograph of nothing in particular."""
+    """A photograph of noise."""
     return np.random.default_rng(seed).integers(0, 256, (height, width, 3), np.uint8)
 
 
 def linear(pixels: NDArray[np.uint8]) -> NDArray[np.float64]:
-    """IEC 61966-2-1, from its text."""
+    """The curve of IEC 61966-2-1, from its text."""
     level = pixels / 255.0
     return np.where(level <= 0.04045, level / 12.92, ((level + 0.055) / 1.055) ** 2.4)
 
@@ -32,7 +32,7 @@ def mean_luminance(light: NDArray[np.float32] | NDArray[np.float64]) -> float:
 
 
 def test_pixel_for_pixel_only_the_brightness_changes() -> None:
-    """A square as large as the picture comes as it is, in linear light."""
+    """A square as large as the picture keeps its pixels, in linear light."""
     pixels = noise(256, 256)
     seen = photograph_backdrop(pixels, WHOLE, 256, 0.0, 0.5)
     assert seen.shape == (256, 256, 3)
@@ -42,7 +42,7 @@ def test_pixel_for_pixel_only_the_brightness_changes() -> None:
 
 
 def test_linear_light_is_what_the_standard_says() -> None:
-    """Middle grey of sRGB, level 188, is half of white's light."""
+    """Level 188 of sRGB is half of white's light."""
     pixels = np.full((256, 256, 3), 255, np.uint8)
     pixels[:, :128] = 188
     seen = photograph_backdrop(pixels, WHOLE, 256, 0.0, 1.0)
@@ -62,7 +62,7 @@ def test_linear_light_is_what_the_standard_says() -> None:
 def test_the_mean_is_what_was_asked_for(
     x: float, y: float, zoom: float, mirror: bool, blur: float, size: tuple[int, int], luminance: float
 ) -> None:
-    """Whatever part is seen; no light is negative."""
+    """The mean is met whatever part is seen, and no light is negative."""
     plate = Plate(name="lab", x=x, y=y, zoom=zoom, mirror=mirror, blur_px=blur)
     seen = photograph_backdrop(noise(*size), plate, 128, blur, luminance)
     assert seen.shape == (128, 128, 3)
@@ -72,7 +72,7 @@ def test_the_mean_is_what_was_asked_for(
 
 @pytest.mark.parametrize(("x", "y", "left", "top"), [(0.0, 0.0, 0, 0), (1.0, 1.0, 500, 300), (0.5, 0.25, 250, 75)])
 def test_the_square_lies_where_it_was_drawn(x: float, y: float, left: int, top: int) -> None:
-    """In the free range: 0 touches the left or upper edge, 1 the right or lower."""
+    """Within the free range, 0 touches the left or upper edge, and 1 the right or lower."""
     pixels = noise(600, 800)
     plate = WHOLE.model_copy(update={"x": x, "y": y, "zoom": 0.5})
     seen = photograph_backdrop(pixels, plate, 300, 0.0, 1.0)
@@ -81,7 +81,7 @@ def test_the_square_lies_where_it_was_drawn(x: float, y: float, left: int, top: 
 
 
 def test_mirrored() -> None:
-    """Left and right change places, up and down don't."""
+    """Left and right change places; up and down don't."""
     pixels = noise()
     mirrored = photograph_backdrop(pixels, WHOLE.model_copy(update={"mirror": True}), 64, 3.0, 1.0)
     np.testing.assert_allclose(mirrored, photograph_backdrop(pixels, WHOLE, 64, 3.0, 1.0)[:, ::-1], rtol=1e-4)
@@ -89,7 +89,7 @@ def test_mirrored() -> None:
 
 @pytest.mark.parametrize("factor", [2, 3, 8])
 def test_shrinking_takes_the_mean_of_areas(factor: int) -> None:
-    """Of linear light: thin bright lines keep theirs, and nothing glitters."""
+    """Shrinking averages linear light: thin bright lines keep theirs, and nothing glitters."""
     pixels = noise(64 * factor, 64 * factor)
     seen = photograph_backdrop(pixels, WHOLE, 64, 0.0, 1.0)
     expected = linear(pixels).reshape(64, factor, 64, factor, 3).mean(axis=(1, 3))
@@ -98,7 +98,7 @@ def test_shrinking_takes_the_mean_of_areas(factor: int) -> None:
 
 @pytest.mark.parametrize("edge", [257, 390, 1000, 1999])
 def test_odd_sizes_are_shrunk_alike(edge: int) -> None:
-    """A ramp of light stays one, within a pixel, whatever does not divide."""
+    """A ramp of light stays a ramp, within a pixel, even if the sizes don't divide."""
     ramp = np.linspace(0.0, 1.0, edge)
     level = np.where(ramp <= 0.0031308, ramp * 12.92, 1.055 * ramp ** (1 / 2.4) - 0.055)
     pixels = np.repeat(np.round(255 * level).astype(np.uint8)[None, :, None], edge, axis=0).repeat(3, axis=2)
@@ -108,7 +108,7 @@ def test_odd_sizes_are_shrunk_alike(edge: int) -> None:
 
 
 def test_enlarging_is_smooth() -> None:
-    """A picture of 256 pixels at 512 resembles the same made large by Pillow, in linear light."""
+    """A picture of 256 pixels enlarged to 512 resembles Pillow's, in linear light."""
     across, down = np.meshgrid(np.linspace(0, 9, 256), np.linspace(0, 7, 256))
     pixels = np.repeat((120 + 100 * np.sin(across) * np.cos(down)).astype(np.uint8)[..., None], 3, axis=2)
     seen = photograph_backdrop(pixels, WHOLE, 512, 0.0, 1.0)[..., 0]
@@ -118,7 +118,7 @@ def test_enlarging_is_smooth() -> None:
 
 
 def test_a_point_is_blurred_to_the_lenss_disc() -> None:
-    """A single light becomes the disc itself, in linear light."""
+    """A single point of light becomes the disc itself, in linear light."""
     pixels = np.zeros((256, 256, 3), np.uint8)
     pixels[128, 128] = 255
     seen = photograph_backdrop(pixels, WHOLE, 256, 9.0, 1.0)[..., 0]

@@ -1,4 +1,4 @@
-"""Asset files, found by the names that scenes use."""
+"""Asset files, found by the names in scenes."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ SHOWN, OTHER = "stucco", "galvanised_steel"
 
 @pytest.fixture(scope="module")
 def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Two small surfaces, one of which is damaged."""
+    """Two small surfaces, one of them damaged."""
     folder = tmp_path_factory.mktemp("surfaces")
     bake_surfaces(folder, pixels=64, names=[SHOWN, OTHER], processes=1)
     (folder / OTHER / "colour.jpg").write_bytes(b"damaged")
@@ -30,12 +30,12 @@ def library(header: DatasetHeader, baked: Path, name: str, version: int = 1) -> 
 
 
 def test_a_surface_is_found_whatever_the_others_are_like(header: DatasetHeader, baked: Path) -> None:
-    """Only what a scene shows is read."""
+    """Only the surface that a scene shows is read, so a damaged one beside it does no harm."""
     assert library(header, baked, SHOWN).surface(SHOWN).colour == baked / SHOWN / "colour.jpg"
 
 
 def test_a_damaged_surface_is_refused(header: DatasetHeader, baked: Path) -> None:
-    """When a scene shows it."""
+    """A damaged surface is refused when a scene shows it."""
     with pytest.raises(AssetError, match=r"colour\.jpg: differs from its checksum"):
         library(header, baked, OTHER).surface(OTHER)
 
@@ -47,14 +47,14 @@ def test_a_surface_that_is_not_baked_says_what_to_run(header: DatasetHeader, bak
 
 
 def test_another_version_of_a_surface_is_refused(header: DatasetHeader, baked: Path) -> None:
-    """Its texels would be others than the dataset's."""
+    """A surface of another version, whose texels differ from the dataset's, is refused."""
     with pytest.raises(AssetError, match="is of version 1, not 99"):
         library(header, baked, SHOWN, version=99).surface(SHOWN)
 
 
 @pytest.mark.parametrize("change", [None, b"another"])
 def test_a_photograph_is_checked(header: DatasetHeader, tmp_path: Path, change: bytes | None) -> None:
-    """It is found where the header says; one that has changed since then, or is gone, is refused."""
+    """A photograph is found by the header; if it has changed or is gone, it is refused."""
     path = tmp_path / "lab.jpg"
     path.write_bytes(b"a photograph")
     plate = PlateRef(name="lab", path=str(path), sha256=sha256(b"a photograph"))
@@ -79,19 +79,19 @@ def with_environment(header: DatasetHeader, folder: Path, version: int) -> Asset
 
 
 def test_an_environment_is_found_by_its_name(header: DatasetHeader, tmp_path: Path) -> None:
-    """Beside the surfaces."""
+    """An environment is found beside the surfaces."""
     path = with_environment(header, tmp_path, 1).hdri("yard_1")
     assert path == tmp_path / "environments" / "yard_1" / "panorama.exr"
 
 
 def test_another_version_of_an_environment_is_refused(header: DatasetHeader, tmp_path: Path) -> None:
-    """It would show another place than the dataset's other pictures."""
+    """An environment of another version would show another place, and is refused."""
     with pytest.raises(AssetError, match=r"'yard_1' is of version 1, not 2; run `farm assets build`"):
         with_environment(header, tmp_path, 2).hdri("yard_1")
 
 
 def test_a_damaged_environment_is_refused(header: DatasetHeader, tmp_path: Path) -> None:
-    """When a scene shows it."""
+    """A damaged environment is refused when a scene shows it."""
     library = with_environment(header, tmp_path, 1)
     (environment_directory(tmp_path, "yard_1") / "panorama.exr").write_bytes(b"dark")
     with pytest.raises(AssetError, match=r"panorama\.exr: differs from its checksum"):

@@ -1,4 +1,4 @@
-"""What is left out of a scene does not show."""
+"""Leaving things out of a scene doesn't change its picture."""
 
 from pathlib import Path
 
@@ -45,7 +45,7 @@ TILTED = Camera(
 
 @pytest.fixture(scope="module")
 def header() -> DatasetHeader:
-    """Of pictures over two surfaces."""
+    """The surfaces, small, and a fresh template open."""
     spec = parse_spec({"seed": 0, "style": "published", "images": 600}, source="test")
     made = make_header(spec, Inputs(environments=False), InstalledAssets())
     return made.model_copy(update={"surfaces": tuple(s for s in made.surfaces if s.name in SURFACES)})
@@ -90,7 +90,7 @@ def picture(
 
 
 def psnr_db(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
-    """Peak signal over noise."""
+    """Peak signal-to-noise ratio, dB."""
     return float(10 * np.log10(255.0**2 / max(np.mean((a - b) ** 2), 1e-9)))
 
 
@@ -99,7 +99,7 @@ def psnr_db(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
 def test_what_is_out_of_view_is_not_missed(
     header: DatasetHeader, renderer: BlenderRenderer, field: str, camera: Camera | None
 ) -> None:
-    """With the same samples, a lamp's picture is the same to 45 dB, which is a level and a half."""
+    """With the same samples, a lamp's picture stays the same to 45 dB, which is a level and a half."""
     whole = REFERENCE.economy
     without = whole.model_copy(update={field: True})
     less, more = (picture(header, renderer, Category.CLOSE_CONCENTRATED, 8, each, camera) for each in (without, whole))

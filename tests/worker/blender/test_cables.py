@@ -1,4 +1,4 @@
-"""Cables in a real picture: what is rendered is what is labelled, and nothing stays."""
+"""Cables in a real picture: the labels agree with the render, and nothing stays."""
 
 from pathlib import Path
 
@@ -40,7 +40,7 @@ RESOLUTION = 384
 
 @pytest.fixture(scope="module")
 def header() -> DatasetHeader:
-    """Draft pictures over one surface."""
+    """A header of draft pictures over one surface."""
     keys = {"seed": 0, "style": "published", "images": 600, "resolution": RESOLUTION, "quality": "draft"}
     made = make_header(parse_spec(keys, source="test"), Inputs(environments=False), InstalledAssets())
     return made.model_copy(update={"surfaces": tuple(s for s in made.surfaces if s.name in SURFACES)})
@@ -48,7 +48,7 @@ def header() -> DatasetHeader:
 
 @pytest.fixture(scope="module")
 def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The surface, small."""
+    """The baked surface, small."""
     folder = tmp_path_factory.mktemp("surfaces")
     bake_surfaces(folder, pixels=256, names=SURFACES, processes=1)
     return folder
@@ -79,7 +79,7 @@ def dressed(cables: tuple[Cable, ...], index: int) -> tuple[Cable, ...]:
 
 @pytest.fixture
 def renderer(header: DatasetHeader, baked: Path, monkeypatch: pytest.MonkeyPatch) -> BlenderRenderer:
-    """One that dresses what is drawn."""
+    """A renderer that replaces the sampled cables by the dressed ones."""
 
     def draw(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         scene = sample_scene(header, job, attempt)
@@ -94,7 +94,7 @@ def renderer(header: DatasetHeader, baked: Path, monkeypatch: pytest.MonkeyPatch
 def test_the_mask_of_bundles_ties_and_ends_is_that_of_a_render(
     renderer: BlenderRenderer, header: DatasetHeader, index: int
 ) -> None:
-    """White cables and black ties, 64 samples: all but a few pixels that differ are about half covered."""
+    """Against white cables and black ties at 64 samples, almost all differing pixels are about half covered."""
     made = renderer.make(Job(category=Category.CLOSE_CONCENTRATED, index=index), header)
     assert made.files["instances"].max() == 3 + 2 * index + 2
     rendered = render_coverage(made.scene.camera, samples=64)
@@ -104,7 +104,7 @@ def test_the_mask_of_bundles_ties_and_ends_is_that_of_a_render(
 
 
 def test_a_backdrop_takes_ties_for_what_covers(renderer: BlenderRenderer, header: DatasetHeader) -> None:
-    """A far picture, where what is not covered is looked up: the ties' pixels are neither black nor see-through."""
+    """In a far picture the ties' pixels are neither black nor transparent."""
     made = renderer.make(Job(category=Category.FAR, index=1), header)
     assert made.files["image"].shape == (RESOLUTION, RESOLUTION, 3)
     assert np.isfinite(made.files["image"]).all()
@@ -113,7 +113,7 @@ def test_a_backdrop_takes_ties_for_what_covers(renderer: BlenderRenderer, header
 
 
 def test_images_of_skins_go_with_their_picture(renderer: BlenderRenderer, header: DatasetHeader) -> None:
-    """After five pictures there are no more than after two."""
+    """After five pictures there are no more images than after two."""
     counts = []
     for index in (0, 2, 4, 6, 8):
         renderer.make(Job(category=Category.CLOSE_CONCENTRATED, index=index), header)

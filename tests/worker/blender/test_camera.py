@@ -1,4 +1,4 @@
-"""Blender's camera sees what the masks say, however it stands and whatever its lens."""
+"""Blender's camera agrees with the masks, for any direction and lens."""
 
 import numpy as np
 import pytest
@@ -51,7 +51,7 @@ CAMERAS = {
 
 @pytest.fixture(scope="module")
 def settled() -> tuple[Scene, CableShapes]:
-    """A far scene, and its cables at rest."""
+    """A far scene with its cables at rest."""
     thin = {"cable": {"count_draws": 1, "diameter_m": 0.002}}
     scene, header = make_scene(Category.CLOSE_CONCENTRATED, index=3, ranges=thin), make_header()
     return scene, simulate(scene, header.spec.simulator, header.spec.fall)

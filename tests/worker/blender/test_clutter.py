@@ -1,4 +1,4 @@
-"""Clutter in a real Blender: it is seen, it leaves labels alone, and it is gone from the next picture."""
+"""Clutter in a real Blender: it is visible, leaves labels alone, and is gone from the next picture."""
 
 from pathlib import Path
 
@@ -70,12 +70,12 @@ class Stage:
 
 @pytest.fixture(scope="module")
 def stage(tmp_path_factory: pytest.TempPathFactory) -> Stage:
-    """Shared: each test renders what it needs."""
+    """A stage that all tests share; each renders its own scenes."""
     return Stage(tmp_path_factory.mktemp("surfaces"))
 
 
 def cluttered(plain: Scene) -> Scene:
-    """One of each kind, where the camera sees them, and cables that start above the sticks."""
+    """A scene with clutter of each kind in view of the camera, and cables that start above the sticks."""
     edge = 0.012
     return plain.model_copy(
         update={
@@ -93,7 +93,7 @@ def cluttered(plain: Scene) -> Scene:
 
 
 def test_every_kind_of_clutter_is_put_in_the_picture(stage: Stage) -> None:
-    """An object each, above the floor and, if it is a sheet, by less than a tenth of a millimetre."""
+    """Each piece of clutter is an object above the floor; a sheet lies less than a tenth of a millimetre above it."""
     scene = cluttered(stage.plain)
     stage.picture(scene)
     found = [each for each in bpy.data.scenes["picture"].objects if each.name.startswith(f"{PREFIX}.")]
@@ -106,7 +106,7 @@ def test_every_kind_of_clutter_is_put_in_the_picture(stage: Stage) -> None:
 
 
 def test_a_picture_does_not_depend_on_the_clutter_of_the_one_before(stage: Stage) -> None:
-    """The same bytes before and after it, and nothing of it is left."""
+    """A picture has the same bytes before and after one with clutter, and no clutter is left."""
     before = stage.picture(stage.plain)
     between = stage.picture(cluttered(stage.plain))
     after = stage.picture(stage.plain)
@@ -117,7 +117,7 @@ def test_a_picture_does_not_depend_on_the_clutter_of_the_one_before(stage: Stage
 
 
 def test_wear_that_changes_nothing_does_not_show(stage: Stage) -> None:
-    """Byte by byte the picture of a floor without any."""
+    """The picture equals that of a floor without wear, byte by byte."""
     assert stage.plain.floor is not None
     worn = stage.plain.floor.model_copy(update={"wear": NEUTRAL})
     same = stage.picture(stage.plain.model_copy(update={"floor": worn}))
@@ -125,7 +125,7 @@ def test_wear_that_changes_nothing_does_not_show(stage: Stage) -> None:
 
 
 def test_a_worn_floor_shows_it(stage: Stage) -> None:
-    """Half as bright, the picture is darker."""
+    """A floor that is half as bright gives a darker picture."""
     assert stage.plain.floor is not None
     worn = stage.plain.floor.model_copy(update={"wear": NEUTRAL.model_copy(update={"brightness": 0.3})})
     dark = stage.picture(stage.plain.model_copy(update={"floor": worn}))

@@ -1,4 +1,4 @@
-"""Whole pictures as a camera takes them: repeatable, rightly masked, and without a trace in those after them."""
+"""Whole developed pictures: they repeat, their masks are right, and they leave no trace in later pictures."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -63,7 +63,7 @@ LAMPS = (
 
 @pytest.fixture(scope="module")
 def header() -> DatasetHeader:
-    """Draft pictures of 128 pixels over one surface."""
+    """A header of draft pictures of 128 pixels over one surface."""
     spec = parse_spec(
         {"seed": 0, "style": "published", "images": 600, "resolution": 128, "quality": "draft"}, source="test"
     )
@@ -73,14 +73,14 @@ def header() -> DatasetHeader:
 
 @pytest.fixture
 def renderer(header: DatasetHeader, tmp_path: Path) -> BlenderRenderer:
-    """With a fresh template."""
+    """A renderer with a fresh template."""
     bake_surfaces(tmp_path, pixels=256, names=("concrete_smooth",), processes=1)
     return open_renderer(header, RendererSettings(device=DeviceChoice.CPU, assets=tmp_path))
 
 
 @contextmanager
 def photographed(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Let scenes be drawn with the camera above, its development, and under lamps the lamps above."""
+    """Sample scenes with the camera and development above, and under lamps with the lamps above."""
 
     def draw(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         scene = sample_scene(header, job, attempt)
@@ -103,7 +103,7 @@ def same(one: Picture, other: Picture) -> bool:
 def test_a_photograph_leaves_nothing_behind(
     renderer: BlenderRenderer, header: DatasetHeader, monkeypatch: pytest.MonkeyPatch, category: Category
 ) -> None:
-    """A published picture is the same before and after it; so is the photograph itself a second time."""
+    """A published picture is the same before and after a developed one, and so is the developed one a second time."""
     job = Job(category=category, index=1)
     before = renderer.make(job, header)
     with photographed(monkeypatch):
@@ -120,7 +120,7 @@ def test_a_photograph_leaves_nothing_behind(
 def test_a_photograph_is_lit_and_masked(
     renderer: BlenderRenderer, header: DatasetHeader, monkeypatch: pytest.MonkeyPatch, category: Category
 ) -> None:
-    """Neither black nor white; its gradients are on the mask's edges rather than beside them."""
+    """The picture is neither black nor white, and its gradients lie on the mask's edges."""
     with photographed(monkeypatch):
         made = renderer.make(Job(category=category, index=1), header)
     assert 40 < made.files["image"].mean() < 200

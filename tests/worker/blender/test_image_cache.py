@@ -1,4 +1,4 @@
-"""Images as a process holds them."""
+"""Images that a process keeps."""
 
 from pathlib import Path
 
@@ -32,7 +32,7 @@ def test_images_of_a_picture_go_with_it() -> None:
 
 
 def test_glossiness_in_grey_becomes_roughness_all_over(tmp_path: Path) -> None:
-    """Not in the first columns alone, and in colour as in grey."""
+    """Grey and coloured glossiness become roughness in all columns."""
     from worker.blender.image_cache import ImageCache, TextureFile  # noqa: PLC0415
 
     path = tmp_path / "gloss.png"

@@ -1,4 +1,4 @@
-"""Real pictures from a real Blender: small, of every category, repeatable, and masked rightly."""
+"""Real pictures from a real Blender: small, of every category, repeatable, and with right masks."""
 
 import os
 from pathlib import Path
@@ -34,7 +34,7 @@ SURFACES = ("concrete_smooth", "rusted_steel")
 
 
 def small_header(**keys: object) -> DatasetHeader:
-    """Draft pictures of 128 pixels over two surfaces and Blender's own HDRIs."""
+    """A header of draft pictures of 128 pixels over two surfaces and Blender's own HDRIs."""
     small = {"seed": 0, "style": "published", "images": 600, "resolution": 128, "quality": "draft"}
     spec = parse_spec({**small, **keys}, source="test")
     header = make_header(spec, Inputs(environments=False), InstalledAssets())
@@ -62,7 +62,7 @@ def renderer(baked: Path) -> BlenderRenderer:
 
 @pytest.mark.parametrize("category", Category)
 def test_every_category_gives_a_lit_picture_with_its_mask(renderer: BlenderRenderer, category: Category) -> None:
-    """Cables are in the mask, and the picture is neither black nor flat."""
+    """The mask has cables, and the picture is neither black nor flat."""
     made = renderer.make(Job(category=category, index=1), small_header())
     assert made.files["image"].shape == (128, 128, 3)
     assert 5 < made.files["image"].mean() < 250
@@ -72,7 +72,7 @@ def test_every_category_gives_a_lit_picture_with_its_mask(renderer: BlenderRende
 
 
 def test_a_header_without_settings_is_refused(baked: Path) -> None:
-    """One that another farm wrote is not rendered with settings of this one's own."""
+    """A header of another farm, without settings, isn't rendered with this farm's own."""
     header = small_header().model_copy(update={"rendering": {}})
     renderer = open_renderer(header, on_cpu(baked))
     with pytest.raises(SpecError, match="does not say how far is rendered"):
@@ -80,7 +80,7 @@ def test_a_header_without_settings_is_refused(baked: Path) -> None:
 
 
 def test_a_cable_pixel_looks_unlike_the_picture_without_cables(renderer: BlenderRenderer) -> None:
-    """The mask lies where the picture shows cables: taking them away changes masked pixels far more than others."""
+    """Taking the cables away changes masked pixels far more than others."""
     header = small_header()
     made = renderer.make(Job(category=Category.CLOSE_CONCENTRATED, index=1), header)
     for cable in [item for item in bpy.data.objects if item.name.startswith("cable.")]:
@@ -104,7 +104,7 @@ def test_a_picture_does_not_depend_on_those_before_it(renderer: BlenderRenderer,
 
 @pytest.mark.parametrize("category", [Category.CLOSE_CONCENTRATED, Category.FAR_ALIGNED])
 def test_a_mask_agrees_with_an_emission_render(baked: Path, category: Category) -> None:
-    """White cables on black, 64 samples, at 512 pixels: edges within half a pixel, save in gaps between cables."""
+    """Against white cables on black, 64 samples, 512 pixels: edges agree within half a pixel, except in gaps."""
     header = small_header(resolution=512)
     made = open_renderer(header, on_cpu(baked)).make(Job(category=category, index=0), header)
     agreement = compare(made.files["instances"], render_coverage(made.scene.camera, samples=64))
@@ -117,7 +117,7 @@ def test_a_mask_agrees_with_an_emission_render(baked: Path, category: Category) 
 def test_the_floor_is_hidden_from_the_camera_in_far_pictures_alone(
     renderer: BlenderRenderer, category: Category
 ) -> None:
-    """It stays for physics and for light."""
+    """In far pictures the floor stays for physics and light."""
     renderer.make(Job(category=category, index=0), small_header())
     assert bpy.data.objects["floor"].visible_camera == (category.traits.background is Background.FLOOR)
     assert not bpy.data.objects["floor"].hide_render
@@ -134,7 +134,7 @@ def test_only_shown_cables_are_simulated_as_cloth(baked: Path) -> None:
 
 
 def test_the_wind_moves_the_cables(baked: Path) -> None:
-    """The strongest wind against none: masks of the same cables differ."""
+    """The masks of the same cables in the strongest wind and in none differ."""
     calm = small_header(ranges={"wind": {"strength": [0.0, 0.0]}})
     windy = small_header(ranges={"wind": {"strength": [10.0, 10.0]}})
     job = Job(category=Category.FAR, index=2)
@@ -143,7 +143,7 @@ def test_the_wind_moves_the_cables(baked: Path) -> None:
 
 
 def test_settled_scenes_are_at_rest_whole_and_apart(renderer: BlenderRenderer) -> None:
-    """Figures of eight scenes: gates 1 to 4 at their targets."""
+    """In eight scenes gates 1 to 4 are at their targets."""
     for index in range(8):
         settled = renderer.make(Job(category=Category.FAR, index=index), small_header()).settled
         missed = [gate.name for gate, figure in settled_figures(settled).items() if not gate.on_target(figure)]
@@ -151,7 +151,7 @@ def test_settled_scenes_are_at_rest_whole_and_apart(renderer: BlenderRenderer) -
 
 
 def test_a_job_whose_scenes_all_fail_ends_in_a_scene_error(baked: Path) -> None:
-    """Cables that have no time to land; every attempt is tried and told."""
+    """Cables that have no time to land fail every attempt, and the error names all attempts."""
     header = small_header(
         fall={"max_attempts": 2, "rod": {"max_time_s": 0.05}},
         ranges={"placement": {"drop_height_m": 0.2}},
@@ -162,7 +162,7 @@ def test_a_job_whose_scenes_all_fail_ends_in_a_scene_error(baked: Path) -> None:
 
 
 def test_a_rejected_scene_is_drawn_again_and_told_in_the_manifest(baked: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The next sub-seed's scene is shipped, with the reason against the first."""
+    """The next attempt's scene is shipped, and the manifest holds the reason against the first."""
     faults = iter(["length error 0.02 is above 0.01", None])
     monkeypatch.setattr("worker.simulate.settle.find_fault", lambda _: next(faults))
     header = small_header()
@@ -180,7 +180,7 @@ def test_surfaces_that_are_not_baked_are_asked_for(tmp_path: Path) -> None:
 
 
 def test_a_template_that_changed_since_the_submit_is_refused() -> None:
-    """Its checksum stands in the header."""
+    """A template whose checksum differs from the header's is refused."""
     header = small_header()
     changed = header.model_copy(update={"template": header.template.model_copy(update={"sha256": "0" * 64})})
     with pytest.raises(AssetError, match="has changed"):
@@ -188,7 +188,7 @@ def test_a_template_that_changed_since_the_submit_is_refused() -> None:
 
 
 def test_an_artists_template_that_lacks_something_is_refused(tmp_path: Path) -> None:
-    """By the name of what is missing."""
+    """The error names what the template lacks."""
     path = tmp_path / "empty.blend"
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
@@ -202,7 +202,7 @@ def test_an_artists_template_that_lacks_something_is_refused(tmp_path: Path) -> 
 
 
 def test_another_lens_in_the_template_does_not_spoil_the_masks(tmp_path: Path, baked: Path) -> None:
-    """The published lens is set for every picture, as the masks take it for granted."""
+    """The published lens is set for every picture, as the masks assume it."""
     open_template(TEMPLATE)
     camera = bpy.data.objects["camera"]
     camera.data.lens, camera.data.shift_x, camera.rotation_euler.x = 35.0, 0.1, 0.2
@@ -216,14 +216,14 @@ def test_another_lens_in_the_template_does_not_spoil_the_masks(tmp_path: Path, b
 
 
 def test_a_file_that_is_not_there_is_an_asset_error(tmp_path: Path) -> None:
-    """Naming the file."""
+    """The error names a file that isn't there."""
     with pytest.raises(AssetError, match=r"gone\.exr"):
         checked(FileRef(path=str(tmp_path / "gone.exr"), sha256="0" * 64))
 
 
 @pytest.mark.slow
 def test_eevee_renders_headless(baked: Path) -> None:
-    """By software OpenGL where there is no GPU: a picture much like that of Cycles, a lamp's shadows included."""
+    """Through software OpenGL without a GPU, a picture resembles that of Cycles, a lamp's shadows included."""
     if os.environ.get("CI") != "true" and not any(Path("/usr/lib").glob("*/libEGL_mesa.so.0")):
         pytest.skip("no EGL: apt-get install libegl-mesa0 libgl1-mesa-dri")
     job = Job(category=Category.CLOSE_CONCENTRATED, index=1)
@@ -237,7 +237,7 @@ def test_eevee_renders_headless(baked: Path) -> None:
 
 
 def test_a_photograph_stands_behind_far_cables(baked: Path, tmp_path: Path) -> None:
-    """All that is no cable shows it, here a plain red one; it takes part only where it is named."""
+    """Every pixel without a cable shows the photograph, a plain red one; it takes part only if it is named."""
     cv2.imwrite(str(tmp_path / "red.png"), np.full((300, 400, 3), (20, 20, 200), np.uint8))
     plain = small_header(ranges={"plate": {"share": 1.0}})
     named = plain.model_copy(update={"plates": tuple(InstalledAssets().plates_in(tmp_path))})
@@ -250,7 +250,7 @@ def test_a_photograph_stands_behind_far_cables(baked: Path, tmp_path: Path) -> N
 
 
 def test_labels_without_a_render_cover_what_the_mask_does(renderer: BlenderRenderer) -> None:
-    """Scenes that a benchmark labels alone stand for pictures."""
+    """The labels of a benchmark that renders nothing equal those of the pictures."""
     header = small_header()
     job = Job(category=Category.CLOSE_ALIGNED_CONCENTRATED, index=2)
     *_, last = drawn_coverage(header, job.category, job.index + 1)

@@ -34,17 +34,17 @@ LAMP = StudioLamp(
     size_m=0.2,
     temperature_k=6500.0,
 )
-"""Above the floor, which it gives a radiance of a half."""
+"""Lamp straight above the floor that gives it a radiance of one half."""
 
 
 def lamp(**changes: float) -> StudioLamp:
-    """Like that but for some changes."""
+    """The lamp above with some changes."""
     return LAMP.model_copy(update=changes)
 
 
 @pytest.fixture(autouse=True)
 def white_floor() -> None:
-    """A white Lambertian floor in a fresh template, seen straight from above through a view that changes nothing."""
+    """A white Lambertian floor in a fresh template, seen from above through a view transform that changes nothing."""
     open_template(TEMPLATE)
     tree = bpy.data.materials[names.FLOOR].node_tree
     white = tree.nodes.new("ShaderNodeBsdfDiffuse")
@@ -61,7 +61,7 @@ def white_floor() -> None:
 
 
 def radiance() -> NDArray[np.float64]:
-    """Of the floor, (3,), 0 to 1."""
+    """The radiance of the floor, (3,), 0 to 1."""
     colour: NDArray[np.float64] = render_picture().mean(axis=(0, 1)) / 255.0
     return colour
 
@@ -70,7 +70,7 @@ def radiance() -> NDArray[np.float64]:
     "changes", [{}, {"size_m": 1.2, "distance_m": 0.8}, {"elevation_deg": 35.0, "irradiance_w_m2": 2.5}]
 )
 def test_a_lamp_has_its_irradiance(changes: dict[str, float]) -> None:
-    """A white floor's radiance is E sin(elevation) / pi, however large and near the lamp, within 2 %."""
+    """A white floor has the radiance E sin(elevation) / pi, however large and near the lamp, within 2 %."""
     wanted = lamp(**changes)
     set_lamps((wanted,))
     set_grey_world(BLACK)
@@ -79,7 +79,7 @@ def test_a_lamp_has_its_irradiance(changes: dict[str, float]) -> None:
 
 
 def test_lamps_add_up_and_go_with_their_picture() -> None:
-    """Two lamps of different colours, then none."""
+    """Two lamps of different colours add up, and a later picture has none of them."""
     warm, cold = lamp(irradiance_w_m2=0.8, temperature_k=3000.0), lamp(irradiance_w_m2=0.6, bearing_deg=200.0)
     set_grey_world(BLACK)
     set_lamps((warm, cold))
@@ -91,21 +91,21 @@ def test_lamps_add_up_and_go_with_their_picture() -> None:
 
 
 def test_a_lamp_between_camera_and_floor_is_not_seen() -> None:
-    """It lights, and hides nothing."""
+    """A lamp between camera and floor lights the floor and hides nothing."""
     set_grey_world(BLACK)
     set_lamps((lamp(distance_m=0.05, size_m=0.05),))
     assert radiance().min() > 0.2
 
 
 def test_grey_surroundings_are_as_bright_and_warm_as_drawn() -> None:
-    """An even world of radiance L gives a white floor L."""
+    """An even world of radiance L gives a white floor the radiance L."""
     set_lamps(())
     set_grey_world(GreyWorld(radiance=0.4, temperature_k=5000.0))
     assert radiance() == pytest.approx(0.4 * black_body(5000.0), rel=0.02)
 
 
 def test_the_templates_grey_comes_back() -> None:
-    """After a picture with another one, to the last bit; an artist's is kept as well as the farm's own."""
+    """After an image with another grey, the template's comes back to the last bit, be it an artist's or the farm's."""
     node = bpy.data.worlds[names.WORLD].node_tree.nodes[names.WORLD_GREY]
     node.inputs["Color"].default_value = (0.1, 0.2, 0.3, 1.0)
     node.inputs["Strength"].default_value = 0.7
@@ -116,7 +116,7 @@ def test_the_templates_grey_comes_back() -> None:
 
 
 def test_the_published_lamp_is_off_beside_others() -> None:
-    """And on again when it is drawn."""
+    """The published lamp is off beside other lamps, and on again when it is drawn."""
     set_lamps((lamp(),))
     assert bpy.data.objects[names.AREA_LAMP].hide_render
     set_lamps((AreaLamp(x_m=4.0, power_w=500.0),))

@@ -1,4 +1,4 @@
-"""Scenes in pieces: who is which instance, and what lies where."""
+"""Scenes in pieces: the instance of each piece, and the order in which they hide each other."""
 
 import numpy as np
 import pytest
@@ -22,13 +22,13 @@ def line(height_m: float = 0.005, points: int = 201) -> Points:
 
 
 def cable(**keys: object) -> Cable:
-    """One of a drawn scene's, as asked for."""
+    """A cable of a drawn scene with some fields changed."""
     drawn = make_scene(ranges={"cable": {"count": [1, 1]}}).cables[0]
     return drawn.model_copy(update={"length_m": LENGTH_M, "diameter_m": 0.004, "material": make_skin(), **keys})
 
 
 def bundle(strands: int, *ties: Tie) -> Bundle:
-    """Of strands as thick as their envelope of 4 mm has room for."""
+    """A bundle of strands as thick as an envelope of 4 mm allows."""
     return Bundle(
         strands=tuple(make_skin(pattern_seed=seed) for seed in range(strands)),
         strand_diameter_m=0.004 / envelope_ratio(strands),
@@ -42,17 +42,17 @@ TIE = Tie(along=0.5, width_m=0.003, colour=(20, 20, 20))
 
 
 def scene_of(*cables: Cable) -> Scene:
-    """A scene of these."""
+    """A scene with these cables."""
     return make_scene().model_copy(update={"cables": cables})
 
 
 def pieces(*cables: Cable) -> list[Piece]:
-    """Of cables that lie on each other."""
+    """The pieces of cables that lie on each other."""
     return pieces_of(scene_of(*cables), [line(0.002 + 0.004 * k) for k in range(len(cables))], ())
 
 
 def test_a_cut_cable_is_one_piece_on_its_own_curve() -> None:
-    """The very points that settled."""
+    """The piece has exactly the points that settled."""
     curve = line()
     (piece,) = pieces_of(scene_of(cable()), [curve], ())
     assert isinstance(piece, Tubular)
@@ -61,7 +61,7 @@ def test_a_cut_cable_is_one_piece_on_its_own_curve() -> None:
 
 
 def test_instances_count_through_cables_and_strands() -> None:
-    """A cable, a bundle of three, a cable: one to five."""
+    """A cable, a bundle of three and a cable have the instances one to five."""
     cables = cable(), cable(material=bundle(3, TIE)), cable()
     found = pieces(*cables)
     assert sorted({piece.instance for piece in found} - {OCCLUDER}) == [1, 2, 3, 4, 5]
@@ -70,7 +70,7 @@ def test_instances_count_through_cables_and_strands() -> None:
 
 @pytest.mark.parametrize("strands", range(2, 8))
 def test_strands_stay_within_the_bundles_envelope(strands: int) -> None:
-    """From the centreline no strand reaches farther than the cable's radius."""
+    """No strand reaches farther from the centreline than the cable's radius."""
     for piece in pieces(cable(material=bundle(strands))):
         assert isinstance(piece, Tubular)
         assert isinstance(piece.radius_m, float)
@@ -79,7 +79,7 @@ def test_strands_stay_within_the_bundles_envelope(strands: int) -> None:
 
 
 def test_a_tie_is_no_instance_and_goes_around_all_strands() -> None:
-    """Its band is wider than the bundle from side to side."""
+    """A tie's band is wider than the bundle from side to side, and has no instance."""
     band = pieces(cable(material=bundle(2, TIE)))[2]
     assert isinstance(band, Convex)
     assert band.instance == OCCLUDER
@@ -90,7 +90,7 @@ def test_a_tie_is_no_instance_and_goes_around_all_strands() -> None:
 
 
 def test_a_tie_lies_above_the_strands_and_below_what_crosses_them() -> None:
-    """In the order of heights by which hiding goes."""
+    """A tie is above the strands and below a crossing cable in the order by which pieces hide each other."""
     found = pieces_of(scene_of(cable(material=bundle(3, TIE)), cable()), [line(0.002), line(0.012)], ())
     band = next(piece for piece in found if isinstance(piece, Convex))
     strands = [piece for piece in found if isinstance(piece, Tubular) and piece.instance <= 3]
@@ -100,7 +100,7 @@ def test_a_tie_lies_above_the_strands_and_below_what_crosses_them() -> None:
 
 
 def test_a_tie_keeps_clear_of_a_cable_that_crosses_its_bundle() -> None:
-    """It moves along the bundle; where there is no room all along, there is none."""
+    """A tie moves along the bundle away from a crossing cable; if there is no room all along, it is left out."""
     across = line(0.006)[:, [1, 0, 2]]
     scene = scene_of(cable(material=bundle(3, TIE)), cable())
     moved = [piece for piece in pieces_of(scene, [line(0.002), across], ()) if isinstance(piece, Convex)]
@@ -111,7 +111,7 @@ def test_a_tie_keeps_clear_of_a_cable_that_crosses_its_bundle() -> None:
 
 
 def test_a_tie_keeps_clear_of_a_stick_that_lies_on_its_bundle() -> None:
-    """It moves along the bundle until it does not reach the stick."""
+    """A tie moves along the bundle until it doesn't reach the stick."""
     axis = np.array([[0.0, -0.06, 0.008], [0.0, 0.06, 0.008]])
     stick = Stick(
         kind=StickKind.ROD,
@@ -133,7 +133,7 @@ def test_a_tie_keeps_clear_of_a_stick_that_lies_on_its_bundle() -> None:
 
 
 def test_ties_do_not_sit_on_each_other() -> None:
-    """Two that were drawn at one place end up side by side."""
+    """Two ties that were drawn at one place end up side by side."""
     bands = [
         piece for piece in pieces(cable(material=bundle(3, TIE, TIE))) if isinstance(piece, Convex) and piece.around
     ]
@@ -142,7 +142,7 @@ def test_ties_do_not_sit_on_each_other() -> None:
 
 
 def test_a_stripped_end_shows_copper() -> None:
-    """Of the bared length, thinner than the sheath, which is that much shorter."""
+    """The bared end shows copper thinner than the sheath, which is shorter by the bared length."""
     ends = (CableEnd(kind=EndKind.STRIPPED, bare_m=0.01), CableEnd())
     sheath, *fine = pieces(cable(ends=ends))
     assert isinstance(sheath, Tubular)
@@ -157,7 +157,7 @@ def test_a_stripped_end_shows_copper() -> None:
 
 
 def test_fine_strands_stay_above_the_floor() -> None:
-    """However far they spring apart, they stay within the sheath's width."""
+    """However far fine strands spread, they stay within the sheath's width."""
     ends = (CableEnd(), CableEnd(kind=EndKind.STRIPPED, bare_m=0.012))
     for piece in pieces(cable(ends=ends)):
         assert isinstance(piece, Tubular)
@@ -165,7 +165,7 @@ def test_fine_strands_stay_above_the_floor() -> None:
 
 
 def test_a_ferrule_is_a_collar_and_a_tube() -> None:
-    """One after the other, the collar as wide as the sheath, the tube narrower and of tin."""
+    """A collar as wide as the sheath is followed by a narrower tube of tin."""
     ends = (CableEnd(), CableEnd(kind=EndKind.FERRULE, bare_m=0.012, collar=(0, 0, 200)))
     sheath, collar, tube = pieces(cable(ends=ends))
     assert isinstance(sheath, Tubular)
@@ -181,7 +181,7 @@ def test_a_ferrule_is_a_collar_and_a_tube() -> None:
 
 
 def test_more_bare_than_there_is_cable_leaves_some_sheath() -> None:
-    """Ends take at most two fifths each."""
+    """Ends take at most two fifths of a cable each."""
     end = CableEnd(kind=EndKind.STRIPPED, bare_m=1.0)
     sheath = pieces(cable(ends=(end, end)))[0]
     assert isinstance(sheath, Tubular)
@@ -189,7 +189,7 @@ def test_more_bare_than_there_is_cable_leaves_some_sheath() -> None:
 
 
 def test_strands_of_a_bundle_have_ends_of_their_own() -> None:
-    """A bundle whose end is stripped bares every strand, each cut at a length of its own."""
+    """Every strand of a bundle is bared at its own length."""
     ends = (CableEnd(), CableEnd(kind=EndKind.STRIPPED, bare_m=0.008))
     found = [piece for piece in pieces(cable(material=bundle(3), ends=ends)) if isinstance(piece, Tubular)]
     copper = {piece.instance: piece for piece in found if isinstance(piece.surface, Plain)}

@@ -1,4 +1,4 @@
-"""Skins: closed around the cable, of the shares and sizes that were asked for, and the same each time."""
+"""Skins: closed around the cable, with the shares and sizes asked for, and repeatable."""
 
 import numpy as np
 import pytest
@@ -16,22 +16,22 @@ MARKING = Marking(text="H07RN-F 3G1.5", colour=WHITE, height_share=0.5, repeat_m
 
 
 def drawn(skin: Skin) -> SkinImages:
-    """On a cable of usual size."""
+    """The maps of a skin on a cable of usual size."""
     return draw_skin(skin, LENGTH_M, DIAMETER_M, PIXEL_M)
 
 
 def striped(kind: StripeKind, share: float, count: int, pitch_m: float, **keys: object) -> Skin:
-    """White on red."""
+    """A skin with white stripes on red."""
     return make_skin(stripe=Stripe(kind=kind, colour=WHITE, share=share, count=count, pitch_m=pitch_m), **keys)
 
 
 def share_of(images: SkinImages, colour: Rgb, other: Rgb) -> float:
-    """Share of the surface that is nearer to one colour than to the other."""
+    """Share of the surface that is closer to one colour than to the other."""
     return float(nearer(images, colour, other).mean())
 
 
 def nearer(images: SkinImages, colour: Rgb, other: Rgb) -> NDArray[np.bool_]:
-    """Where the surface is nearer to one colour than to the other."""
+    """Where the surface is closer to one colour than to the other."""
     one, two = (np.linalg.norm(images.colour - 255.0 * pigment(c).ravel(), axis=2) for c in (colour, other))
     is_nearer: NDArray[np.bool_] = one < two
     return is_nearer
@@ -50,7 +50,7 @@ EVERYTHING = {
 
 @pytest.mark.parametrize("skin", EVERYTHING.values(), ids=EVERYTHING)
 def test_images_close_around_the_cable(skin: Skin) -> None:
-    """From the last row to the first it is no farther, on the mean, than between the rows that differ most."""
+    """The mean step from the last row to the first is no larger than the largest between two rows."""
     images = drawn(skin)
     for image in (images.colour, images.roughness, images.normal):
         if image is None:
@@ -62,14 +62,14 @@ def test_images_close_around_the_cable(skin: Skin) -> None:
 
 @pytest.mark.parametrize("skin", EVERYTHING.values(), ids=EVERYTHING)
 def test_the_same_skin_is_drawn_the_same(skin: Skin) -> None:
-    """Byte by byte."""
+    """The maps are the same byte by byte."""
     once, again = drawn(skin), drawn(skin)
     assert once.colour.tobytes() == again.colour.tobytes()
     assert once.roughness.tobytes() == again.roughness.tobytes()
 
 
 def test_another_seed_is_another_pattern() -> None:
-    """Two cables of one make are soiled elsewhere."""
+    """Two cables of one make have dirt in different places."""
     one, other = (drawn(make_skin(dirt=0.2, pattern_seed=seed)).colour.astype(float) for seed in (0, 1))
     assert np.abs(one - other).mean() > 5
 
@@ -77,14 +77,14 @@ def test_another_seed_is_another_pattern() -> None:
 @pytest.mark.parametrize(("kind", "pitch_m"), [(StripeKind.STRAIGHT, 0.5), (StripeKind.SPIRAL, 0.012)])
 @pytest.mark.parametrize(("share", "count"), [(0.15, 1), (0.5, 2), (0.3, 4), (0.9, 3)])
 def test_stripes_have_their_share(kind: StripeKind, pitch_m: float, share: float, count: int) -> None:
-    """Of the surface, all together, within 4 % of it."""
+    """All stripes together cover their share of the surface, within 4 %."""
     images = drawn(striped(kind, share, count, pitch_m))
     assert share_of(images, WHITE, (200, 30, 30)) == pytest.approx(share, abs=0.04)
 
 
 @pytest.mark.parametrize("count", [1, 3])
 def test_a_spiral_comes_back_after_its_pitch(count: int) -> None:
-    """Along a row, the stripes' starts are a pitch over their number apart."""
+    """Along a row, the stripes' starts are the pitch divided by their number apart."""
     images = drawn(striped(StripeKind.SPIRAL, 0.4, count, 0.02))
     row = nearer(images, WHITE, (200, 30, 30))[5]
     starts = np.flatnonzero(row[1:] & ~row[:-1])
@@ -93,16 +93,16 @@ def test_a_spiral_comes_back_after_its_pitch(count: int) -> None:
 
 
 def test_a_marking_is_as_high_as_asked() -> None:
-    """Half a diameter, within the width of a pixel on either side."""
+    """A marking is half a diameter high, within a pixel on either side."""
     images = drawn(make_skin(marking=MARKING, colour=(10, 10, 10)))
     rows = nearer(images, WHITE, (10, 10, 10)).any(axis=1)
-    # It may lie across the seam: the rows without ink are then counted in the middle.
+    # It may lie across the seam; the rows without ink are then counted in the middle.
     height_m = np.count_nonzero(rows) * np.pi * DIAMETER_M / len(rows)
     assert height_m == pytest.approx(0.5 * DIAMETER_M, abs=3.5 * PIXEL_M)
 
 
 def test_letters_are_as_wide_as_high() -> None:
-    """A printed text has the proportions of its font: 13 letters with their room are 8 to 13 times as long as high."""
+    """A printed text has the proportions of its font: 13 letters are 8 to 13 times as long as high."""
     skin = make_skin(marking=MARKING.model_copy(update={"repeat_m": 0.5}), colour=(10, 10, 10))
     lengths = []
     for seed in range(12):
@@ -116,13 +116,13 @@ def test_letters_are_as_wide_as_high() -> None:
 
 @pytest.mark.parametrize("share", [0.05, 0.2])
 def test_dirt_has_its_share(share: float) -> None:
-    """Of a white cable, what is darker than half is the share, within half of it: spots have soft edges."""
+    """On a white cable the share of pixels darker than half is the dirt's, within half, as spots have soft edges."""
     images = drawn(make_skin(colour=WHITE, dirt=share))
     assert np.mean(images.colour.max(axis=2) < 150) == pytest.approx(share, rel=0.5)
 
 
 def test_dirt_is_duller_than_the_sheath() -> None:
-    """A glossy cable's dark spots are rough."""
+    """The dark spots of a glossy cable are rough."""
     images = drawn(make_skin(colour=WHITE, dirt=0.2, roughness=0.2))
     dark = images.colour.max(axis=2) < 120
     assert images.roughness[dark].mean() > 2 * images.roughness[~dark].mean()
@@ -135,13 +135,13 @@ def test_wear_pales() -> None:
 
 
 def test_a_matt_sheath_needs_no_relief() -> None:
-    """A normal map costs tangents of every mesh."""
+    """A matt sheath has no normal map, which would cost tangents of every mesh."""
     assert drawn(make_skin(roughness=0.7)).normal is None
     assert drawn(make_skin(roughness=0.2)).normal is not None
 
 
 def test_metal_braid_is_metal() -> None:
-    """Grey and shiny is metal, anything else is textile."""
+    """A grey and shiny braid is metal, any other one textile."""
     metal = drawn(make_skin(sheath=Sheath.BRAIDED, colour=(190, 190, 185), roughness=0.2))
     textile = drawn(make_skin(sheath=Sheath.BRAIDED, colour=(190, 30, 30), roughness=0.2))
     assert metal.metallic > 0.5

@@ -1,4 +1,4 @@
-"""Strands around each other: within their circle, beside each other, turning."""
+"""Strands around each other: they stay within their circle, beside each other, and turn."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ COUNTS = range(2, 8)
 
 @pytest.mark.parametrize("count", COUNTS)
 def test_strands_touch_and_do_not_overlap(count: int) -> None:
-    """The nearest two middles are one diameter apart."""
+    """The closest two middles are one diameter apart."""
     middles = places(count)
     distances = cdist(middles, middles)[np.triu_indices(count, 1)]
     assert len(middles) == count
@@ -21,14 +21,14 @@ def test_strands_touch_and_do_not_overlap(count: int) -> None:
 
 @pytest.mark.parametrize("count", COUNTS)
 def test_strands_lie_within_their_circle_and_reach_it(count: int) -> None:
-    """The farthest strand touches it from within."""
+    """The outermost strand touches the circle from within."""
     assert np.linalg.norm(places(count), axis=1).max() + 1.0 == pytest.approx(envelope_ratio(count))
 
 
 @pytest.mark.parametrize("count", COUNTS)
 @pytest.mark.parametrize("lay_diameters", [4.0, -15.0, 40.0])
 def test_turning_strands_do_not_cut_each_other(count: int, lay_diameters: float) -> None:
-    """Points of two neighbours, finely sampled, are nowhere nearer than a diameter; and hardly farther."""
+    """Finely sampled points of two neighbours are never closer than a diameter, and hardly farther."""
     reach_m = 0.003
     lay_m = lay_diameters * 2 * reach_m
     radius_m = strand_radius(count, 1.0, reach_m, lay_m)
@@ -42,7 +42,7 @@ def test_turning_strands_do_not_cut_each_other(count: int, lay_diameters: float)
 
 
 def test_a_strand_comes_back_after_its_lay() -> None:
-    """To the same place beside the centreline."""
+    """After its lay a strand is at the same place beside the centreline."""
     arc = np.linspace(0.0, 0.2, 201)
     curve = np.stack([arc, np.zeros_like(arc), np.zeros_like(arc)], axis=1)
     line = turning(curve, places(2) * 0.001, arc, 0.1, 0.0)[0]
@@ -51,7 +51,7 @@ def test_a_strand_comes_back_after_its_lay() -> None:
 
 
 def test_strands_that_do_not_turn_keep_their_sides() -> None:
-    """A lay of 0 is none."""
+    """With a lay of 0 strands don't turn."""
     arc = np.linspace(0.0, 0.2, 201)
     curve = np.stack([arc, np.zeros_like(arc), np.zeros_like(arc)], axis=1)
     line = turning(curve, places(3) * 0.001, arc, 0.0, 50.0)[1]
@@ -59,5 +59,5 @@ def test_strands_that_do_not_turn_keep_their_sides() -> None:
 
 
 def test_thin_strands_stay_thin() -> None:
-    """An envelope with room to spare makes none thicker."""
+    """An envelope with room to spare makes no strand thicker."""
     assert strand_radius(3, 0.0005, 0.01, 0.0) == 0.0005

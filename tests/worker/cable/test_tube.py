@@ -1,4 +1,4 @@
-"""Tubes: closed, round, outward-facing, with a coordinate along the cable."""
+"""Tubes: closed, round, facing outwards, with a coordinate along the cable."""
 
 from itertools import pairwise
 
@@ -43,7 +43,7 @@ def test_faces_point_outwards() -> None:
 
 
 def test_vertices_stand_around_the_centreline() -> None:
-    """At the corner radius, which makes the silhouette right on average: within 1.3 % of r for 20 sides."""
+    """The corner radius makes the silhouette right on average: within 1.3 % of r for 20 sides."""
     tube = sweep(curve(), 0.001, SIDES)
     rings = tube.vertices_m.reshape(-1, SIDES, 3)[:-2]
     distance = np.linalg.norm(rings - curve()[:, None], axis=2)
@@ -51,7 +51,7 @@ def test_vertices_stand_around_the_centreline() -> None:
 
 
 def test_the_texture_runs_along_the_cable_in_metres() -> None:
-    """From 0 to the cable's length."""
+    """The coordinate runs from 0 to the cable's length."""
     tube = sweep(curve(), 0.001, SIDES)
     length = np.linalg.norm(np.diff(curve(), axis=0), axis=1).sum()
     along = tube.uvs[: -2 * SIDES, 0]
@@ -66,7 +66,7 @@ def test_a_part_of_a_cable_has_the_texture_of_the_whole() -> None:
 
 
 def test_the_ends_share_no_vertex_with_the_side() -> None:
-    """So that a mesh shaded smooth is round along the side and flat at the ends."""
+    """A mesh that is shaded smooth is then round along the side and flat at the ends."""
     tube = sweep(curve(), 0.001, SIDES)
     side, ends = tube.corners[: -2 * SIDES], tube.corners[-2 * SIDES :]
     assert not set(side.tolist()) & set(ends.tolist())

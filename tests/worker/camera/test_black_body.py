@@ -13,7 +13,7 @@ _XYZ_OF_REC709 = np.array(
 
 
 def chromaticity(colour: NDArray[np.float64]) -> NDArray[np.float64]:
-    """CIE x and y."""
+    """The chromaticity, CIE x and y."""
     tristimulus = _XYZ_OF_REC709 @ colour
     found: NDArray[np.float64] = tristimulus[:2] / tristimulus.sum()
     return found
@@ -30,19 +30,19 @@ def chromaticity(colour: NDArray[np.float64]) -> NDArray[np.float64]:
     ],
 )
 def test_chromaticities_are_those_of_the_planckian_locus(temperature: float, x: float, y: float) -> None:
-    """Tabulated values (Wyszecki and Stiles; 2856 K is illuminant A), within what the fit of the eye leaves."""
+    """Tabulated values (Wyszecki and Stiles; 2856 K is illuminant A) are met within the fit of the eye's response."""
     assert chromaticity(black_body(temperature)) == pytest.approx([x, y], abs=0.004)
 
 
 @pytest.mark.parametrize("temperature", [1000, 1900, 6500, 20_000])
 def test_the_luminance_is_1(temperature: float) -> None:
-    """Whatever the colour, which is never negative."""
+    """The luminance is 1 for every colour, and no channel is negative."""
     colour = black_body(temperature)
     assert REC709_LUMINANCE @ colour == pytest.approx(1.0)
     assert colour.min() >= 0.0
 
 
 def test_hotter_is_bluer() -> None:
-    """All along the range."""
+    """Blue over red rises with the temperature over the whole range."""
     shares = [black_body(t)[2] / black_body(t)[0] for t in range(2000, 20_001, 500)]
     assert (np.diff(shares) > 0).all()

@@ -1,4 +1,4 @@
-"""From light to levels, step by step."""
+"""Developing light to levels, step by step."""
 
 import math
 
@@ -29,7 +29,7 @@ PLAIN = Development(
     jpeg_quality=NO_JPEG,
     seed=0,
 )
-"""Nothing but the exposure and sRGB."""
+"""Development with nothing but the exposure and the sRGB curve."""
 
 NOISY = PLAIN.model_copy(update={"full_well": 2000.0, "read_noise": 3.0})
 
@@ -46,7 +46,7 @@ def varied(size: int = 64, seed: int = 0) -> Light:
 
 
 def test_settings_that_do_nothing_give_plain_srgb() -> None:
-    """Below the shoulder, to two levels, once the picture's mean is at mid-grey: 0.18 is level 118."""
+    """Below the shoulder, levels are sRGB's to two levels, once the mean is at mid-grey: 0.18 is level 118."""
     steps_of_light = np.exp2(np.linspace(-1.5, 1.5, 64))
     mean = math.sqrt(math.exp(float(np.log(steps_of_light).mean())) * float(steps_of_light.mean()))
     light = np.repeat(steps_of_light[:, None, None], 64, axis=1).repeat(3, axis=2) * (0.18 / mean)
@@ -57,14 +57,14 @@ def test_settings_that_do_nothing_give_plain_srgb() -> None:
 
 @given(brightness=st.floats(1e-4, 1e4), key=st.floats(0.02, 0.5), stops=st.floats(-2, 2))
 def test_the_exposure_reaches_its_key(brightness: float, key: float, stops: float) -> None:
-    """However bright the scene; an error of stops comes on top."""
+    """The exposure meets its key for any brightness, and an error of stops is added."""
     exposed = luminance(steps.expose(varied(256) * np.float32(brightness), key, stops))
     mean = math.sqrt(math.exp(float(np.log(exposed).mean())) * float(exposed.mean()))
     assert mean == pytest.approx(key * 2**stops, rel=0.05)
 
 
 def test_a_lamp_in_view_or_a_black_edge_does_not_sway_the_exposure() -> None:
-    """A hundredth of the picture at 10,000 times the light, or at none: a tenth of a stop at most."""
+    """A hundredth of the picture at 10,000 times the light, or at none, changes the exposure by a tenth of a stop."""
     plain = steps.expose(varied(), 0.18, 0.0)[32:, 32:]
     for value in (1e4, 0.0):
         changed = varied()
@@ -73,12 +73,12 @@ def test_a_lamp_in_view_or_a_black_edge_does_not_sway_the_exposure() -> None:
 
 
 def test_black_stays_black() -> None:
-    """There is nothing to meter."""
+    """A black picture, which has nothing to meter, stays black."""
     assert not develop(even(0.0), PLAIN).any()
 
 
 def test_what_is_no_light_does_no_harm() -> None:
-    """NaN, infinity and negative light in single pixels change no other."""
+    """NaN, infinity and negative light in single pixels change no other pixel."""
     light = varied()
     broken = light.copy()
     broken[10, 11], broken[20, 5], broken[40, 40] = np.nan, np.inf, -1.0
@@ -88,7 +88,7 @@ def test_what_is_no_light_does_no_harm() -> None:
 
 
 def test_the_white_balance_keeps_a_greys_luminance() -> None:
-    """Red over green and blue over green are the gains."""
+    """Red over green and blue over green change by the gains, and luminance doesn't."""
     seen = steps.balance(even(0.5), (1.2, 0.9))
     assert luminance(seen) == pytest.approx(np.full((64, 64), 0.5), rel=1e-6)
     assert seen[0, 0] / seen[0, 0, 1] == pytest.approx([1.2, 1.0, 0.9])
@@ -104,7 +104,7 @@ def test_the_white_balance_takes_off_most_of_a_lamps_colour() -> None:
 
 @pytest.mark.parametrize("lost", [0.1, 0.35, 1.0])
 def test_corners_lose_their_share(lost: float) -> None:
-    """Of the light of the middle; along a radius it falls as cos^4."""
+    """Corners lose their share of the middle's light; along a radius it falls as cos^4."""
     seen = steps.vignette(even(1.0, 401), lost)[..., 0]
     assert seen[200, 200] == pytest.approx(1.0, abs=1e-4)
     assert seen[0, 0] == pytest.approx(1.0 - lost, abs=0.01)
@@ -113,7 +113,7 @@ def test_corners_lose_their_share(lost: float) -> None:
 
 
 def test_a_bright_coloured_light_turns_white() -> None:
-    """A deep red one gains green and blue beyond white alone, so that ten times as much of it is pale."""
+    """A deep red light gains green and blue beyond white, so that ten times the light is pale."""
     red = even(1.0) * np.array([1.0, 0.1, 0.02], np.float32)
     assert (steps.bleed(red) == red).all()
     paler = steps.bleed(10 * red)[0, 0]
@@ -122,14 +122,14 @@ def test_a_bright_coloured_light_turns_white() -> None:
 
 @pytest.mark.parametrize("level", [0.02, 0.2, 0.8])
 def test_noise_has_the_variance_of_shot_and_read_noise(level: float) -> None:
-    """Level / full well + (read noise / full well)^2, within 5 %, and a mean that is left alone."""
+    """The variance is level / full well + (read noise / full well)^2, within 5 %, and the mean stays."""
     noisy = steps.add_noise(even(level, 256), 2000.0, 3.0, np.random.default_rng(0))
     assert noisy.var() == pytest.approx(level / 2000 + (3 / 2000) ** 2, rel=0.05)
     assert noisy.mean() == pytest.approx(level, rel=0.01)
 
 
 def test_noise_is_shared_with_the_pixels_beside() -> None:
-    """By the autocorrelation of the kernel, 2 c / (1 + 2 c^2), in each direction; channels are independent."""
+    """The autocorrelation is the kernel's, 2 c / (1 + 2 c^2), in each direction; channels are independent."""
     noise = steps.add_noise(even(0.5, 256), 2000.0, 0.0, np.random.default_rng(0)) - 0.5
     expected = 2 * steps.CORRELATION / (1 + 2 * steps.CORRELATION**2)
     across = np.corrcoef(noise[:, :-1, 0].ravel(), noise[:, 1:, 0].ravel())[0, 1]
@@ -139,7 +139,7 @@ def test_noise_is_shared_with_the_pixels_beside() -> None:
 
 
 def test_the_seed_decides_the_noise() -> None:
-    """The same picture again from the same one, 0 included; another from another."""
+    """The same seed, 0 included, gives the same picture, and another seed another one."""
     first, again = (develop(varied(), NOISY) for _ in range(2))
     other = develop(varied(), NOISY.model_copy(update={"seed": 1}))
     assert (first == again).all()
@@ -147,7 +147,7 @@ def test_the_seed_decides_the_noise() -> None:
 
 
 def test_the_tone_curve_rises_to_white_and_is_smooth_at_the_shoulder() -> None:
-    """Never falls, has no kink where the shoulder begins, and is white at the most light."""
+    """The curve never falls, has no kink where the shoulder begins, and is white at the most light."""
     light = np.linspace(0.0, steps.MOST_LIGHT, 20_001)
     for contrast in (0.8, 1.0, 1.6):
         levels = steps.curve(light, contrast)
@@ -160,7 +160,7 @@ def test_the_tone_curve_rises_to_white_and_is_smooth_at_the_shoulder() -> None:
 
 @pytest.mark.parametrize("contrast", [0.8, 1.0, 1.5])
 def test_contrast_is_the_slope_about_mid_grey(contrast: float) -> None:
-    """Over that of sRGB; mid-grey stays where it is."""
+    """Contrast multiplies sRGB's slope at mid-grey, which stays where it is."""
     light = steps.MID_GREY * np.array([0.99, 1.0, 1.01])
     levels, plain = steps.curve(light, contrast), srgb_of_light(light)
     assert levels[1] == pytest.approx(plain[1])
@@ -168,13 +168,13 @@ def test_contrast_is_the_slope_about_mid_grey(contrast: float) -> None:
 
 
 def test_the_table_is_the_curve() -> None:
-    """To a fifth of a level, in the dark as well."""
+    """The table equals the curve to a fifth of a level, also in the dark."""
     light = (np.linspace(0, 1, 4096) ** 4 * steps.MOST_LIGHT).astype(np.float32)
     assert steps.tone(light, 1.3) == pytest.approx(steps.curve(light.astype(np.float64), 1.3), abs=0.2 / 255)
 
 
 def test_saturation_keeps_brightness() -> None:
-    """None leaves grey, 1 all as it is, and 2 doubles what is beside the grey."""
+    """A saturation of 0 leaves grey, 1 changes nothing, and 2 doubles the distance from grey."""
     levels = varied() / 4
     grey = luminance(levels)
     assert steps.saturate(levels, 1.0) is levels
@@ -183,7 +183,7 @@ def test_saturation_keeps_brightness() -> None:
 
 
 def test_sharpening_steepens_an_edge_and_leaves_flats() -> None:
-    """By the amount, in what a blur takes off."""
+    """Sharpening adds back the amount of what a blur takes off."""
     step = np.repeat(np.where(np.arange(64) < 32, 0.3, 0.6)[None, :, None], 64, axis=0).repeat(3, axis=2)
     sharp = steps.sharpen(step.astype(np.float32), 0.5)
     assert sharp[:, :20] == pytest.approx(np.full((64, 20, 3), 0.3), abs=1e-5)
@@ -191,12 +191,12 @@ def test_sharpening_steepens_an_edge_and_leaves_flats() -> None:
 
 
 def peak_snr_db(picture: NDArray[np.uint8], other: NDArray[np.uint8]) -> float:
-    """Of two pictures."""
+    """Peak signal-to-noise ratio of two pictures, dB."""
     return float(cv2.PSNR(picture, other))
 
 
 def test_compression_does_what_its_quality_says() -> None:
-    """None from 100 on; below, the less the worse."""
+    """From 100 on there is no loss; below, a lower quality loses more."""
     picture = cv2.GaussianBlur(np.rint(varied() * 100).astype(np.uint8), (0, 0), 2).astype(np.uint8)
     assert (steps.compress(picture, NO_JPEG) == picture).all()
     assert (steps.compress(picture, 100) == picture).all()
@@ -206,7 +206,7 @@ def test_compression_does_what_its_quality_says() -> None:
 
 
 def test_a_distorted_picture_is_filled() -> None:
-    """No border is black or stretched, with colours apart as well."""
+    """No border is black or stretched, even with colour fringes."""
     fringed = PLAIN.model_copy(update={"chromatic_aberration": 0.002})
     for distortion in (-0.2, 0.2):
         assert (develop(even(0.7), fringed, distortion=distortion) == 118).all()

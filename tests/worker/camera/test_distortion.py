@@ -1,4 +1,4 @@
-"""A lens's distortion: of places, of pictures, and that they are the same."""
+"""A lens's distortion of places and of pictures, which must agree."""
 
 import cv2
 import numpy as np
@@ -29,7 +29,7 @@ def border(count: int) -> NDArray[np.float64]:
 
 
 def test_none_moves_nothing() -> None:
-    """Neither places nor pictures, to the last bit."""
+    """Without distortion, places and pictures stay the same to the last bit."""
     picture = np.random.default_rng(0).random((16, 16, 3), np.float32)
     assert (Distortion(0.0).move(border(9)) == border(9)).all()
     assert Distortion(0.0).distort(picture) is picture
@@ -37,14 +37,14 @@ def test_none_moves_nothing() -> None:
 
 @given(amount=amounts)
 def test_the_picture_is_just_filled(amount: float) -> None:
-    """The border goes nowhere inside the picture, and somewhere it stays on it."""
+    """The border never moves inside the picture, and somewhere it stays on the border."""
     moved = np.abs(Distortion(amount).move(border(101))).max(axis=1)
     assert moved.min() == pytest.approx(EDGE)
 
 
 @given(amount=amounts)
 def test_a_corner_moves_against_the_middle_as_told(amount: float) -> None:
-    """By 1 + the amount, beside the scale of the picture's middle."""
+    """A corner moves by 1 + the amount, relative to the scale of the picture's middle."""
     lens = Distortion(amount)
     middle, corner = (lens.move(radius * np.array([[EDGE, EDGE]]))[0] / radius for radius in (1e-6, 1.0))
     assert corner / middle == pytest.approx(np.full(2, 1.0 + amount), rel=1e-6)
@@ -52,14 +52,14 @@ def test_a_corner_moves_against_the_middle_as_told(amount: float) -> None:
 
 @given(amount=amounts, radius=st.floats(0, 50), further=st.floats(1e-3, 10))
 def test_what_is_farther_out_stays_farther_out(amount: float, radius: float, further: float) -> None:
-    """Even far outside: nothing is folded back into the picture."""
+    """Even far outside, nothing is folded back into the picture."""
     near, far = Distortion(amount).move(np.array([[radius, 0.0], [radius + further, 0.0]]))[:, 0]
     assert far > near
 
 
 @pytest.mark.parametrize("amount", [-0.2, -0.05, 0.05, 0.2])
 def test_pictures_are_distorted_as_places_are(amount: float) -> None:
-    """Blurred dots: the centroid of each is where its place moves, within 0.06 pixels."""
+    """The centroid of each blurred dot is where its place moves, within 0.06 pixels."""
     size, sigma = 256, 2.0
     places = np.array([[128.0, 128.0], [60.3, 90.7], [200.2, 50.5], [30.9, 220.1], [222.0, 222.0]])
     moved = size * EDGE * Distortion(amount).move((places - size / 2) / (size * EDGE)) + size / 2
@@ -68,7 +68,7 @@ def test_pictures_are_distorted_as_places_are(amount: float) -> None:
         dot = np.exp(-((columns - place[0]) ** 2 + (rows - place[1]) ** 2) / (2 * sigma**2))
         seen = Distortion(amount).distort(np.repeat(dot[..., None], 3, axis=2).astype(np.float32))[..., 0]
         found = np.array([np.average(columns, weights=seen), np.average(rows, weights=seen)])
-        # The map's curvature takes a dot's centroid off the place of its middle, too.
+        # The curvature of the distortion also moves a dot's centroid away from the place of its middle.
         assert found == pytest.approx(expected, abs=0.06)
 
 
@@ -87,7 +87,7 @@ def test_a_mask_agrees_with_its_distorted_picture(amount: float, tilt: float, ro
     curve = np.column_stack([curve, np.full(len(curve), 0.001)])
     tube = [tubular(curve, 0.001)]
     ideal = covered_by(tube, view.undistorted(), 0.0, 64)
-    # A renderer's pixels overlap. Of a step from a pixel to the next, nothing between them can be looked up.
+    # A renderer's pixels overlap. A step from one pixel to the next leaves nothing between them to look up.
     ideal = cv2.GaussianBlur(ideal, (0, 0), 0.7).astype(np.float32)
     picture = Distortion(amount).distort(np.repeat(ideal[..., None], 3, axis=2))[..., 0]
     quads = silhouettes(tube, view, 64).quads_px
@@ -104,7 +104,7 @@ def test_a_mask_agrees_with_its_distorted_picture(amount: float, tilt: float, ro
 
 
 def test_red_is_larger_and_blue_smaller() -> None:
-    """A white dot to the right of the middle comes apart: red outside, blue inside, by the share of its distance."""
+    """A white dot to the right of the middle splits: red outside, blue inside, by the share of its distance."""
     picture = np.zeros((201, 201, 3), np.float32)
     cv2.circle(picture, (180, 100), 3, (1.0, 1.0, 1.0), -1)
     seen = Distortion(0.0).distort(picture, (1.01, 1.0, 0.99))

@@ -1,4 +1,4 @@
-"""Where a camera sees things."""
+"""The places at which a camera sees things."""
 
 import math
 from dataclasses import replace
@@ -25,7 +25,7 @@ def turned(tilt: float = 0.0, bearing: float = 0.0, roll: float = 0.0, **more: f
 
 
 def test_a_camera_of_the_published_kind_is_the_plain_view() -> None:
-    """Straight down, with no rotation to the last bit."""
+    """The published camera looks straight down, without rotation to the last bit."""
     view = turned()
     assert view == View(height_m=HEIGHT, resolution=RESOLUTION)
     assert (view.rotation == np.eye(3)).all()
@@ -34,7 +34,7 @@ def test_a_camera_of_the_published_kind_is_the_plain_view() -> None:
 
 @given(tilt=tilts, bearing=angles, roll=angles)
 def test_it_looks_at_the_origin_from_its_distance(tilt: float, bearing: float, roll: float) -> None:
-    """The origin is in the picture's middle, at the same depth, and the frame of directions is right-handed."""
+    """The origin is in the picture's middle at the same depth, and the frame of directions is right-handed."""
     view = turned(tilt, bearing, roll)
     assert view.project(np.zeros((1, 3)))[0] == pytest.approx([256.0, 256.0])
     assert view.depths_m(np.zeros((1, 3)))[0] == pytest.approx(HEIGHT)
@@ -44,21 +44,21 @@ def test_it_looks_at_the_origin_from_its_distance(tilt: float, bearing: float, r
 
 @given(tilt=st.floats(1, 30), bearing=angles)
 def test_it_stands_where_it_is_tilted_to(tilt: float, bearing: float) -> None:
-    """At its angle with the vertical, on the side of its bearing."""
+    """The camera stands at its angle from the vertical, on the side of its bearing."""
     x, y, z = turned(tilt, bearing).position_m
     assert math.degrees(math.acos(z / HEIGHT)) == pytest.approx(tilt)
     assert math.remainder(math.degrees(math.atan2(y, x)) - bearing, 360) == pytest.approx(0.0, abs=1e-6)
 
 
 def test_a_roll_turns_the_picture_the_other_way() -> None:
-    """Of a camera turned counter-clockwise by a quarter, what was right is below."""
+    """After a quarter turn of the camera counter-clockwise, what was on the right is below."""
     right = np.array([[0.01, 0.0, 0.0]])
     moved = turned(roll=90.0).project(right)[0] - 256
     assert moved == pytest.approx([0.0, 0.01 * turned().pixels_per_m])
 
 
 def test_twice_the_focal_length_shows_things_twice_as_large() -> None:
-    """From the same place."""
+    """From the same place, twice the focal length doubles the size."""
     place = np.array([[0.01, 0.02, 0.005]])
     longer = turned(focal_length_mm=100.0).project(place)[0] - 256
     assert longer == pytest.approx(2 * (turned().project(place)[0] - 256))
@@ -68,7 +68,7 @@ def test_twice_the_focal_length_shows_things_twice_as_large() -> None:
 def test_what_is_in_focus_is_seen_alike_through_all_of_the_lens(
     tilt: float, bearing: float, x: float, y: float
 ) -> None:
-    """A point of the plane in focus; one 10 mm nearer moves against the pinhole by the thin lens's formula."""
+    """A point of the plane in focus stays; one 10 mm closer moves against the pinhole by the thin lens's formula."""
     middle = turned(tilt, bearing, focus_offset_m=0.01)
     beside = replace(middle, pinhole_m=(0.003, -0.002))
     across = 0.05 * (x * middle.rotation[:, 0] + y * middle.rotation[:, 1])
@@ -82,7 +82,7 @@ def test_what_is_in_focus_is_seen_alike_through_all_of_the_lens(
 
 @given(tilt=tilts, bearing=angles, roll=angles)
 def test_the_seen_floor_fills_the_picture(tilt: float, bearing: float, roll: float) -> None:
-    """Its corners are the picture's corners."""
+    """The corners of the seen floor are the picture's corners."""
     view = turned(tilt, bearing, roll)
     corners = view.floor_corners_m()
     assert corners[:, 2] == pytest.approx(np.zeros(4), abs=1e-12)
@@ -90,13 +90,13 @@ def test_the_seen_floor_fills_the_picture(tilt: float, bearing: float, roll: flo
 
 
 def test_what_is_behind_the_camera_has_no_depth() -> None:
-    """Nor has what is beside it."""
+    """A point behind or beside the camera has no depth."""
     view = turned(30.0, 0.0)
     assert (view.depths_m(np.array([[0.5, 0.0, 0.5], view.position_m])) <= 1e-12).all()
 
 
 def test_the_steepest_slope_is_that_to_the_farthest_corner() -> None:
-    """Straight down it is half the diagonal's slope; towards a corner the tilt adds to that angle."""
+    """Straight down it is half the diagonal's slope; a tilt towards a corner adds to that angle."""
     reach = math.sqrt(2) * 0.5 * 36 / 24
     assert turned(focal_length_mm=24.0).steepest_slope == pytest.approx(reach)
     tilted = turned(15.0, 45.0, focal_length_mm=24.0).steepest_slope

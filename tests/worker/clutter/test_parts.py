@@ -1,4 +1,4 @@
-"""Parts lie on the floor at true sizes."""
+"""Parts lie on the floor with true sizes."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ SEEDS = range(4)
 @pytest.mark.parametrize("kind", PartKind)
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_part_lies_on_the_floor_about_its_place(kind: PartKind, seed: int) -> None:
-    """Its lowest point is at z = 0, its middle at the origin; it looks outwards; each face has a finish."""
+    """The lowest point is at z = 0, the middle at the origin; faces look outwards and have a finish."""
     solid, finishes = part_solid(make_part(kind, seed=seed, size_m=0.02))
     low, high = solid.vertices_m.min(axis=0), solid.vertices_m.max(axis=0)
     assert low[2] == pytest.approx(0.0, abs=1e-9)
@@ -25,14 +25,14 @@ def test_a_part_lies_on_the_floor_about_its_place(kind: PartKind, seed: int) -> 
 
 @pytest.mark.parametrize("kind", PartKind)
 def test_a_part_is_about_as_large_as_drawn(kind: PartKind) -> None:
-    """Its greatest extent, to a quarter: metal parts take the nearest standard size, connectors a whole pitch."""
+    """The greatest extent is right to a quarter: metal parts have standard sizes, connectors a whole pitch."""
     solid, _ = part_solid(make_part(kind, seed=1, size_m=0.016))
     extent = (solid.vertices_m.max(axis=0) - solid.vertices_m.min(axis=0))[:2].max()
     assert 0.75 * 0.016 < extent < 1.3 * 0.016
 
 
 def test_a_nut_has_the_standard_width_across_flats() -> None:
-    """An M6 nut: 10 mm, and 5.2 mm high."""
+    """An M6 nut is 10 mm wide and 5.2 mm high."""
     solid, _ = part_solid(make_part(PartKind.NUT, size_m=0.0116))
     _, flats, height = NUTS_MM[3]
     assert 1e3 * np.ptp(solid.vertices_m[:, 0]) == pytest.approx(flats, rel=0.01) or 1e3 * np.ptp(
@@ -42,7 +42,7 @@ def test_a_nut_has_the_standard_width_across_flats() -> None:
 
 
 def test_a_screw_rests_at_both_ends() -> None:
-    """On the rim of its head and the end of its thread: the lowest points near either end touch the floor."""
+    """A screw rests on the rim of its head and the end of its thread: lowest points near both ends touch the floor."""
     solid, _ = part_solid(make_part(PartKind.SCREW, seed=2, size_m=0.02))
     x, z = solid.vertices_m[:, 0], solid.vertices_m[:, 2]
     assert z[x < 0].min() < 1e-4
@@ -50,7 +50,7 @@ def test_a_screw_rests_at_both_ends() -> None:
 
 
 def test_the_extent_holds_all_of_a_part() -> None:
-    """Its radius reaches its farthest vertex, its height the highest."""
+    """The radius reaches the farthest vertex, and the height the highest."""
     part = make_part(PartKind.CONNECTOR, seed=3)
     radius, height = part_extent(part)
     vertices = part_solid(part)[0].vertices_m

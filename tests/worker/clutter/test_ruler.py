@@ -1,4 +1,4 @@
-"""A ruler's millimetres are millimetres."""
+"""A ruler's marks have true distances."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ ROWS, COLUMNS = 166, 1333
 
 
 def places_of_marks(row: int) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """Where along the ruler, in metres, the middles of the marks are that a row of texels crosses."""
+    """Positions along the ruler, metres, of the middles of the marks that a row of texels crosses."""
     ink = ruler_marks(LENGTH_M, ROWS, COLUMNS)[row].astype(np.float64)
     starts = np.flatnonzero(np.diff((ink > 0).astype(int), prepend=0) == 1)
     ends = np.flatnonzero(np.diff((ink > 0).astype(int), append=0) == -1)
@@ -21,13 +21,13 @@ def places_of_marks(row: int) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
 
 
 def test_marks_are_a_millimetre_apart() -> None:
-    """195 of them on 200 mm that begin 5 mm in, and the last at the edge; each to a tenth of a texel of 0.15 mm."""
+    """The 195 marks on 200 mm begin 5 mm in and end at the edge, each right to a tenth of a texel of 0.15 mm."""
     places = places_of_marks(3)
     assert len(places) == 196
     assert places[:-1] == pytest.approx(5e-3 + 1e-3 * np.arange(195), abs=1.5e-5)
 
 
 def test_longer_marks_are_a_centimetre_apart() -> None:
-    """Those that reach as far as only the longest do."""
+    """The marks that reach as far as only the longest do are a centimetre apart."""
     row = round(0.5 * (LENGTHS_M[5] + LENGTHS_M[10]) * COLUMNS / LENGTH_M)
     assert np.diff(places_of_marks(row)) == pytest.approx(1e-2, abs=1e-5)

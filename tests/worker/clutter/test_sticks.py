@@ -23,7 +23,7 @@ SEEDS = range(4)
 @pytest.mark.parametrize("kind", StickKind)
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_stick_is_as_long_and_thick_as_it_fell(kind: StickKind, seed: int) -> None:
-    """Nothing of it is outside, save a pencil's corners; it looks outwards; each face has a finish."""
+    """Nothing is outside the radius but a pencil's corners; faces look outwards and have a finish."""
     stick = make_stick(kind, seed=seed)
     solid, finishes = stick_solid(stick)
     most = stick.diameter_m / 2 * (PENCIL_CORNER if kind is StickKind.PENCIL else 1.0)
@@ -38,7 +38,7 @@ def test_a_stick_is_as_long_and_thick_as_it_fell(kind: StickKind, seed: int) -> 
 @pytest.mark.parametrize("kind", StickKind)
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_label_of_the_outline_covers_the_rendered_mesh(kind: StickKind, seed: int) -> None:
-    """In the corner of a picture, where the camera sees it from the side: masks differ at its edge alone."""
+    """In a corner of the picture, seen from the side, the masks differ only at the stick's edge."""
     stick = make_stick(kind, seed=seed, length_m=0.06)
     turn = np.radians(35.0)
     ends = 0.045 + 0.03 * np.outer([-1, 1], [np.cos(turn), np.sin(turn)])
@@ -55,14 +55,14 @@ def test_a_label_of_the_outline_covers_the_rendered_mesh(kind: StickKind, seed: 
     pieces = stick_outline(stick, nodes)
     drawn = silhouettes([tubular(curve, radius) for curve, radius in pieces], view, SIDES)
     label = cover(drawn.quads_px, np.ones(len(drawn.quads_px), np.int64), 512, 512) > 0
-    # OpenCV fills every pixel that a polygon touches: half a pixel more all round.
+    # OpenCV fills every pixel that a polygon touches, which is half a pixel more all round.
     edge = len(cv2.findContours(seen, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)[0][0])
     assert np.count_nonzero(label & (seen == 0)) <= 0.4 * edge
     assert abs(np.count_nonzero(seen) - 0.5 * edge - np.count_nonzero(label)) <= 0.5 * edge
 
 
 def test_a_rod_is_a_few_cylinders() -> None:
-    """A plain one: its body and its two chamfers, joined end to end."""
+    """A plain rod is its body and two chamfers, joined end to end."""
     nodes = np.array([[0.0, 0.0, 0.004], [0.14, 0.0, 0.004]])
     pieces = stick_outline(make_stick(StickKind.PIPE), nodes)
     assert pieces[0][0][0] == pytest.approx(nodes[0], abs=2e-4)
@@ -73,7 +73,7 @@ def test_a_rod_is_a_few_cylinders() -> None:
 
 
 def test_a_stick_lies_along_its_nodes() -> None:
-    """Its axes are at right angles, right-handed, x along the nodes and z up."""
+    """The axes are orthogonal and right-handed, x along the nodes and z up."""
     axes, origin = placed_on(np.array([[0.1, 0.0, 0.01], [0.1, 0.1, 0.01]]))
     assert axes == pytest.approx(np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]))
     assert origin == pytest.approx(np.array([0.1, 0.0, 0.01]))

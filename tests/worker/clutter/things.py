@@ -20,7 +20,7 @@ def make_stick(kind: StickKind = StickKind.ROD, *, seed: int = 0, diameter_m: fl
 
 
 def make_sheet(kind: SheetKind, *, seed: int = 0, **keys: object) -> Sheet:
-    """A sheet of 80 by 20 mm about the origin."""
+    """A sheet of 80 by 20 mm around the origin."""
     values = {
         "kind": kind,
         "x_m": 0.0,

@@ -1,4 +1,4 @@
-"""Windows on textures: the same picture from the texels that are seen."""
+"""Windows on textures give the same picture from only the texels in view."""
 
 import math
 
@@ -42,14 +42,14 @@ def look_up(texels: NDArray[np.uint8], uvs: NDArray[np.float64]) -> NDArray[np.u
 def test_a_window_shows_what_the_whole_texture_shows(
     x: float, y: float, turn: float, scale: float, height: float
 ) -> None:
-    """Every place in view has the texel that it has in the tile, wherever the texture lies."""
+    """Every place in view has the same texel as in the tile, wherever the texture lies."""
     lying = floor(x=x, y=y, turn=turn, scale=scale)
     window = window_on(lying, SIZE_M, View(height_m=height, resolution=512), (SIZE,))
     half = 0.5 * height * 36 / 50
     points = np.random.default_rng(1).uniform(-half, half, (200, 2))
     uvs = tile_coordinates(points, lying, SIZE_M)
     placed = window.place(uvs)
-    # Right at the edge of a texel, rounding decides which side it falls on.
+    # At the very edge of a texel, rounding decides the side.
     clear = (np.abs(uvs * 256 - np.round(uvs * 256)) > 1e-6).all(axis=1)
     shown = look_up(window.cut(TILE, colour=True), placed)
     assert (shown == look_up(TILE, uvs))[clear].all()
@@ -71,7 +71,7 @@ def test_texels_know_where_on_the_floor_they_lie(x: float, y: float, turn: float
 
 
 def test_a_window_of_many_tiles_repeats_none_of_its_texels() -> None:
-    """A tile of 0.12 m under a view of 0.24 m: the window is wider than the tile, and its texels are the tile's."""
+    """A tile of 0.12 m under a view of 0.24 m gives a window wider than the tile, with the tile's own texels."""
     lying = floor(turn=0.0, scale=0.3)
     view = View(height_m=0.33, resolution=512)
     window = window_on(lying, SIZE_M, view, (SIZE,), 4.0)
@@ -83,13 +83,13 @@ def test_a_window_of_many_tiles_repeats_none_of_its_texels() -> None:
 
 
 def test_a_near_camera_needs_few_texels() -> None:
-    """At 0.09 m, 65 mm of 400 are seen: under a tenth of the tile even when turned by 45 degrees."""
+    """At 0.09 m, 65 mm of 400 are in view: less than a tenth of the tile, even turned by 45 degrees."""
     window = window_on(floor(turn=45.0), SIZE_M, View(height_m=0.09, resolution=512), ((2048, 2048),))
     assert window.width * window.height < 0.1
 
 
 def test_texels_finer_than_pixels_are_averaged() -> None:
-    """128 pixels across 238 mm are 1.86 mm each: they keep two texels of 0.93 mm, in place of 9.5 of 0.195 mm."""
+    """128 pixels across 238 mm are 1.86 mm each: they get two texels of 0.93 mm instead of 9.5 of 0.195 mm."""
     window = window_on(floor(), SIZE_M, View(height_m=0.33, resolution=128), ((2048, 2048),))
     assert window.coarser == pytest.approx((0.33 * 36 / 50 / 128) / 2 / (SIZE_M / 2048))
     part = window.cut(np.full((2048, 2048, 3), 77, np.uint8), colour=True)
@@ -98,7 +98,7 @@ def test_texels_finer_than_pixels_are_averaged() -> None:
 
 
 def test_colours_are_averaged_as_light() -> None:
-    """Black and white give the level of half the light, 188; plain numbers give the mean."""
+    """Black and white give the level of half the light, 188; plain numbers give their mean."""
     window = TextureWindow(0.0, 0.0, 1.0, 1.0, 2)
     board = np.indices((64, 64)).sum(axis=0) % 2
     board = (255 * board).astype(np.uint8)
@@ -117,13 +117,13 @@ def test_maps_of_different_sizes_share_a_window() -> None:
 
 
 def test_maps_whose_sizes_do_not_fit_are_taken_whole() -> None:
-    """1000 and 1023 texels share no grid fine enough for a window."""
+    """Sizes of 1000 and 1023 texels share no grid fine enough for a window."""
     view = View(height_m=0.09, resolution=512)
     assert window_on(floor(), SIZE_M, view, ((1000, 1000), (1023, 1023))) == TextureWindow.whole()
 
 
 def test_a_tile_smaller_than_the_view_is_taken_whole_and_repeats() -> None:
-    """No window is larger than a tile, so that what lies beyond repeats."""
+    """No window is larger than a tile, so that the texture repeats beyond it."""
     window = window_on(floor(), 0.05, View(height_m=0.33, resolution=512), ((256, 256),))
     assert (window.width, window.height) == (1.0, 1.0)
 

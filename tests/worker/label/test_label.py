@@ -1,4 +1,4 @@
-"""Masks and instances, against silhouettes that are known."""
+"""Masks and instances, against known silhouettes."""
 
 import numpy as np
 import pytest
@@ -33,7 +33,7 @@ def label(*curves: Points) -> tuple[NDArray[np.uint8], NDArray[np.uint16]]:
 
 @pytest.mark.parametrize("angle", [10.0, 17.0, 35.0, 80.0])
 def test_the_area_of_a_straight_cable_is_its_width_times_its_length(angle: float) -> None:
-    """Width of a cylinder of radius r seen from distance d: f 2 r / sqrt(d^2 - r^2), within 2 % (0.15 px)."""
+    """A cylinder of radius r at distance d is f 2 r / sqrt(d^2 - r^2) wide, within 2 % (0.15 px)."""
     mask, _ = label(bar(angle))
     distance = VIEW.height_m - RADIUS
     width = VIEW.resolution * 50 / 36 * 2 * RADIUS / np.sqrt(distance**2 - RADIUS**2)
@@ -42,7 +42,7 @@ def test_the_area_of_a_straight_cable_is_its_width_times_its_length(angle: float
 
 
 def test_a_mask_is_0_or_255() -> None:
-    """As published."""
+    """A mask has the published values 0 and 255."""
     mask, _ = label(bar(), bar(60.0, z=3 * RADIUS))
     assert mask.dtype == np.uint8
     assert set(np.unique(mask)) == {0, 255}
@@ -57,14 +57,14 @@ def test_instances_fill_the_mask() -> None:
 
 @pytest.mark.parametrize("upper", [1, 2])
 def test_the_upper_cable_hides_the_lower(upper: int) -> None:
-    """At the crossing in the middle of the picture."""
+    """At a crossing in the middle of the picture the upper cable shows."""
     heights = (3 * RADIUS, RADIUS) if upper == 1 else (RADIUS, 3 * RADIUS)
     _, instances = label(bar(z=heights[0]), bar(90.0, z=heights[1]))
     assert (instances[126:130, 126:130] == upper).all()
 
 
 def test_a_point_above_the_middle_of_the_floor_is_in_the_middle_of_the_picture() -> None:
-    """And y points up."""
+    """The point is in the picture's middle, and y points up."""
     pixels = VIEW.project(np.array([[0.0, 0.0, 0.0], [0.0, 0.01, 0.0], [0.01, 0.0, 0.0]]))
     assert pixels[0] == pytest.approx([128.0, 128.0])
     assert pixels[1][1] < 128.0
@@ -72,7 +72,7 @@ def test_a_point_above_the_middle_of_the_floor_is_in_the_middle_of_the_picture()
 
 
 def test_an_end_in_the_picture_is_cut_flat() -> None:
-    """A cable of 20 mm shows both its ends: the mask is 20 mm long, within a pixel."""
+    """A cable of 20 mm with both ends in view has a mask 20 mm long, within a pixel."""
     mask, _ = label(bar(length=0.02))
     columns = np.flatnonzero(mask.any(axis=0))
     expected = VIEW.resolution * 50 / 36 * 0.02 / (VIEW.height_m - RADIUS)
@@ -91,7 +91,7 @@ def test_what_hides_a_cable_is_background() -> None:
 
 @pytest.mark.parametrize("tilt", [0.0, 15.0, 30.0])
 def test_what_leans_on_the_camera_s_side_of_a_thick_thing_is_before_it(tilt: float) -> None:
-    """Half-way up a stick, where its own axis is: seen from the side, none of the stick is before it."""
+    """At the height of a stick's axis, seen from the side, no part of the stick is in front."""
     view = View(0.24, 256, focal_length_mm=24.0, tilt_deg=tilt, tilt_bearing_deg=180.0)
     along = np.linspace(-0.05, 0.05, 51)
     stick, cable = (
@@ -104,7 +104,7 @@ def test_what_leans_on_the_camera_s_side_of_a_thick_thing_is_before_it(tilt: flo
 
 
 def test_a_solid_covers_the_hull_of_its_corners() -> None:
-    """A box of 20 by 10 mm just above the floor, as an occluder on a wide cable, leaves a hole of its size."""
+    """A box of 20 by 10 mm just above the floor, an occluder on a wide cable, leaves a hole of its size."""
     x, y = np.array([-0.01, 0.01, 0.01, -0.01]), np.array([-0.005, -0.005, 0.005, 0.005])
     rings = np.stack([np.stack([x, y, np.full(4, z)], axis=1) for z in (0.0101, 0.0102)])
     box = Convex(OCCLUDER, rings, np.array([0.0, 0.0, 0.0102]), Plain(Substance.PLASTIC, (0, 0, 0)))
@@ -116,7 +116,7 @@ def test_a_solid_covers_the_hull_of_its_corners() -> None:
 
 
 def test_cables_outside_the_view_leave_nothing() -> None:
-    """A cable that lies to the side of the picture."""
+    """A cable to the side of the picture leaves nothing."""
     mask, instances = label(bar(shift=0.5))
     assert not mask.any()
     assert not instances.any()
@@ -124,7 +124,7 @@ def test_cables_outside_the_view_leave_nothing() -> None:
 
 @pytest.mark.parametrize(("angle", "shift", "rise"), [(10.0, 0.0, 0.0), (50.0, 0.02, 0.0), (80.0, -0.03, 0.2)])
 def test_the_mask_is_the_silhouette_of_the_rendered_tube(angle: float, shift: float, rise: float) -> None:
-    """A straight tube with both its ends in the picture is convex, so its silhouette is the hull of its corners."""
+    """A straight tube with both ends in view is convex, so its silhouette is the hull of its corners."""
     curve = bar(angle, z=0.01, shift=shift, length=0.03)[::20]
     curve[:, 2] += rise * np.linspace(-0.015, 0.015, len(curve))
     mask, _ = label(curve)
@@ -135,7 +135,7 @@ def test_the_mask_is_the_silhouette_of_the_rendered_tube(angle: float, shift: fl
 
 
 def test_bands_leave_no_trace(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Labelled a few rows at a time, a picture is the same."""
+    """A picture that is labelled a few rows at a time is the same."""
     cables = bar(10.0), bar(75.0, z=3 * RADIUS), bar(0.0, z=5 * RADIUS, shift=0.01)
     whole = label(*cables)
     monkeypatch.setattr(worker.label.silhouette, "_BAND_PIXELS", 7 * 256)
@@ -145,7 +145,7 @@ def test_bands_leave_no_trace(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_cable_that_reaches_the_camera_spoils_nothing() -> None:
-    """A steep one that ends above the camera hides no more than it covers."""
+    """A steep cable that ends above the camera hides no more than it covers."""
     steep = np.linspace([-0.05, 0.05, RADIUS], [0.0, 0.05, 0.2], 201)
     _, instances = label(bar(), steep)
     assert (instances[126:130] == 1).all()

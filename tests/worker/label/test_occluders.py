@@ -39,7 +39,7 @@ def settled(stick_height_m: float) -> CableShapes:
 
 
 def labelled(shapes: CableShapes, category: Category = Category.CLOSE_CONCENTRATED) -> NDArray[np.bool_]:
-    """Where a picture of the cable and the pipe shows the cable."""
+    """The pixels in which a picture of the cable and the pipe shows the cable."""
     scene = make_scene(category).model_copy(update={"sticks": (make_stick(StickKind.PIPE, length_m=0.1),)})
     hiding = hiding_pieces(SettledGeometry(scene, shapes, CableDetail(), 256))
     pieces = [tubular(shapes.nodes_m[0], 0.001), *hiding]
@@ -47,7 +47,7 @@ def labelled(shapes: CableShapes, category: Category = Category.CLOSE_CONCENTRAT
 
 
 def test_a_stick_above_a_cable_cuts_its_label() -> None:
-    """Over the stick's width, and nowhere else."""
+    """The label is cut over the stick's width and nowhere else."""
     seen = labelled(settled(stick_height_m=0.006))
     row = seen[127]
     hidden = np.flatnonzero(~row)
@@ -57,10 +57,10 @@ def test_a_stick_above_a_cable_cuts_its_label() -> None:
 
 
 def test_a_stick_below_a_cable_leaves_its_label_whole() -> None:
-    """The cable lies on it."""
+    """A cable that lies on the stick keeps its whole label."""
     assert labelled(settled(stick_height_m=-0.006))[127].all()
 
 
 def test_no_stick_hides_anything_where_the_floor_is_not_seen() -> None:
-    """It is not rendered there either."""
+    """In a picture without a floor the stick isn't rendered and hides nothing."""
     assert labelled(settled(stick_height_m=0.006), Category.FAR)[127].all()

@@ -11,12 +11,12 @@ PLACEMENT = RANGES_OF[Style.WIDE].placement
 
 
 def turned(bends: tuple[float, ...], length: float) -> float:
-    """How far a curve turns in all, in turns."""
+    """The total turn of a curve, in turns."""
     return float(abs(trapezoid(bends, dx=length / (len(bends) - 1))) / (2 * np.pi))
 
 
 def test_a_loop_turns_once_and_lies_on_itself() -> None:
-    """It crosses itself in plan, and its end starts higher by more than its diameter between the passes."""
+    """A loop crosses itself in plan, and its end starts higher by more than its diameter between the passes."""
     ranges = PLACEMENT.model_copy(update={"loop_share": 1.0, "coil_share": 0.0})
     rng = np.random.default_rng(0)
     for _ in range(30):
@@ -32,7 +32,7 @@ def test_a_loop_turns_once_and_lies_on_itself() -> None:
 
 
 def test_a_coil_rises_by_more_than_its_thickness_a_turn() -> None:
-    """So that no turn starts within another."""
+    """The rise of a coil keeps its turns from starting within each other."""
     ranges = PLACEMENT.model_copy(update={"loop_share": 0.0, "coil_share": 1.0})
     rng = np.random.default_rng(1)
     for _ in range(30):
@@ -42,7 +42,7 @@ def test_a_coil_rises_by_more_than_its_thickness_a_turn() -> None:
 
 
 def test_other_cables_keep_their_gentle_bends() -> None:
-    """As drawn, and level."""
+    """Other cables have their drawn bends and are level."""
     ranges = PLACEMENT.model_copy(update={"loop_share": 0.0, "coil_share": 0.0})
     course = sample_course(ranges, (1.0, -2.0, 3.0), 0.4, 0.002, np.random.default_rng(0))
     assert (course.bends_per_m, course.rise_m) == ((1.0, -2.0, 3.0), 0.0)

@@ -1,4 +1,4 @@
-"""Drawing kinds of cables."""
+"""Sampling kinds of cables."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ CAMERA = Camera(height_m=0.2, f_number=8.0)
 
 
 def many(count: int = 400, camera: Camera = CAMERA) -> list[CableKind]:
-    """Kinds of the cables of many pictures."""
+    """The kinds of the cables of many pictures."""
     rng = np.random.default_rng(0)
     return [kind for _ in range(count) for kind in sample_kinds(WIDE, 4, camera, rng)]
 
@@ -33,7 +33,7 @@ def test_the_wide_style_has_every_sheath_stripe_bundle_and_the_published_surface
 
 @given(seed=st.integers(0, 2**32), height=st.floats(0.05, 1.0))
 def test_no_single_cable_is_wider_than_40_of_512_pixels(seed: int, height: float) -> None:
-    """Whatever the camera's distance; a bundle may be half as wide again."""
+    """The limit holds at any distance of the camera; a bundle may be half as wide again."""
     camera = Camera(height_m=height, f_number=8.0)
     for kind in sample_kinds(WIDE, 8, camera, np.random.default_rng(seed)):
         width_px = kind.diameter_m / (height * 36 / 50) * 512
@@ -42,7 +42,7 @@ def test_no_single_cable_is_wider_than_40_of_512_pixels(seed: int, height: float
 
 @given(seed=st.integers(0, 2**32), height=st.floats(0.05, 1.0))
 def test_no_cable_and_no_strand_is_narrower_than_4_of_512_pixels(seed: int, height: float) -> None:
-    """As the published ones, whose labels can be learned from."""
+    """All cables are as wide as the published ones at least, whose labels can be learned."""
     camera = Camera(height_m=height, f_number=8.0)
     for kind in sample_kinds(WIDE, 8, camera, np.random.default_rng(seed)):
         seen_m = kind.look.strand_diameter_m if isinstance(kind.look, Bundle) else kind.diameter_m
@@ -51,19 +51,22 @@ def test_no_cable_and_no_strand_is_narrower_than_4_of_512_pixels(seed: int, heig
 
 @pytest.mark.parametrize("strands", range(2, 8))
 def test_circles_fit_into_their_envelope(strands: int) -> None:
-    """Graham, "Sets of points with given minimum separation", 1968: the ring of n, or six about one."""
+    """The ring of n circles, or six around one, is the best packing.
+
+    Graham, 1968, "Sets of points with given minimum separation".
+    """
     ring = 1 + 1 / np.sin(np.pi / strands)
     assert envelope_ratio(strands) == pytest.approx(3.0 if strands == 7 else ring)
 
 
 def test_a_bundle_is_softer_and_lighter_than_a_full_section_of_its_width() -> None:
-    """Its stiffness is that of its strands, which slide."""
+    """A bundle has the stiffness of its strands, which slide on each other."""
     bundles = [kind for kind in many() if isinstance(kind.look, Bundle)]
     assert all(0 < kind.density_ratio <= 1 and 0 < kind.stiffness_ratio < 1 for kind in bundles)
 
 
 def test_cables_of_one_make_differ_in_colour_alone() -> None:
-    """`alike_share` 1."""
+    """With an `alike_share` of 1, all cables of a picture differ in colour alone."""
     ranges = WIDE.model_copy(update={"skin": WIDE.skin.model_copy(update={"alike_share": 1.0, "share": 1.0})})
     ranges = ranges.model_copy(update={"bundle": ranges.bundle.model_copy(update={"share": 0.0})})
     kinds = sample_kinds(ranges, 6, CAMERA, np.random.default_rng(0))
@@ -73,7 +76,7 @@ def test_cables_of_one_make_differ_in_colour_alone() -> None:
 
 
 def test_only_skins_end_in_copper_or_a_ferrule() -> None:
-    """A bundle and the published surface are just cut."""
+    """A bundle and a cable with the published surface end in a plain cut."""
     rng = np.random.default_rng(0)
     ranges = WIDE.ends.model_copy(update={"stripped_share": 0.5, "ferrule_share": 0.5})
     for kind in many(50):

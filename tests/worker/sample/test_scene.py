@@ -1,4 +1,4 @@
-"""Drawing scenes: within the ranges, from the job's own streams alone."""
+"""Sampling scenes: within the ranges, and from the job's own streams alone."""
 
 from collections.abc import Iterator
 
@@ -27,19 +27,19 @@ def within(value: float, bounds: tuple[float, float]) -> bool:
 
 @given(category=st.sampled_from(Category), index=st.integers(0, 10**6), seed=st.integers(0, 2**64 - 1))
 def test_the_same_job_gives_the_same_scene(category: Category, index: int, seed: int) -> None:
-    """Nothing but the dataset's seed, the category and the index decides a scene; 0 is a seed."""
+    """The dataset's seed, even 0, the category and the index alone decide a scene."""
     assert make_scene(category, index, seed=seed) == make_scene(category, index, seed=seed)
 
 
 def test_another_seed_job_or_attempt_gives_another_scene() -> None:
-    """Streams of different jobs, seeds and attempts do not coincide."""
+    """Streams of different jobs, seeds and attempts differ."""
     scenes = [make_scene(index=0), make_scene(index=1), make_scene(index=0, attempt=1), make_scene(index=0, seed=1)]
     cables = [scene.cables[0] for scene in scenes]
     assert len({cable.model_dump_json() for cable in cables}) == len(scenes)
 
 
 def test_a_range_of_one_stage_leaves_the_draws_of_the_others() -> None:
-    """One stream a stage: other wind does not move the cables, nor the camera."""
+    """Another range of the wind moves neither the cables nor the camera, as each stage has its own stream."""
     calm = make_scene(ranges={"wind": {"strength": [0.0, 0.0]}})
     windy = make_scene()
     assert calm.wind != windy.wind
@@ -48,7 +48,7 @@ def test_a_range_of_one_stage_leaves_the_draws_of_the_others() -> None:
 
 @pytest.mark.parametrize("category", Category)
 def test_a_category_fixes_floor_lamp_and_hdri(category: Category) -> None:
-    """Floors are drawn where they are seen, and exactly one of lamp and HDRI lights a scene."""
+    """A floor is drawn where it is seen, and exactly one of lamp and HDRI lights a scene."""
     traits = category.traits
     for scene in many(category, 10):
         assert (scene.floor is not None) == (traits.background is Background.FLOOR)
@@ -57,12 +57,12 @@ def test_a_category_fixes_floor_lamp_and_hdri(category: Category) -> None:
 
 
 def test_one_to_eight_cables_are_drawn_and_each_number_occurs() -> None:
-    """The published 1 to 8."""
+    """The published numbers 1 to 8 all occur."""
     assert {len(scene.cables) for scene in many(Category.FAR, 600)} == set(range(1, 9))
 
 
 def test_free_cables_lie_in_the_published_ranges() -> None:
-    """x, y, rotation and vertex mass of cables that are not aligned."""
+    """Cables that aren't aligned have x, y, rotation and vertex mass in the published ranges."""
     for scene in many(Category.FAR):
         assert within(scene.vertex_mass, RANGES.cable.vertex_mass)
         for cable in scene.cables:
@@ -72,7 +72,7 @@ def test_free_cables_lie_in_the_published_ranges() -> None:
 
 
 def test_aligned_cables_keep_within_ten_degrees_of_one_bearing() -> None:
-    """Two cables of an aligned picture differ by 20 degrees at most."""
+    """Two cables of an aligned picture differ by at most 20 degrees."""
     for scene in many(Category.FAR_ALIGNED):
         bearings = [cable.rotation_deg for cable in scene.cables]
         assert max(bearings) - min(bearings) <= 20.0
@@ -91,13 +91,13 @@ def test_cables_start_at_stacked_heights() -> None:
 
 
 def test_wind_flows_at_a_fifth_of_its_strength() -> None:
-    """The published flow."""
+    """The wind has the published flow."""
     for scene in many(Category.FAR, 20):
         assert scene.wind.flow == pytest.approx(scene.wind.strength / 5)
 
 
 def test_both_lamps_occur_and_lie_in_their_ranges() -> None:
-    """Half point, half area; the area light to either side."""
+    """Half of the lamps are points and half areas, which stand to either side."""
     lamps = [scene.lamps[0] for scene in many(Category.CLOSE_CONCENTRATED, 100)]
     areas = [lamp for lamp in lamps if isinstance(lamp, AreaLamp)]
     points = [lamp for lamp in lamps if isinstance(lamp, PointLamp)]
@@ -108,7 +108,7 @@ def test_both_lamps_occur_and_lie_in_their_ranges() -> None:
 
 
 def test_all_eleven_camera_heights_occur() -> None:
-    """The published heights, which give cables of 4 to 16 pixels."""
+    """The published heights all occur, which give cables of 4 to 16 pixels."""
     heights = {scene.camera.height_m for scene in many(Category.FAR, 200)}
     assert heights == set(RANGES.camera.heights_m)
     widths = sorted(512 * 50 / 36 * 0.002 / height for height in heights)
@@ -117,7 +117,7 @@ def test_all_eleven_camera_heights_occur() -> None:
 
 
 def test_only_dark_hdris_are_brightened() -> None:
-    """Brightness is drawn for the dark HDRI and 0 for the other."""
+    """The dark HDRI's brightness is drawn, and the other one's is 0."""
     for scene in many(Category.FAR):
         assert scene.hdri_world is not None
         if scene.hdri_world.hdri == "night":
@@ -127,12 +127,12 @@ def test_only_dark_hdris_are_brightened() -> None:
 
 
 def test_far_pictures_look_at_the_horizon_upright() -> None:
-    """The HDRI is tilted by 90 degrees wherever it is seen."""
+    """The HDRI is tilted by 90 degrees in every far picture."""
     assert {scene.hdri_world.tilt_deg for scene in many(Category.FAR, 30) if scene.hdri_world} == {90.0}
 
 
 def test_close_pictures_without_a_lamp_share_one_hdri() -> None:
-    """The named HDRI lights them all, tilted by 0 or 90 degrees."""
+    """The named HDRI lights all of them, tilted by 0 or 90 degrees."""
     scenes = [
         make_scene(Category.CLOSE_DISTRIBUTED, index, close_distributed_hdri="night").hdri_world for index in range(30)
     ]

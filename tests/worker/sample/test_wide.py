@@ -22,7 +22,7 @@ def wide(category: Category, index: int) -> Scene:
 @given(category=st.sampled_from(Category), index=st.integers(0, 10**6))
 @settings(max_examples=200)
 def test_nothing_starts_inside_anything_else(category: Category, index: int) -> None:
-    """Each cable starts above all that starts below it, sticks first."""
+    """Each cable starts above everything that starts below it, sticks first."""
     scene = wide(category, index)
     top = 0.0
     for stick in scene.sticks:
@@ -35,14 +35,14 @@ def test_nothing_starts_inside_anything_else(category: Category, index: int) -> 
 
 @pytest.mark.parametrize("category", Category)
 def test_clutter_lies_on_floors_alone(category: Category) -> None:
-    """Over a floor that is not seen it would float."""
+    """In pictures without a visible floor there is no clutter, which would float."""
     scenes = [wide(category, index) for index in range(40)]
     has_any = any(scene.sticks or scene.sheets or scene.parts for scene in scenes)
     assert has_any == (category.traits.background is Background.FLOOR)
 
 
 def test_every_kind_of_clutter_occurs() -> None:
-    """Within 400 pictures."""
+    """Every kind occurs within 400 pictures."""
     scenes = [wide(Category.CLOSE_CONCENTRATED, index) for index in range(400)]
     assert {stick.kind for scene in scenes for stick in scene.sticks} == set(StickKind)
     assert {sheet.kind for scene in scenes for sheet in scene.sheets} == set(SheetKind)
@@ -50,7 +50,7 @@ def test_every_kind_of_clutter_occurs() -> None:
 
 
 def test_lamps_vary_in_number_size_and_colour() -> None:
-    """One to three, from hard to soft, from warm to cold; some pictures have the published lamp."""
+    """There are one to three lamps, hard to soft and warm to cold, and some pictures have the published lamp."""
     scenes = [wide(Category.CLOSE_CONCENTRATED, index) for index in range(200)]
     studio = [[lamp for lamp in scene.lamps if isinstance(lamp, StudioLamp)] for scene in scenes]
     assert {len(lamps) for lamps in studio} == {0, 1, 2, 3}
@@ -64,7 +64,7 @@ def test_lamps_vary_in_number_size_and_colour() -> None:
 
 
 def test_light_floors_are_exposed_for_light() -> None:
-    """By the stops that the ranges give, but no more than any picture may be."""
+    """Light floors add the range's stops to the exposure, up to the limit of all pictures."""
     development = {"exposure_ev": [0.0, 1.0], "light_floor_ev": [1.2, 1.2], "light_floor_share": 1.0}
     ranges = {"development": development, "floor": {"light_share": 0.5}}
     surfaces = tuple(
@@ -83,7 +83,7 @@ def test_light_floors_are_exposed_for_light() -> None:
 
 
 def test_a_longer_lens_stands_farther_away() -> None:
-    """So that the picture is as wide as with the published lens."""
+    """With a longer lens the picture is as wide as with the published one."""
     widths = {
         round(scene.camera.height_m / scene.camera.focal_length_mm * 50, 6)
         for scene in (wide(Category.FAR, index) for index in range(200))
@@ -93,7 +93,7 @@ def test_a_longer_lens_stands_farther_away() -> None:
 
 @pytest.mark.parametrize("category", Category)
 def test_a_wide_scene_is_lit_by_lamps_or_by_an_hdri(category: Category) -> None:
-    """As its category says."""
+    """The category decides between lamps and an HDRI."""
     for index in range(10):
         scene = wide(category, index)
         assert bool(scene.lamps) == (category.traits.light is Light.CONCENTRATED)

@@ -1,4 +1,4 @@
-"""Holding a worker back."""
+"""The backoff of a worker."""
 
 import shutil
 from collections import namedtuple
@@ -13,7 +13,7 @@ Usage = namedtuple("Usage", "total used free")
 
 
 class Clock:
-    """Goes on when told to."""
+    """A clock that the test moves."""
 
     now_s = 1000.0
 
@@ -30,12 +30,12 @@ def clock() -> Clock:
 
 @pytest.fixture
 def backoff(tmp_path: Path, clock: Clock) -> Backoff:
-    """Of a store whose disk has room enough."""
+    """A backoff for a store whose disk has enough room."""
     return Backoff(str(tmp_path), 0, clock)
 
 
 def pause_after_failure(backoff: Backoff, clock: Clock) -> float:
-    """How long a failure holds the worker, to the second."""
+    """Duration for which a failure holds the worker back, whole seconds."""
     backoff.fail("disk full")
     start_s = clock.now_s
     while backoff.reason():
@@ -45,7 +45,7 @@ def pause_after_failure(backoff: Backoff, clock: Clock) -> float:
 
 
 def test_nothing_holds_at_first(backoff: Backoff) -> None:
-    """A worker whose store has not failed takes jobs."""
+    """A worker whose store hasn't failed takes jobs."""
     assert backoff.reason() == ""
 
 
@@ -57,14 +57,14 @@ def test_pauses_grow(backoff: Backoff, clock: Clock) -> None:
 
 
 def test_success_does_not_end_a_pause(backoff: Backoff) -> None:
-    """A job that ended well beside a failure does not open the store again at once."""
+    """A job that succeeds beside a failure doesn't end the pause."""
     backoff.fail("disk full")
     backoff.succeed()
     assert backoff.reason() == "disk full"
 
 
 def test_low_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """With less room than asked for the worker is held, and told how much there is; room that was made frees it."""
+    """With less free space than required the worker is held, and the reason states it; freed space releases it."""
     free = [9 * MIB]
     monkeypatch.setattr(shutil, "disk_usage", lambda _: Usage(100 * MIB, 0, free[0]))
     backoff = Backoff(str(tmp_path), 10 * MIB)
@@ -75,12 +75,12 @@ def test_low_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("store", ["s3://bucket/folder", "memory://folder", "/nowhere/at/all"])
 def test_room_that_is_not_known(store: str) -> None:
-    """Of a bucket, and of a folder that is not there yet, the room is not known, and holds nobody."""
+    """The free space of a bucket, or of a folder that doesn't exist yet, is unknown and holds nobody."""
     assert free_bytes(store) is None
     assert Backoff(store, 2**62).reason() == ""
 
 
 def test_room_by_url(tmp_path: Path) -> None:
-    """A local folder's room is known by its URL, too."""
+    """The free space of a local folder is also known by its URL."""
     assert free_bytes(f"file://{tmp_path}") is not None
     assert "make room" in Backoff(f"file://{tmp_path}", 2**62).reason()

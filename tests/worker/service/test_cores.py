@@ -1,4 +1,4 @@
-"""How many cores libraries see."""
+"""The number of cores that libraries see."""
 
 import os
 import subprocess
@@ -15,7 +15,7 @@ pytestmark = pytest.mark.skipif(
 
 @pytest.mark.parametrize("threads", [0, 1, 10_000])
 def test_cores_are_hidden_for_a_while(threads: int) -> None:
-    """Inside, as many are seen as asked for and there; afterwards all are back."""
+    """Within the context libraries see the number asked for, up to all; afterwards they see all again."""
     before = os.sched_getaffinity(0)
     with limit_visible_cores(threads):
         assert len(os.sched_getaffinity(0)) == min(threads or len(before), len(before))
@@ -23,7 +23,7 @@ def test_cores_are_hidden_for_a_while(threads: int) -> None:
 
 
 def test_cores_are_back_after_an_error() -> None:
-    """A library that does not load leaves the process with all of its cores."""
+    """If a library doesn't load, the process still gets all of its cores back."""
     before = os.sched_getaffinity(0)
     with pytest.raises(ImportError), limit_visible_cores(1):
         raise ImportError
@@ -32,7 +32,7 @@ def test_cores_are_back_after_an_error() -> None:
 
 @pytest.mark.blender
 def test_blender_starts_no_thread_for_a_hidden_core() -> None:
-    """Loaded among fewer cores, Blender has fewer threads, and so none that keeps a core busy waiting."""
+    """With hidden cores Blender starts fewer threads, and none that keeps a core busy waiting."""
     if len(os.sched_getaffinity(0)) == 1:
         pytest.skip("one core can't be hidden")
     program = (

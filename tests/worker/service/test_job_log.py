@@ -1,4 +1,4 @@
-"""What is printed while a job runs."""
+"""The output of a job."""
 
 import os
 import subprocess
@@ -16,13 +16,13 @@ from worker.service.job_log import MAX_BYTES, JobLogs
 
 @pytest.fixture
 def message(dataset: Dataset) -> JobMessage:
-    """Asks for one job."""
+    """A message that asks for one job."""
     return dataset.message(Job.from_id("far-000001"))
 
 
 @pytest.fixture
 def logs(tmp_path: Path) -> JobLogs:
-    """In a folder that is not there yet."""
+    """Logs in a folder that doesn't exist yet."""
     return JobLogs(tmp_path / "logs/jobs")
 
 
@@ -47,7 +47,7 @@ except ZeroDivisionError:
 
 
 def test_takes_all_levels(tmp_path: Path, logs: JobLogs, message: JobMessage) -> None:
-    """What Python prints and C code writes goes to the log, though the job fails, and the rest where it did."""
+    """Output of Python and of C code goes to the log, even if the job fails, and later output where it did before."""
     ended = subprocess.run(
         [sys.executable, "-c", PROGRAM, str(tmp_path / "logs/jobs"), message.model_dump_json()],
         capture_output=True,
@@ -60,7 +60,7 @@ def test_takes_all_levels(tmp_path: Path, logs: JobLogs, message: JobMessage) ->
 
 
 def test_descriptors_are_not_used_up(logs: JobLogs, message: JobMessage) -> None:
-    """Job after job, no descriptor stays open."""
+    """Over many jobs no descriptor stays open."""
     before = len(list(Path("/proc/self/fd").iterdir()))
     for _ in range(20):
         with logs.taking(message):
@@ -69,7 +69,7 @@ def test_descriptors_are_not_used_up(logs: JobLogs, message: JobMessage) -> None
 
 
 def test_each_attempt_has_its_own(logs: JobLogs, message: JobMessage) -> None:
-    """A job's log is that of its last attempt."""
+    """The log of a job is that of its last attempt."""
     for word in (b"first", b"second"):
         with logs.taking(message):
             os.write(1, word)
@@ -77,7 +77,7 @@ def test_each_attempt_has_its_own(logs: JobLogs, message: JobMessage) -> None:
 
 
 def test_size_is_bounded(logs: JobLogs, message: JobMessage) -> None:
-    """Of a long log the end is kept."""
+    """The end of a long log is kept."""
     with logs.taking(message):
         for _ in range(5):
             os.write(1, b"x" * MAX_BYTES)
@@ -88,7 +88,7 @@ def test_size_is_bounded(logs: JobLogs, message: JobMessage) -> None:
 
 
 def test_number_is_bounded(logs: JobLogs, dataset: Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of many logs the newest are kept, and some more until room is made."""
+    """The newest logs are kept, and some more until room is made."""
     monkeypatch.setattr(worker.service.job_log, "MAX_FILES", 5)
     monkeypatch.setattr(worker.service.job_log, "_ROOM_EVERY", 3)
     paths = []
@@ -104,7 +104,7 @@ def test_number_is_bounded(logs: JobLogs, dataset: Dataset, monkeypatch: pytest.
 
 
 def test_tail(logs: JobLogs, message: JobMessage) -> None:
-    """The end of a log is told, of sixteen KiB, with what is no text replaced."""
+    """The tail is the last sixteen KiB of a log, with invalid text replaced."""
     with logs.taking(message):
         os.write(1, b"a" * 20_000 + b"\xff\n")
     tail = logs.tail(message)
@@ -113,19 +113,19 @@ def test_tail(logs: JobLogs, message: JobMessage) -> None:
 
 
 def test_no_log(logs: JobLogs, message: JobMessage) -> None:
-    """A job that did not run here has no tail."""
+    """A job that didn't run here has no tail."""
     assert logs.tail(message) == ""
 
 
 def test_datasets_are_apart(logs: JobLogs, message: JobMessage) -> None:
-    """Logs of two descriptions under one name don't meet, and all lie in the folder."""
+    """Logs of two descriptions under one name are apart, and all lie in the folder."""
     other = message.model_copy(update={"spec_sha256": "f" * 64})
     assert logs.path(message) != logs.path(other)
     assert logs.path(message).parent.parent == logs.path(other).parent.parent
 
 
 def test_folder_that_cannot_be_written(tmp_path: Path, message: JobMessage) -> None:
-    """Where no log can be written, the job is not begun."""
+    """If no log can be written, the job isn't begun."""
     (tmp_path / "file").write_text("")
     with pytest.raises(DestinationError, match="can't write logs"), JobLogs(tmp_path / "file").taking(message):
         pytest.fail("begun")

@@ -1,4 +1,4 @@
-"""Keeping a claim alive, and knowing when it may be another's."""
+"""Keeping a claim alive, and knowing when another worker may have it."""
 
 import time
 from unittest.mock import patch
@@ -13,18 +13,18 @@ JOB_ID = "far-000001"
 
 
 class ShortLedger(MemoryLedger):
-    """Its claims last a fifth of a second, and it counts their refreshments."""
+    """A ledger whose claims last a fifth of a second, and that counts their refreshes."""
 
     refreshed = 0
 
     def refresh(self, job_id: str, owner: str, ttl_s: float = 0.2) -> bool:
-        """See `Ledger.refresh`."""
+        """Implement `Ledger.refresh`."""
         self.refreshed += 1
         return super().refresh(job_id, owner, min(ttl_s, 0.2))
 
 
 class Clock:
-    """Goes on when told to."""
+    """A clock that the test moves."""
 
     now_s = 1000.0
 
@@ -41,7 +41,7 @@ def clock() -> Clock:
 
 @pytest.fixture
 def ledger(clock: Clock) -> MemoryLedger:
-    """A ledger by the same clock, in which the job is claimed for a minute."""
+    """A ledger with the same clock, in which the job is claimed for a minute."""
     ledger = MemoryLedger(clock)
     ledger.claim(JOB_ID, "a:1", ttl_s=60.0)
     return ledger
@@ -49,7 +49,7 @@ def ledger(clock: Clock) -> MemoryLedger:
 
 @pytest.fixture
 def claim(ledger: MemoryLedger, clock: Clock) -> Lease:
-    """The claim, whose thread is not started."""
+    """The lease of the claim, whose thread isn't started."""
     return Lease(ledger, JOB_ID, "a:1", ttl_s=60.0, clock=clock)
 
 
@@ -62,7 +62,7 @@ def wait_for_beats(ledger: ShortLedger, count: int) -> None:
 
 
 def test_claim_outlives_its_term() -> None:
-    """While the heart beats, a claim lives on; when it stops, the claim lapses."""
+    """While the thread refreshes it, a claim lives on; when it stops, the claim lapses."""
     ledger = ShortLedger()
     ledger.claim(JOB_ID, "a:1", ttl_s=60.0)
     with Lease(ledger, JOB_ID, "a:1", every_s=0.01):
@@ -75,7 +75,7 @@ def test_claim_outlives_its_term() -> None:
 
 
 def test_beats_on_without_redis(caplog: pytest.LogCaptureFixture) -> None:
-    """A Redis that is away for a while does not end the job."""
+    """A Redis that is away for a while doesn't end the job."""
     ledger = ShortLedger()
     calls = []
 
@@ -93,18 +93,18 @@ def test_beats_on_without_redis(caplog: pytest.LogCaptureFixture) -> None:
 
 
 def test_lost_claim_is_found_out_by_the_thread() -> None:
-    """A claim that another has by now is known to be lost at the next beat."""
+    """The next refresh shows that another worker has the claim."""
     ledger = MemoryLedger()
     ledger.claim(JOB_ID, "b:1")
     with Lease(ledger, JOB_ID, "a:1", every_s=0.01) as claim:
-        claim._thread.join(30)  # it ends when it has found out
+        claim._thread.join(30)  # the thread ends when it has found out
         with pytest.raises(LeaseLostError):
             claim.check()
     assert ledger.claims() == {JOB_ID: "b:1"}
 
 
 def test_lease_is_shorter_than_the_claim(claim: Lease, ledger: MemoryLedger, clock: Clock) -> None:
-    """The holder trusts its claim for nine tenths of its term: then the ledger still has it, and nobody writes."""
+    """The holder trusts its claim for nine tenths of the term, in which the ledger still has it and nobody writes."""
     clock.now_s += 53.9
     claim.check()
     clock.now_s += 0.2
@@ -114,7 +114,7 @@ def test_lease_is_shorter_than_the_claim(claim: Lease, ledger: MemoryLedger, clo
 
 
 def test_renewed_lease(claim: Lease, clock: Clock) -> None:
-    """A renewed claim is trusted for another term."""
+    """A renewed lease lasts another term."""
     clock.now_s += 50.0
     claim.renew()
     clock.now_s += 50.0
@@ -122,7 +122,7 @@ def test_renewed_lease(claim: Lease, clock: Clock) -> None:
 
 
 def test_lapsed_claim_that_nobody_took(claim: Lease, clock: Clock) -> None:
-    """Who comes back after the term must ask, and goes on if nobody was faster."""
+    """After the term the holder must ask, and continues if no other worker took the job."""
     clock.now_s += 61.0
     with pytest.raises(LeaseLostError):
         claim.check()
@@ -131,7 +131,7 @@ def test_lapsed_claim_that_nobody_took(claim: Lease, clock: Clock) -> None:
 
 
 def test_claim_of_another_is_not_taken_back(claim: Lease, ledger: MemoryLedger, clock: Clock) -> None:
-    """Who finds its job claimed by another leaves it there, for good."""
+    """A holder that finds its job claimed by another worker leaves it, for good."""
     clock.now_s += 61.0
     ledger.claim(JOB_ID, "b:1", ttl_s=60.0)
     with pytest.raises(LeaseLostError):
@@ -142,7 +142,7 @@ def test_claim_of_another_is_not_taken_back(claim: Lease, ledger: MemoryLedger, 
 
 
 def test_late_answer_is_counted_from_the_question(ledger: MemoryLedger, clock: Clock) -> None:
-    """A process that was stopped while it waited for the ledger counts from when it had asked."""
+    """A process that was stopped while it waited for the ledger counts the lease from its question."""
 
     class Slow(MemoryLedger):
         def refresh(self, job_id: str, owner: str, ttl_s: float = 60.0) -> bool:

@@ -86,7 +86,7 @@ def test_manifest_vouches_for_the_files(dataset: Dataset, runner: JobRunner) -> 
 
 
 def test_second_time_does_nothing(dataset: Dataset, runner: JobRunner) -> None:
-    """A message that comes twice makes one picture."""
+    """A message that is delivered twice makes one picture."""
     runner.run(dataset.message(JOB).encode())
     before = dataset.storage.files()
     assert "already" in runner.run(dataset.message(JOB).encode()).said
@@ -103,7 +103,7 @@ def test_same_job_same_bytes(dataset: Dataset, runner: JobRunner) -> None:
 
 
 def test_claimed_elsewhere(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
-    """A job that another process works on is put off without a try being spent."""
+    """A job that another process holds is postponed without spending an attempt."""
     ledger.claim(JOB.id, "elsewhere:1")
     with pytest.raises(TryLaterError, match="claimed"):
         runner.run(dataset.message(JOB).encode())
@@ -112,7 +112,7 @@ def test_claimed_elsewhere(dataset: Dataset, runner: JobRunner, ledger: MemoryLe
 
 
 def test_claim_of_a_dead_process_is_taken_over(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
-    """A redelivered job does not wait for the claim of the process that died with it."""
+    """A redelivered job doesn't wait for the claim of the process that died with it."""
     ledger.claim(JOB.id, f"{this_process().partition(':')[0]}:{2**22 + 1}")
     runner.run(dataset.message(JOB).encode())
     assert is_done(dataset, JOB)
@@ -121,7 +121,7 @@ def test_claim_of_a_dead_process_is_taken_over(dataset: Dataset, runner: JobRunn
 def test_permanent_failure(
     dataset: Dataset, runner: JobRunner, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """What can't succeed is given up with its reason at the first try."""
+    """A failure that can't pass gives the job up with its reason at the first attempt."""
     monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=permanent")
     with pytest.raises(SceneError):
         runner.run(dataset.message(JOB).encode())
@@ -139,7 +139,7 @@ def test_passing_failure(
     kind: str,
     reason: str,
 ) -> None:
-    """What may pass is put off, held meanwhile, and given up after the last try."""
+    """A failure that may pass postpones the job, which is held meanwhile and given up after the last attempt."""
     monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}={kind}")
     for _ in range(MAX_TRIES - 1):
         with pytest.raises(TryLaterError, match=reason):
@@ -153,7 +153,7 @@ def test_passing_failure(
 
 
 def test_failure_that_passed(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A second try that succeeds leaves no trace of the first."""
+    """If the second attempt succeeds, no trace of the first is left."""
     monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=passing")
     with pytest.raises(TryLaterError):
         runner.run(dataset.message(JOB).encode())
@@ -164,7 +164,7 @@ def test_failure_that_passed(dataset: Dataset, runner: JobRunner, monkeypatch: p
 
 
 def test_job_that_kills_its_process(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
-    """A job whose attempts all ended without a word is not begun for ever."""
+    """A job whose attempts all ended with their process isn't begun for ever."""
     for number in range(MAX_STARTS):
         ledger.claim(JOB.id, f"elsewhere:{number}", ttl_s=0.0)
     with pytest.raises(PermanentError, match="died"):
@@ -175,7 +175,7 @@ def test_job_that_kills_its_process(dataset: Dataset, runner: JobRunner, ledger:
 def test_lost_processes_are_no_failed_tries(
     dataset: Dataset, runner: JobRunner, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Starts that ended with their process do not shorten the tries of a failure that may pass."""
+    """Starts that ended with their process don't count as attempts at a failure that may pass."""
     monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=passing")
     for number in range(2):
         ledger.claim(JOB.id, f"elsewhere:{number}", ttl_s=0.0)
@@ -192,7 +192,7 @@ def test_lost_processes_are_no_failed_tries(
 def test_renderer_that_cannot_be_opened(
     dataset: Dataset, tmp_path: Path, ledger: MemoryLedger, runner: JobRunner, fault: FarmError
 ) -> None:
-    """A fault of the machine is not the job's: nothing is recorded or spent, and another worker makes it."""
+    """A machine's fault isn't the job's: nothing is recorded or spent, and another worker makes the job."""
 
     def open_renderer(*_: object) -> Renderer:
         raise fault
@@ -223,7 +223,7 @@ def test_blender_that_does_not_load(dataset: Dataset, tmp_path: Path, ledger: Me
 def test_asset_that_this_machine_lacks(
     dataset: Dataset, runner: JobRunner, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A texture that is found missing as late as in a picture is no failure of its job."""
+    """A texture that turns out to be missing during a picture isn't a failure of the job."""
     monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=asset")
     with pytest.raises(UnfitWorkerError, match="not baked"):
         runner.run(dataset.message(JOB).encode())
@@ -257,7 +257,7 @@ def test_restarted_worker_with_a_wrong_store(
 
 
 def test_message_for_another_description(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
-    """What is left of a dataset that was replaced is dropped: nothing is written or recorded."""
+    """A message of a dataset that was replaced is dropped: nothing is written or recorded."""
     before = dataset.storage.files()
     assert runner.run(dataset.message(JOB).encode() | {"spec_sha256": "f" * 64}).said.startswith("dropped")
     assert dataset.storage.files() == before
@@ -290,7 +290,7 @@ def test_bad_message(dataset: Dataset, runner: JobRunner, payload: object) -> No
 
 
 def test_given_up_job_is_dropped(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
-    """A message of a job that is in quarantine is taken and nothing else."""
+    """A message of a job in quarantine is acknowledged and has no other effect."""
     put_in_quarantine(dataset, JOB, "died", attempts=3, worker="host:1", log="")
     before = dataset.storage.files()
     assert "in quarantine" in runner.run(dataset.message(JOB).encode()).said
@@ -302,7 +302,7 @@ class PrintingRenderer(StandInRenderer):
     """Writes as C code does, before it fails or not."""
 
     def make(self, job: Job, header: DatasetHeader) -> Picture:
-        """See `Renderer.make`."""
+        """Implement `Renderer.make`."""
         os.write(2, f"GPU fell off the bus in {job.id}".encode())
         return super().make(job, header)
 
@@ -310,7 +310,7 @@ class PrintingRenderer(StandInRenderer):
 def test_record_has_the_log_and_how_to_replay(
     dataset: Dataset, tmp_path: Path, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A record tells what was printed in the last attempt, who made it, and the command that makes it again."""
+    """A record holds the output of the last attempt, the worker, and the command that makes the job again."""
     monkeypatch.setenv("STAND_IN_FAILS", f"{JOB.id}=permanent")
     runner = runner_with(PrintingRenderer(), tmp_path / "store", ledger, JobLogs(tmp_path / "logs"))
     with pytest.raises(SceneError):
@@ -322,7 +322,7 @@ def test_record_has_the_log_and_how_to_replay(
 
 
 def test_record_has_the_log_of_a_process_that_died(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
-    """What the main process kept of a child that died goes into the record."""
+    """The record holds what the main process kept of the dead child's output."""
     for number in range(MAX_STARTS):
         ledger.claim(JOB.id, f"elsewhere:{number}", ttl_s=0.0)
     ledger.keep_log(JOB.id, "Segmentation fault")
@@ -336,7 +336,7 @@ def test_record_has_the_log_of_a_process_that_died(dataset: Dataset, runner: Job
 def test_different_jobs_that_fail_in_a_row(
     dataset: Dataset, runner: JobRunner, ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch, kind: str
 ) -> None:
-    """When one job after the other fails, the worker is what is wrong: the last goes back as if it had not begun."""
+    """If one job after the other fails, the worker is at fault: the last job goes back as if it had not begun."""
     jobs = list(dataset.header.spec.jobs())[:FAILED_IN_A_ROW]
     monkeypatch.setenv("STAND_IN_FAILS", " ".join(f"{job.id}={kind}" for job in jobs))
     for job in jobs[:-1]:
@@ -351,7 +351,7 @@ def test_different_jobs_that_fail_in_a_row(
 
 
 def test_success_in_between(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A job that succeeds shows that the worker is fit, however many fail around it."""
+    """A job that succeeds shows that the worker is fit, whatever fails around it."""
     jobs = list(dataset.header.spec.jobs())
     monkeypatch.setenv("STAND_IN_FAILS", " ".join(f"{job.id}=permanent" for job in (jobs[0], jobs[1], jobs[3])))
     for job in jobs:
@@ -369,7 +369,7 @@ class CountingRenderer(StandInRenderer):
     asked = 0
 
     def make(self, job: Job, header: DatasetHeader) -> Picture:
-        """See `Renderer.make`."""
+        """Implement `Renderer.make`."""
         self.asked += 1
         return super().make(job, header)
 
@@ -396,7 +396,7 @@ def test_store_that_cannot_be_written(dataset: Dataset, tmp_path: Path, ledger: 
 
 
 def test_claim_that_was_lost_meanwhile(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
-    """A worker that finds its job claimed by another, once it has rendered, writes nothing and looks again later."""
+    """If another worker has claimed the job by the end of its render, nothing is written, and the job is postponed."""
 
     class SlowRenderer(StandInRenderer):
         def make(self, job: Job, header: DatasetHeader) -> Picture:
@@ -413,7 +413,7 @@ def test_claim_that_was_lost_meanwhile(dataset: Dataset, tmp_path: Path, ledger:
 
 
 def test_job_that_was_put_back_begins_anew(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
-    """A given-up job whose record is removed is made, however often it was begun before."""
+    """A given-up job whose record is removed is made, whatever the number of its earlier starts."""
     for number in range(MAX_STARTS):
         ledger.claim(JOB.id, f"elsewhere:{number}", ttl_s=0.0)
     with pytest.raises(PermanentError):
@@ -454,7 +454,7 @@ def test_header_that_this_worker_cannot_read(dataset: Dataset, runner: JobRunner
 
 
 def test_dataset_that_was_here_before(dataset: Dataset, runner: JobRunner, tmp_path: Path) -> None:
-    """A store that vanishes amid the work is waited for: the worker is not unfit."""
+    """A store that vanishes during the work is waited for, and the worker isn't unfit."""
     runner.run(dataset.message(JOB).encode())
     (tmp_path / "store/cables").rename(tmp_path / "gone")
     with pytest.raises(DestinationError, match="no dataset here"):
@@ -462,7 +462,7 @@ def test_dataset_that_was_here_before(dataset: Dataset, runner: JobRunner, tmp_p
 
 
 def test_late_failure_is_not_counted(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
-    """Who fails at a job that is another's by now neither counts that nor gives the job up."""
+    """A failure after the job has become another worker's isn't counted and doesn't give the job up."""
 
     class LateRenderer(StandInRenderer):
         def make(self, job: Job, header: DatasetHeader) -> Picture:
@@ -479,7 +479,7 @@ def test_late_failure_is_not_counted(dataset: Dataset, tmp_path: Path, ledger: M
 
 
 def test_slow_store_fails_no_job(dataset: Dataset, runner: JobRunner, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A time limit that is met while files are written is the store's doing."""
+    """A time limit that is reached while files are written is the store's fault."""
     monkeypatch.setattr("worker.service.runner.upload", Mock(side_effect=SoftTimeLimitExceeded()))
     for _ in range(MAX_STARTS + 1):
         with pytest.raises(DestinationError, match="SoftTimeLimitExceeded"):

@@ -40,14 +40,14 @@ def farm(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveFarm]:
 
 
 def wait_until_settled(handle: RunHandle) -> None:
-    """Wait until nobody works for a run, and a while longer, in which somebody might begin to."""
+    """Wait until no worker works for a run, and a while longer, in which one might begin to."""
     for _ in range(2):
         wait_for(lambda: not handle.ledger.claims())
         time.sleep(1.5)
 
 
 def test_two_runs_take_turns(farm: LiveFarm) -> None:
-    """Two runs of one priority progress in step, each image made once."""
+    """Two runs of one priority progress in step, and each image is made once."""
     since = len(farm.starts())
     one, two = farm.dataset("one", far=30), farm.dataset("two", far_aligned=30)
     for dataset in (one, two):
@@ -64,7 +64,7 @@ def test_two_runs_take_turns(farm: LiveFarm) -> None:
 
 
 def test_urgent_run_goes_first(farm: LiveFarm) -> None:
-    """A run of high priority that comes later is made whole while the other waits, but for what was taken before."""
+    """A later run of high priority is made whole while the other one waits, except for messages already taken."""
     normal, urgent = farm.dataset("normal", far=200), farm.dataset("urgent", far_aligned=8)
     since = len(farm.starts())
     normal_hints = farm.submit(normal)
@@ -82,7 +82,7 @@ def test_urgent_run_goes_first(farm: LiveFarm) -> None:
 
 
 def test_pause_and_resume(farm: LiveFarm) -> None:
-    """A paused run stops once what was begun is finished; resumed, it goes on where it was, each image made once."""
+    """A paused run stops once images that were begun are finished; resumed, it continues, each image made once."""
     dataset = farm.dataset("paused", far=60)
     since = len(farm.starts())
     handle = farm.submit(dataset)
@@ -100,7 +100,7 @@ def test_pause_and_resume(farm: LiveFarm) -> None:
 
 
 def test_cancel(farm: LiveFarm) -> None:
-    """A cancelled run is left as it is, its queue empty, what is done whole, and whoever waits for it is told."""
+    """A cancelled run has an empty queue and whole images, and its watchers are told."""
     dataset = farm.dataset("cancelled", far=200)
     handle = farm.submit(dataset)
     wait_until_done(dataset, 3)
@@ -115,7 +115,7 @@ def test_cancel(farm: LiveFarm) -> None:
 
 
 def test_job_that_crashes_its_process(farm: LiveFarm) -> None:
-    """It is begun three times, then in quarantine with what it printed last; the others are made."""
+    """The job is begun three times and goes to quarantine with its last output; the others are made."""
     dataset = farm.dataset("crashing", close_concentrated_light=4)
     since = len(farm.starts())
     farm.submit(dataset)
@@ -136,7 +136,7 @@ def made(farm: LiveFarm, name: str) -> Dataset:
 
 
 def test_retry(farm: LiveFarm, capsys: pytest.CaptureFixture[str]) -> None:
-    """A job that was given up is put back by `farm retry`, and made."""
+    """`farm retry` puts a given-up job back, and it is made."""
     dataset, job = made(farm, "retried"), Job.from_id("far-000002")
     put_in_quarantine(dataset, job, "died", attempts=3, worker="host:1", log="")
     dataset.storage.remove(manifest_path(job))
@@ -148,7 +148,7 @@ def test_retry(farm: LiveFarm, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_repair_with_checksums(farm: LiveFarm, capsys: pytest.CaptureFixture[str]) -> None:
-    """An image that rotted, as only its checksum tells, is made again by `farm repair --checksums`."""
+    """`farm repair --checksums` makes an image again that only its checksum shows to be damaged."""
     dataset = made(farm, "repaired")
     path = file_path(Job.from_id("far-000002"), IMAGE)
     whole = dataset.storage.read(path)

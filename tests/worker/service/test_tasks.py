@@ -37,7 +37,7 @@ def queue(redis_url: str, redis_client: "redis.Redis") -> CeleryQueue:
 
 @pytest.fixture
 def run(redis_client: "redis.Redis", dataset: Dataset) -> Run:
-    """The dataset's run, which is on the board."""
+    """The dataset's run, which is registered."""
     return RedisRegistry(redis_client).register(run_of(dataset))
 
 
@@ -69,7 +69,7 @@ def worker(
     try:
         process.wait(PATIENCE_S)
     finally:
-        process.kill()  # its renderer ends with it
+        process.kill()  # the worker's renderer ends with it
 
 
 def wait_until_done(dataset: Dataset, count: int) -> None:
@@ -118,7 +118,7 @@ def test_bad_message_does_not_stop_the_worker(
 def test_passing_failure_is_put_off(
     queue: CeleryQueue, run: Run, worker: "subprocess.Popen[bytes]", dataset: Dataset, ledger: RedisLedger
 ) -> None:
-    """A job that fails in a way that may pass is held for its next try, and not counted as failed."""
+    """A job with a failure that may pass is held for its next attempt, and doesn't count as failed."""
     del worker
     queue.submit(run, [dataset.message(Job.from_id("far-000001")), dataset.message(JOB)])
     wait_until_done(dataset, 1)

@@ -1,4 +1,4 @@
-"""Writing a made picture."""
+"""Writing a picture to the dataset."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -31,7 +31,7 @@ def made(dataset: Dataset) -> Picture:
 
 
 def test_writes_the_layout(dataset: Dataset, made: Picture) -> None:
-    """Three pictures and a manifest, where the layout says."""
+    """Three pictures and a manifest lie where the layout says."""
     upload(made, JOB, dataset)
     expected = {file_path(JOB, output) for output in OUTPUTS} | {manifest_path(JOB), "dataset.json"}
     assert set(dataset.storage.files()) == expected
@@ -39,7 +39,7 @@ def test_writes_the_layout(dataset: Dataset, made: Picture) -> None:
 
 
 def test_manifest_is_last(dataset: Dataset, made: Picture, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nothing is written after the manifest, so that it never vouches for a file still to come."""
+    """Nothing is written after the manifest, so that it never vouches for a missing file."""
     written: list[str] = []
     write = type(dataset.storage).write
 
@@ -53,7 +53,7 @@ def test_manifest_is_last(dataset: Dataset, made: Picture, monkeypatch: pytest.M
 
 
 def test_interrupted_upload_is_not_done(dataset: Dataset, made: Picture, monkeypatch: pytest.MonkeyPatch) -> None:
-    """When a write fails, the job is not done, whatever was written before."""
+    """If a write fails, the job isn't done, whatever was written before."""
     write = type(dataset.storage).write
 
     def failing(storage: object, path: str, content: bytes) -> None:
@@ -79,7 +79,7 @@ def test_interrupted_upload_is_not_done(dataset: Dataset, made: Picture, monkeyp
     ],
 )
 def test_labels_that_do_not_fit(dataset: Dataset, made: Picture, damage: dict[str, Any]) -> None:
-    """A picture and labels that contradict each other are not written."""
+    """A picture and labels that contradict each other aren't written."""
     before = dataset.storage.files()
     with pytest.raises(RenderError):
         upload(replace(made, files={**made.files, **damage}), JOB, dataset)
@@ -87,7 +87,7 @@ def test_labels_that_do_not_fit(dataset: Dataset, made: Picture, damage: dict[st
 
 
 class Clock:
-    """Goes on when told to."""
+    """A clock that the test moves."""
 
     now_s = 1000.0
 
@@ -97,11 +97,11 @@ class Clock:
 
 
 class Elsewhere:
-    """Another machine, which takes a job over whose worker is silent for a minute, and makes it.
+    """Another machine, which takes over the job of a worker that was silent for a minute, and makes it.
 
     Args:
-        dataset: where it writes.
-        seed: of its pixels; another than the dataset's stands for another machine's rounding.
+        dataset: dataset that the other machine writes to.
+        seed: seed of its pixels; a seed other than the dataset's stands for another machine's rounding.
     """
 
     def __init__(self, dataset: Dataset, seed: int) -> None:
@@ -121,7 +121,7 @@ class Elsewhere:
 
 
 class StoppedStorage(LocalStorage):
-    """The process is stopped after it has decided to write one file, and before it does."""
+    """A storage whose process is stopped after it has decided to write one file, and before it does."""
 
     def __init__(self, root: Path, watched: str, meanwhile: Callable[[], None]) -> None:
         super().__init__(root)
@@ -129,7 +129,7 @@ class StoppedStorage(LocalStorage):
         self._meanwhile = meanwhile
 
     def write(self, path: str, content: bytes) -> None:
-        """See `Storage.write`."""
+        """Implement `Storage.write`."""
         if path == self._watched:
             self._meanwhile()
         super().write(path, content)
@@ -141,7 +141,7 @@ DRAWN_PATHS = [*(file_path(JOB, output) for output in (IMAGE, MASK, INSTANCES)),
 
 
 def test_worker_that_was_stopped_writes_nothing(dataset: Dataset, made: Picture) -> None:
-    """A worker that was stopped past its lease leaves what another has made to the last bit."""
+    """A worker that was stopped past its lease changes no bit of another worker's files."""
     other = Elsewhere(dataset, seed=5)
     other.take_over()
     before = {path: dataset.storage.read(path) for path in dataset.storage.files()}
@@ -151,7 +151,7 @@ def test_worker_that_was_stopped_writes_nothing(dataset: Dataset, made: Picture)
 
 
 def test_worker_that_was_stopped_and_not_missed(dataset: Dataset, made: Picture) -> None:
-    """Past its lease a worker asks, and writes what it made if nobody has taken the job yet."""
+    """Past its lease a worker asks, and writes if no other worker has taken the job."""
     other = Elsewhere(dataset, seed=5)
     other.clock.now_s += 61.0
     upload(made, JOB, dataset, other.claim)
@@ -160,7 +160,7 @@ def test_worker_that_was_stopped_and_not_missed(dataset: Dataset, made: Picture)
 
 @pytest.mark.parametrize("path", DRAWN_PATHS)
 def test_stop_between_check_and_write(dataset: Dataset, made: Picture, path: str) -> None:
-    """A late write among another machine's files, whose bytes differ, leaves no job that seems done and is mixed."""
+    """A late write among another machine's files, whose bytes differ, leaves no mixed job that seems done."""
     other = Elsewhere(dataset, seed=5)
     theirs: dict[str, bytes] = {}
 
@@ -180,7 +180,7 @@ def test_stop_between_check_and_write(dataset: Dataset, made: Picture, path: str
 
 @pytest.mark.parametrize("path", ALL_PATHS)
 def test_stop_between_check_and_write_of_the_same(dataset: Dataset, made: Picture, path: str) -> None:
-    """A late write of the very bytes that another has written does no harm, and what is done stays so."""
+    """A late write of the same bytes does no harm, and the job stays done."""
     other = Elsewhere(dataset, seed=0)
     storage = StoppedStorage(Path(dataset.storage.location), path, other.take_over)
     with pytest.raises(LeaseLostError):
@@ -208,7 +208,7 @@ def test_stop_before_a_redis_that_is_away(dataset: Dataset, monkeypatch: pytest.
 
 
 def test_claim_that_another_got_early(dataset: Dataset, made: Picture) -> None:
-    """A claim that is another's though its time is not over, as after the loss of Redis, is noticed before a write."""
+    """A claim that another worker has early, as after the loss of Redis, is noticed before a write."""
     other = Elsewhere(dataset, seed=5)
     other.ledger.release(JOB.id, "here:1")
     other.ledger.claim(JOB.id, "elsewhere:1", 60.0)
@@ -219,6 +219,6 @@ def test_claim_that_another_got_early(dataset: Dataset, made: Picture) -> None:
 
 
 def test_claim_that_is_held_writes(dataset: Dataset, made: Picture) -> None:
-    """A worker that holds its claim writes as one that has the dataset to itself."""
+    """A worker that holds its claim writes as if it were alone."""
     upload(made, JOB, dataset, Elsewhere(dataset, seed=5).claim)
     assert is_done(dataset, JOB)

@@ -30,7 +30,7 @@ class Scene:
 
 @pytest.fixture
 def scene() -> Scene:
-    """Nothing seen yet."""
+    """A judge that has seen nothing yet."""
     return Scene()
 
 
@@ -42,7 +42,7 @@ def test_worker_that_works(scene: Scene, signs: Observation) -> None:
 
 @pytest.mark.parametrize("busy", [False, True])
 def test_hanging_loop(scene: Scene, busy: bool) -> None:
-    """A loop that does not come by for long is found, but not before as many looks."""
+    """A loop that hasn't ticked for long is noticed, but not before the number of looks."""
     told = scene.looks(3 * LOOKS, replace(WELL, busy=busy), ticks=False)
     first = next(number for number, word in enumerate(told) if word)
     assert told[first] == "its event loop hangs"
@@ -50,7 +50,7 @@ def test_hanging_loop(scene: Scene, busy: bool) -> None:
 
 
 def test_process_that_was_stopped(scene: Scene) -> None:
-    """One that slept for hours, and goes on, is not judged by the one look that it took on waking."""
+    """A process that slept for hours isn't judged by its single look on waking."""
     scene.looks(5, WELL, ticks=True)
     scene.now_s += 10_000
     stale = replace(WELL, ticked_s=scene.now_s - 10_000)
@@ -59,7 +59,7 @@ def test_process_that_was_stopped(scene: Scene) -> None:
 
 
 def test_worker_that_takes_nothing(scene: Scene) -> None:
-    """One that idles while jobs wait is found after as many looks in a row."""
+    """A worker that idles while jobs wait is noticed after the number of looks in succession."""
     told = scene.looks(IDLE_LOOKS, replace(WELL, jobs_wait=True), ticks=True)
     assert told == [""] * (IDLE_LOOKS - 1) + ["it takes no jobs though some wait"]
 
@@ -75,26 +75,26 @@ def test_one_job_in_between(scene: Scene) -> None:
 
 
 def test_stopping_worker_may_wait_for_its_job(scene: Scene) -> None:
-    """One that was told to stop need not come by while its job runs, nor take others."""
+    """A worker that was told to stop needn't tick while its job runs, nor take others."""
     stopping = replace(WELL, stopping=True, busy=True, jobs_wait=True)
     assert set(scene.looks(10 * IDLE_LOOKS, stopping, ticks=False)) == {""}
 
 
 def test_shutdown_that_never_ends(scene: Scene) -> None:
-    """One that was told to stop, has no job and is still there is found."""
+    """A worker that was told to stop, has no job and is still there is noticed."""
     told = scene.looks(3 * LOOKS, replace(WELL, stopping=True), ticks=False)
     assert "its event loop hangs" in told
 
 
 def test_redis_that_is_away(scene: Scene) -> None:
-    """While Redis is away nothing is held against a worker."""
+    """While Redis is away, no look counts against a worker."""
     scene.looks(IDLE_LOOKS - 1, replace(WELL, jobs_wait=True), ticks=True)
     scene.detector.forget()
     assert set(scene.looks(IDLE_LOOKS - 1, replace(WELL, jobs_wait=True), ticks=True)) == {""}
 
 
 def test_watched_process_ends() -> None:
-    """A process that hangs is ended by its own watchdog, with the code that has it started again, children first."""
+    """A process that hangs is ended by its own watchdog, children first, with the code that restarts it."""
     program = (
         "import time, worker.service.watchdog as w; w.LOOK_S = 0.01; w.LOOKS = 3; "
         "w.watch(lambda: w.Observation(time.monotonic() - 9, False, False, False), "
@@ -108,7 +108,7 @@ def test_watched_process_ends() -> None:
 
 
 def test_error_of_redis_does_not_end_the_watch() -> None:
-    """A look that finds no Redis is passed over, and the next one counts."""
+    """A look that finds no Redis is ignored, and the next one counts."""
     program = (
         "import time, worker.service.watchdog as w\n"
         "from farm.errors import BrokerError\n"

@@ -1,4 +1,4 @@
-"""A real worker's end, its renderers', and what holds it back."""
+"""The end of a real worker and of its renderers, and the reasons that hold it back."""
 
 import shutil
 import signal
@@ -29,20 +29,20 @@ pytestmark = pytest.mark.redis
 
 @pytest.fixture
 def farm(tmp_path: Path, redis_url: str, redis_client: "redis.Redis", worker_command: list[str]) -> Iterator[LiveFarm]:
-    """No worker yet."""
-    del redis_client  # empties Redis
+    """A farm without workers."""
+    del redis_client  # this fixture empties Redis
     with live_farm(tmp_path, redis_url, worker_command) as farm:
         yield farm
 
 
 @pytest.fixture
 def six(farm: LiveFarm) -> Dataset:
-    """Six jobs."""
+    """A dataset of six jobs."""
     return farm.dataset("cables", far=6)
 
 
 def test_worker_that_is_told_to_stop_finishes_its_image(farm: LiveFarm, six: Dataset) -> None:
-    """Told to stop, a worker finishes what it has begun, takes no more, and gives the rest back."""
+    """A worker that is told to stop finishes its image, takes no more, and gives the rest back."""
     handle = farm.submit(six)
     worker = farm.start("w", STAND_IN_DELAY_S="1")
     wait_for(lambda: len(farm.starts()) == 2)
@@ -57,7 +57,7 @@ def test_worker_that_is_told_to_stop_finishes_its_image(farm: LiveFarm, six: Dat
 
 
 def test_worker_that_is_told_twice_ends_at_once(farm: LiveFarm, six: Dataset) -> None:
-    """A second signal ends a worker amid its image, with its renderer; the image is another's to make."""
+    """A second signal ends a worker during its image, with its renderer; another worker makes the image."""
     handle = farm.submit(six)
     worker = farm.start("w", STAND_IN_DELAY_S="3600")
     wait_for(farm.starts)
@@ -76,7 +76,7 @@ def test_worker_that_is_told_twice_ends_at_once(farm: LiveFarm, six: Dataset) ->
 
 
 def test_store_that_cannot_be_written_holds_the_worker(farm: LiveFarm, six: Dataset) -> None:
-    """While a folder can't be written the worker is held, with the reason, and no job fails; then it goes on."""
+    """While a folder can't be written the worker is held, with the reason, and no job fails; then it continues."""
     in_the_way = Path(six.storage.location) / "far"
     in_the_way.write_text("no folder")
     handle = farm.submit_without_look(six)
@@ -92,7 +92,7 @@ def test_store_that_cannot_be_written_holds_the_worker(farm: LiveFarm, six: Data
 
 
 def test_folder_that_goes_away_amid_a_run(farm: LiveFarm, six: Dataset) -> None:
-    """A folder that is replaced by a file while images are made holds the worker; put back, it holds all of them."""
+    """A folder that is replaced by a file during a run holds the worker; put back, it has all images."""
     farm.submit(six)
     farm.start("w", STAND_IN_DELAY_S="0.2")
     images = Path(six.storage.location) / "far/images"
@@ -109,7 +109,7 @@ def test_folder_that_goes_away_amid_a_run(farm: LiveFarm, six: Dataset) -> None:
 
 
 def test_replaced_renderers_lose_no_job(farm: LiveFarm) -> None:
-    """A renderer that is replaced after three images hands on to the next; each image is made once."""
+    """A renderer that is replaced after three images hands over to the next; each image is made once."""
     dataset = farm.dataset("cables", far=8)
     farm.submit(dataset)
     farm.start("w", {"tasks_per_child": 3})
@@ -120,7 +120,7 @@ def test_replaced_renderers_lose_no_job(farm: LiveFarm) -> None:
 
 @pytest.mark.slow
 def test_renderer_above_its_memory_limit(farm: LiveFarm, six: Dataset) -> None:
-    """A renderer that takes twice what it may is killed amid its image, which is given up after three; others go on."""
+    """A renderer above its memory limit is killed; its image is given up after three starts, and others are made."""
     farm.submit(six)
     farm.start("w", {"memory_per_child_kib": 160 * 1024}, STAND_IN_FAILS="far-000001=bloat")
     wait_for(lambda: "far-000001" in Quarantine(six).look())
@@ -132,7 +132,7 @@ def test_renderer_above_its_memory_limit(farm: LiveFarm, six: Dataset) -> None:
 
 @pytest.mark.slow
 def test_job_that_meets_the_hard_limit(farm: LiveFarm, six: Dataset) -> None:
-    """A job that is killed at the time limit comes back, but not for ever, and holds nobody up."""
+    """A job that is killed at the time limit is tried again, but not for ever, and holds nobody up."""
     farm.submit(six)
     farm.start("w", {"time_limit_s": 2.0}, STAND_IN_FAILS="far-000001=hang")
     wait_for(lambda: "far-000001" in Quarantine(six).look())

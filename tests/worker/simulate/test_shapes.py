@@ -40,6 +40,6 @@ def test_a_bent_rod_heads_along_x_with_its_middle_at_the_origin() -> None:
 
 
 def test_tangents_are_unit_vectors() -> None:
-    """Whatever the spacing of the points."""
+    """Tangents have length 1, whatever the spacing of the points."""
     curve = np.cumsum(np.random.default_rng(1).uniform(0.1, 1.0, size=(20, 3)), axis=0)
     assert np.linalg.norm(tangents(curve), axis=1) == pytest.approx(np.ones(20))

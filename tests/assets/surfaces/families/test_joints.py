@@ -1,4 +1,4 @@
-"""Maps of joints: how they are stored, and where pieces of a surface meet."""
+"""Maps of joints: their storage, and the joints of each surface."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ JOINTED = (
 
 
 def test_distances_come_back_to_half_a_level() -> None:
-    """Within the reach; beyond it they are as far as it."""
+    """Distances come back within the reach; a larger one comes back as the reach."""
     distance = np.linspace(-1.5 * JOINT_REACH_MM, 1.5 * JOINT_REACH_MM, 500, dtype=np.float32)[None]
     found = joint_distance_mm(joint_levels(distance))
     step = JOINT_REACH_MM / 127.5
@@ -50,7 +50,7 @@ def test_what_is_of_one_piece_has_no_joints(name: str) -> None:
     ],
 )
 def test_joints_take_the_share_of_the_area_that_their_width_gives(name: str, share: float) -> None:
-    """To a fifth of it, as edges wander and corners are worn."""
+    """Joints take that share to a fifth of it, as edges wander and corners are worn."""
     joints = built(name).joints
     assert joints is not None
     assert np.mean(joint_distance_mm(joints) < 0) == pytest.approx(share, rel=0.2)
@@ -58,7 +58,7 @@ def test_joints_take_the_share_of_the_area_that_their_width_gives(name: str, sha
 
 @pytest.mark.parametrize("name", ["oak_planks", "ceramic_white", "weathered_boards", "brick_paving", "cobble"])
 def test_joints_lie_where_the_surface_shows_them(name: str) -> None:
-    """There the colour is another than on the pieces beside them."""
+    """At a joint the colour differs from that of the pieces beside it."""
     maps = built(name)
     assert maps.joints is not None
     distance = joint_distance_mm(maps.joints)
@@ -70,7 +70,7 @@ def test_joints_lie_where_the_surface_shows_them(name: str) -> None:
 @pytest.mark.parametrize("name", JOINTED)
 @pytest.mark.parametrize("axis", [0, 1])
 def test_joints_meet_at_opposite_edges(name: str, axis: int) -> None:
-    """The map tiles as the others do."""
+    """The map of joints tiles like the other maps."""
     joints = built(name).joints
     assert joints is not None
     seam, *inside = steps(joints, axis)

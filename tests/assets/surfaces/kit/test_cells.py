@@ -7,7 +7,7 @@ GRID = Grid(128, 128.0)
 
 
 def test_scattered_points_lie_in_the_tile() -> None:
-    """One point for each square of the spacing, all inside."""
+    """Each square of the spacing has one point, and all lie in the tile."""
     points = scatter(np.random.default_rng(0), GRID, 8.0, 1.0)
     assert points.shape == (256, 2)
     assert points.min() >= 0.0
@@ -15,7 +15,7 @@ def test_scattered_points_lie_in_the_tile() -> None:
 
 
 def test_each_texel_belongs_to_the_nearest_point_round_the_edges() -> None:
-    """Labels agree with a search over all points, but for texels almost as near to another."""
+    """Labels agree with a search over all points, except at texels almost as near to another point."""
     points = scatter(np.random.default_rng(1), GRID, 16.0)
     labels = voronoi(points, GRID)
     x, y = GRID.coordinates()

@@ -32,7 +32,7 @@ def test_a_stamp_over_the_corner_goes_on_at_the_other_side() -> None:
 
 
 def test_handwriting_stays_near_its_line() -> None:
-    """Letters rise and fall by a few times their height, no further."""
+    """Letters rise and fall by a few times their height and no farther."""
     image = np.zeros((512, 512), np.uint8)
     written_lines(np.random.default_rng(0), image, GRID, np.array([64.0]), 2.5)
     inked = np.flatnonzero((image > 60).any(axis=1)) * GRID.texel_mm

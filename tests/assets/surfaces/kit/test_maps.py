@@ -9,7 +9,7 @@ GRID = Grid(256, 100.0)
 
 
 def test_level_ground_points_straight_up() -> None:
-    """No relief gives (128, 128, 255)."""
+    """Level ground gives the normal (128, 128, 255)."""
     normal = normal_from_height(GRID.zeros(), GRID)
     assert set(map(tuple, normal.reshape(-1, 3).tolist())) == {(128, 128, 255)}
 
@@ -26,7 +26,7 @@ def test_slopes_are_true() -> None:
 
 
 def test_green_grows_towards_the_top_row() -> None:
-    """OpenGL's convention: ground that falls towards the top row looks that way, and green exceeds 128."""
+    """Ground that falls towards the top row has green above 128, as OpenGL's convention says."""
     _, y = GRID.coordinates()
     height = np.abs(y - 50.0).astype(np.float32) * np.float32(-0.5) + 25
     normal = normal_from_height(height, GRID)
@@ -36,7 +36,7 @@ def test_green_grows_towards_the_top_row() -> None:
 
 
 def test_red_grows_to_the_right() -> None:
-    """Ground that falls to the right looks to the right."""
+    """Ground that falls to the right has red above 128."""
     x, _ = GRID.coordinates()
     height = np.abs(x - 50.0).astype(np.float32)
     normal = normal_from_height(height, GRID)
@@ -45,7 +45,7 @@ def test_red_grows_to_the_right() -> None:
 
 
 def test_hollows_are_found_below_the_surroundings() -> None:
-    """A groove is a hollow, a ridge isn't."""
+    """A groove is a hollow, and a ridge isn't."""
     height = GRID.zeros()
     height[:, 60:64] = -1.0
     height[:, 180:184] = 1.0
@@ -64,7 +64,7 @@ def test_finish_clips_to_eight_bits() -> None:
 
 
 def test_a_texel_is_of_metal_or_it_is_not() -> None:
-    """Metal that hardly shows isn't metal, thinly covered metal is; in between is a narrow edge."""
+    """Metal that hardly shows counts as none, thinly covered metal as bare; the border between them is narrow."""
     field = GRID.zeros()
     shown = np.linspace(0.0, 1.0, GRID.pixels, dtype=np.float32)[None, :] + field
     metallic = finish(GRID, plain("ffffff", field), field, field, shown).metallic
@@ -75,7 +75,7 @@ def test_a_texel_is_of_metal_or_it_is_not() -> None:
 
 
 def test_a_ramp_passes_through_its_stops() -> None:
-    """At a stop's value the stop's colour is found."""
+    """At a stop's value the ramp has the stop's colour."""
     values = np.array([[-1.0, 0.0, 0.5, 1.0, 2.0]], np.float32)
     found = ramp(values, ((0.0, "000000"), (0.5, "ff8000"), (1.0, "ffffff")))
     expected = np.stack([rgb(code) for code in ("000000", "000000", "ff8000", "ffffff", "ffffff")])

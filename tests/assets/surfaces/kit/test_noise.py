@@ -13,7 +13,7 @@ GRID = Grid(256, 400.0)
     [(50.0, 0.0, (1.0, 1.0)), (100.0, 10.0, (1.0, 1.0)), (20.0, 0.0, (12.0, 1.0)), (20.0, 4.0, (1.0, 8.0))],
 )
 def test_fractal_noise_tiles(coarse: float, fine: float, stretch: tuple[float, float]) -> None:
-    """The step across the border is like any other."""
+    """The step across the border is like any other step."""
     field = fractal(np.random.default_rng(1), GRID, coarse, fine, stretch=stretch)
     for axis in (0, 1):
         seam, *inside = steps(field, axis)
@@ -21,7 +21,7 @@ def test_fractal_noise_tiles(coarse: float, fine: float, stretch: tuple[float, f
 
 
 def test_fractal_noise_is_normalised() -> None:
-    """Mean 0 and standard deviation 1."""
+    """A field has mean 0 and standard deviation 1."""
     field = fractal(np.random.default_rng(2), GRID, 60.0, 5.0, gain=0.6)
     assert field.dtype == np.float32
     assert abs(field.mean()) < 1e-4
@@ -29,7 +29,7 @@ def test_fractal_noise_is_normalised() -> None:
 
 
 def test_the_spectrum_is_the_one_asked_for() -> None:
-    """Amplitude per octave falls by the gain: between two frequencies an octave apart, power falls accordingly."""
+    """From one frequency to the next octave the power falls as the gain says."""
     gain = 0.5
     power = np.zeros((256, 256))
     for seed in range(12):
@@ -43,7 +43,7 @@ def test_the_spectrum_is_the_one_asked_for() -> None:
 
 
 def test_isotropic_noise_has_no_preferred_direction() -> None:
-    """Steps along x and along y are alike: there is no grid in the noise."""
+    """Steps along x and along y are alike."""
     field = fractal(np.random.default_rng(3), GRID, 20.0, 2.0)
     assert steps(field, 0).mean() == pytest.approx(steps(field, 1).mean(), rel=0.1)
 
@@ -90,7 +90,7 @@ def test_warping_by_whole_texels_rolls_the_field() -> None:
 
 
 def test_smoothstep_is_flat_at_both_ends() -> None:
-    """0 below, 1 above, a half in the middle."""
+    """A smooth step is 0 below, 1 above and a half in the middle."""
     values = smoothstep(1.0, 3.0, np.array([0.0, 1.0, 2.0, 3.0, 4.0], np.float32))
     assert values.tolist() == [0.0, 0.0, 0.5, 1.0, 1.0]
 

@@ -8,7 +8,7 @@ GRID = Grid(256, 128.0)
 
 
 def test_repeated_cells_count_from_their_middles() -> None:
-    """Each of 8 cells runs from minus to plus half a pitch, and a shift moves them to the right."""
+    """Each of 8 cells runs from minus to plus half a pitch, and a shift moves the cells to the right."""
     x, _ = GRID.coordinates()
     cell = repeated(x, 16.0)
     assert cell[0, 16] == pytest.approx(0.25)
@@ -31,7 +31,7 @@ def test_round_corners_end_where_the_circle_does() -> None:
 
 
 def test_a_filled_disc_has_the_disc_s_area() -> None:
-    """Its smooth border adds outside what it takes inside."""
+    """The smooth border adds as much outside as it takes inside."""
     x, y = GRID.coordinates()
     disc = filled(np.hypot(x - 64, y - 64) - np.float32(20.0), GRID)
     assert disc.sum() * GRID.texel_mm**2 == pytest.approx(np.pi * 400, rel=0.005)

@@ -18,7 +18,7 @@ def test_a_line_over_the_edge_goes_on_at_the_other_side() -> None:
 
 
 def test_a_polygon_over_the_edge_goes_on_at_the_other_side() -> None:
-    """Likewise for a filled shape in colour."""
+    """Filled across the corner, a polygon in colour equals the same one filled in the middle and rolled there."""
     corners = np.array([[-9.0, 3.0], [14.0, -8.0], [5.0, 20.0]])
     across, inside = np.zeros((2, 128, 128, 3), np.uint8)
     polygon(across, corners, (200.0, 100.0, 50.0), GRID)
@@ -27,7 +27,7 @@ def test_a_polygon_over_the_edge_goes_on_at_the_other_side() -> None:
 
 
 def test_many_strokes_leave_no_seam() -> None:
-    """Strokes strewn everywhere don't show where the tile ends."""
+    """Strokes strewn over the whole tile leave no seam at its edges."""
     rng = np.random.default_rng(0)
     image = np.zeros((128, 128), np.uint8)
     for _ in range(600):
@@ -39,6 +39,6 @@ def test_many_strokes_leave_no_seam() -> None:
 
 
 def test_a_curve_has_the_length_asked_for() -> None:
-    """The corners of a curve are evenly spaced along its length."""
+    """The corners of a curve are evenly spaced along the length asked for."""
     path = curve(np.random.default_rng(1), (5.0, 5.0), 30.0, 0.7)
     assert np.allclose(np.linalg.norm(np.diff(path, axis=0), axis=1).sum(), 30.0)

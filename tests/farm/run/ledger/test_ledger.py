@@ -28,13 +28,13 @@ def wait_until_free(ledger: Ledger, job_id: str) -> None:
 
 
 def test_first_claim(ledger: Ledger) -> None:
-    """The first to claim a job has it, for its first attempt."""
+    """The first to claim a job gets it, for its first attempt."""
     assert ledger.claim("far-000001", "a:1") == 1
     assert ledger.claims() == {"far-000001": "a:1"}
 
 
 def test_second_owner_is_refused(ledger: Ledger) -> None:
-    """A claimed job is nobody else's, and the refused one spends no attempt."""
+    """A claimed job is refused to others, and the refusal spends no attempt."""
     ledger.claim("far-000001", "a:1")
     assert ledger.claim("far-000001", "b:1") is None
     ledger.release("far-000001", "a:1")
@@ -48,7 +48,7 @@ def test_owner_may_claim_again(ledger: Ledger) -> None:
 
 
 def test_claim_lapses(ledger: Ledger) -> None:
-    """A claim that is not refreshed becomes free."""
+    """A claim that isn't refreshed becomes free."""
     ledger.claim("far-000001", "a:1", ttl_s=0.05)
     wait_until_free(ledger, "far-000001")
     assert ledger.claim("far-000001", "b:1") == 2
@@ -63,21 +63,21 @@ def test_refresh_holds(ledger: Ledger) -> None:
 
 
 def test_refresh_of_a_lost_claim(ledger: Ledger) -> None:
-    """Another's claim can't be refreshed, nor one that nobody has."""
+    """Neither another's claim nor a free one can be refreshed."""
     assert not ledger.refresh("far-000001", "a:1")
     ledger.claim("far-000001", "b:1")
     assert not ledger.refresh("far-000001", "a:1")
 
 
 def test_release_by_another(ledger: Ledger) -> None:
-    """Only the owner gives a claim up."""
+    """Only the owner can release a claim."""
     ledger.claim("far-000001", "a:1")
     ledger.release("far-000001", "b:1")
     assert ledger.claims() == {"far-000001": "a:1"}
 
 
 def test_postponed_job_is_on_its_way(ledger: Ledger) -> None:
-    """A postponed job counts as claimed, and anyone may take it over; the start before is not counted."""
+    """A postponed job counts as claimed, anyone may take it over, and its earlier start doesn't count."""
     ledger.claim("far-000001", "a:1")
     ledger.postpone("far-000001", "a:1", 60)
     assert ledger.claims() == {"far-000001": RETRY_OWNER}
@@ -95,7 +95,7 @@ def test_postponed_job_survives_the_release(ledger: Ledger) -> None:
 
 
 def test_start_that_is_given_back(ledger: Ledger) -> None:
-    """What an unfit worker gives back was never started; what another holds is not touched."""
+    """A job that an unfit worker gives back was never started; a job that another holds isn't affected."""
     ledger.claim("far-000001", "a:1")
     ledger.give_back("far-000001", "b:1")
     assert "far-000001" in ledger.claims()
@@ -128,7 +128,7 @@ def test_forgiven_job_begins_anew(ledger: Ledger) -> None:
 
 
 def test_absences(ledger: Ledger) -> None:
-    """Workers that lack the dataset are counted until one has it, or all is submitted again."""
+    """Workers that lack the dataset are counted until one has it, or all jobs are submitted again."""
     assert [ledger.count_absence() for _ in range(2)] == [1, 2]
     assert ledger.absences() == 2
     ledger.claim("far-000001", "a:1")
@@ -165,7 +165,7 @@ def test_newest_picture(ledger: Ledger) -> None:
 
 
 def test_finished_job_is_free(ledger: Ledger) -> None:
-    """A finished job is nobody's, and would begin anew."""
+    """A finished job has no owner, and its starts count from one again."""
     ledger.claim("far-000001", "a:1")
     ledger.finish("far-000001", "a:1", "picture")
     assert ledger.claims() == {}
@@ -174,7 +174,7 @@ def test_finished_job_is_free(ledger: Ledger) -> None:
 
 @pytest.mark.parametrize("holder", [None, "b:1"])
 def test_only_the_owner_finishes(ledger: Ledger, holder: str | None) -> None:
-    """Who has lost a claim notes nothing, and takes nothing from whoever has it by now."""
+    """A worker that has lost a claim finishes nothing, and takes nothing from the present owner."""
     ledger.claim("far-000001", "a:1")
     ledger.release("far-000001", "a:1")
     if holder:
@@ -186,7 +186,7 @@ def test_only_the_owner_finishes(ledger: Ledger, holder: str | None) -> None:
 
 
 def test_log_is_kept(ledger: Ledger) -> None:
-    """The last log of a job is told, and an empty one of a job that left none."""
+    """The last log of a job is returned, and an empty one for a job without a log."""
     ledger.keep_log("far-000001", "first")
     ledger.keep_log("far-000001", "second")
     assert ledger.log_of("far-000001") == "second"
@@ -194,7 +194,7 @@ def test_log_is_kept(ledger: Ledger) -> None:
 
 
 def test_one_leads(ledger: Ledger) -> None:
-    """The first to ask leads and may go on, others are refused."""
+    """The first to ask leads and may go on leading; others are refused."""
     assert ledger.leader() is None
     assert ledger.lead("a:1", 60)
     assert ledger.lead("a:1", 60)
@@ -213,7 +213,7 @@ def test_leadership_is_resigned(ledger: Ledger) -> None:
 
 
 def test_leadership_lapses(ledger: Ledger) -> None:
-    """A leader that is not heard of is followed."""
+    """A leader that isn't heard of is replaced."""
     ledger.lead("a:1", 0.05)
     give_up_s = time.monotonic() + 10
     while not ledger.lead("b:1", 60):
@@ -223,7 +223,7 @@ def test_leadership_lapses(ledger: Ledger) -> None:
 
 
 def test_figures_add_up(ledger: Ledger) -> None:
-    """Totals grow by what is added, each by itself."""
+    """Figures grow by the added amounts, each by itself."""
     assert ledger.figures() == {}
     ledger.add_figures({"images:far": 1, "seconds:render": 1.5})
     ledger.add_figures({"images:far": 1})
@@ -232,7 +232,7 @@ def test_figures_add_up(ledger: Ledger) -> None:
 
 @pytest.mark.redis
 def test_claim_of_a_clock_that_was_set_back(redis_client: "redis.Redis") -> None:
-    """A claim that would last for days was made before the server's clock was set back: it holds nobody up."""
+    """A claim that would last for days, after the server's clock was set back, holds nobody up."""
     ledger = RedisLedger(redis_client, "cables", "0" * 64)
     ledger.claim("far-000001", "a:1", ttl_s=3 * 24 * 3600)
     assert ledger.claims() == {}
@@ -241,7 +241,7 @@ def test_claim_of_a_clock_that_was_set_back(redis_client: "redis.Redis") -> None
 
 
 def test_no_rate_at_first(ledger: Ledger) -> None:
-    """An empty ledger knows no rate and no picture."""
+    """An empty ledger has neither a rate nor a picture."""
     activity = ledger.activity()
     assert activity.images_per_hour is None
     assert activity.last_picture is None
@@ -263,7 +263,7 @@ def test_datasets_are_apart(redis_client: object) -> None:
 
 
 def test_ended_process_is_gone() -> None:
-    """A process of this host that has ended is gone; this one is not, nor one of which nothing is known."""
+    """A process of this host that has ended is gone; this one isn't, nor is one of which nothing is known."""
     host = this_process().partition(":")[0]
     assert is_gone(f"{host}:{2**22 + 1}")
     assert not is_gone(this_process())
@@ -271,7 +271,7 @@ def test_ended_process_is_gone() -> None:
 
 
 def test_claim_of_an_ended_process_is_released() -> None:
-    """The dead hold no job."""
+    """A claim of an ended process is released."""
     ledger = MemoryLedger()
     host = this_process().partition(":")[0]
     ledger.claim("far-000001", f"{host}:{2**22 + 1}")
@@ -281,14 +281,14 @@ def test_claim_of_an_ended_process_is_released() -> None:
 
 
 def test_lapsed_claim_can_be_given_back(ledger: Ledger) -> None:
-    """Its owner may take it away for good, and the start with it."""
+    """The owner of a lapsed claim may still give it back, and the start with it."""
     ledger.claim("far-000001", "a:1", ttl_s=0.0)
     ledger.give_back("far-000001", "a:1")
     assert ledger.claim("far-000001", "b:1") == 1
 
 
 def test_released_claim_stays_released_when_the_clock_goes_back() -> None:
-    """What was given up after it had lapsed is nobody's, whatever time it is."""
+    """A claim that was released after it had lapsed stays free, whatever the clock says."""
     now_s = 100.0
     ledger = MemoryLedger(lambda: now_s)
     ledger.claim("far-000001", "a:1", ttl_s=10.0)

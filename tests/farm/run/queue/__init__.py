@@ -1,1 +1,1 @@
-"""What goes on the wire, over real servers."""
+"""Tests of the messages in Redis, with real servers."""

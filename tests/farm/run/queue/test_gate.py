@@ -1,4 +1,4 @@
-"""Hostile messages in the queue of a real worker: each is dropped in one line, and the next good one is worked on."""
+"""Hostile messages in the queue of a real worker: each is dropped with one line, and the next good one is worked on."""
 
 import base64
 import json
@@ -45,13 +45,13 @@ class Bench:
         return Job.from_id(f"far-{self.used:06d}")
 
     def good(self) -> Message:
-        """The envelope of a job that was not asked for yet; it is in no queue of the worker's."""
+        """The message of a job that wasn't asked for yet, before it is put into any queue."""
         message = self.dataset.message(self._next_job())
         self.app.send_task(TASK_NAME, kwargs={"message": message.encode()}, task_id=message.task_id, queue="spare")
         return cast(Message, json.loads(str(self.client.lpop("spare"))))
 
     def goes_on(self) -> list[str]:
-        """Wait until the next good job is done; returns what the log tells of dropped messages so far."""
+        """Wait until the next good job is done; returns the log's lines on dropped messages so far."""
         job = self._next_job()
         message = self.dataset.message(job)
         self.app.send_task(TASK_NAME, kwargs={"message": message.encode()}, task_id=message.task_id, queue=QUEUE)
@@ -66,13 +66,13 @@ class Bench:
 
 @pytest.fixture(scope="module")
 def stale() -> list[str]:
-    """Entries for the hash of unacknowledged messages, as a worker that died long ago would leave them."""
+    """Entries for the hash of unacknowledged messages, such as a worker that died long before leaves."""
     return ["[" * 50_000, "[1, 2", '["x", "", "farm"]', "[[], {}, 3]", "no json"]
 
 
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory: pytest.TempPathFactory, stale: list[str]) -> Iterator[Bench]:
-    """One worker for all tests here: whatever ends it fails those after. Poisoned entries wait to be put back."""
+    """One worker for all tests here; if a message ends it, later tests fail. Poisoned entries wait to be put back."""
     folder = tmp_path_factory.mktemp("gate")
     dataset = create_dataset(Destination(str(folder / "store"), "cables"), stand_in_header(far=JOBS))
     with private_redis() as url:
@@ -92,12 +92,12 @@ def with_body(message: Message, body: bytes) -> Message:
 
 
 def with_header(name: str, value: object) -> Callable[[Message], str]:
-    """Sets one header."""
+    """A change that sets one header."""
     return lambda message: json.dumps(message | {"headers": message["headers"] | {name: value}})
 
 
 def with_call(change: Callable[[list[Any]], object]) -> Callable[[Message], str]:
-    """Changes the call: arguments, named arguments, what to call afterwards."""
+    """A change of the call: arguments, named arguments, and the tasks to call afterwards."""
 
     def changed(message: Message) -> str:
         call = json.loads(base64.b64decode(message["body"]))
@@ -149,7 +149,7 @@ HOSTILE: dict[str, tuple[Callable[[Message], str | bytes], str]] = {
 
 @pytest.mark.parametrize("kind", HOSTILE)
 def test_a_hostile_message_is_dropped(bench: Bench, kind: str) -> None:
-    """It is told in one line, it is not kept, and the worker goes on."""
+    """A hostile message is reported in one line and not kept, and the worker continues."""
     make, reason = HOSTILE[kind]
     hostile = make(bench.good())
     before = len(bench.goes_on())
@@ -161,7 +161,7 @@ def test_a_hostile_message_is_dropped(bench: Bench, kind: str) -> None:
 
 
 def test_nothing_of_them_is_kept(bench: Bench) -> None:
-    """No message waits to be handed out again, those that were poisoned from the start included."""
+    """No message waits to be delivered again, not even those that were poisoned from the start."""
     bench.goes_on()
     give_up_s = time.monotonic() + PATIENCE_S
     while bench.client.hlen("unacked") or bench.client.llen(QUEUE):
@@ -171,7 +171,7 @@ def test_nothing_of_them_is_kept(bench: Bench) -> None:
 
 @pytest.mark.parametrize("name", ["timelimit", "expires", "stamps", "shadow", "compression", "group"])
 def test_other_headers_have_no_effect(bench: Bench, name: str) -> None:
-    """A message can't bring its own time limit or name in the log: what the farm doesn't use doesn't get through."""
+    """A message can't set its own time limit or name in the log, as the farm discards headers that it doesn't use."""
     message = bench.good()
     bench.client.lpush(QUEUE, with_header(name, ["bzip2", 1])(message))
     bench.goes_on()
@@ -180,12 +180,12 @@ def test_other_headers_have_no_effect(bench: Bench, name: str) -> None:
 
 @pytest.mark.parametrize("payload", [b"\x80", b"{}", b"[1]", b'{"properties": {}}', b'{"a":' * 50_000])
 def test_garbage_for_remote_control_is_passed_over(bench: Bench, payload: bytes) -> None:
-    """What is published on Celery's channel of commands can't end the worker."""
+    """Garbage on Celery's channel of commands doesn't end the worker."""
     bench.client.publish("/0.celery.pidbox", payload)
     bench.goes_on()
 
 
 def test_only_the_farms_task_can_be_called(bench: Bench) -> None:
-    """The worker answers Celery's own question what it knows: one task, none of the built-in ones."""
+    """The worker tells Celery that it knows one task, and none of the built-in ones."""
     answers = bench.app.control.inspect(timeout=5).registered(None)
     assert [set(names) for names in answers.values()] == [{TASK_NAME}]

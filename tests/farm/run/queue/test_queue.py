@@ -1,4 +1,4 @@
-"""What goes on the wire, and what is seen of it."""
+"""The messages in Redis, and what is seen of them."""
 
 import base64
 import json
@@ -53,7 +53,7 @@ def run(dataset: Dataset) -> Run:
 
 
 def test_submitted_jobs_wait(queue: JobQueue, run: Run, dataset: Dataset) -> None:
-    """What was submitted is seen, more than a page of it too."""
+    """Submitted jobs are seen, also more than a page of them."""
     assert queue.submit(run, messages(dataset, 1100)) == 1100
     assert queue.length(run) == 1100
     assert ids(queue.queued(run)) == [f"far-{number:06d}" for number in range(1100)]
@@ -70,13 +70,13 @@ def test_other_runs_are_apart(queue: JobQueue, run: Run, dataset: Dataset) -> No
 
 
 def test_empty_queue(queue: JobQueue, run: Run) -> None:
-    """Nothing waits in an empty queue."""
+    """An empty queue has no waiting jobs."""
     assert queue.length(run) == 0
     assert ids(queue.queued(run)) == []
 
 
 def test_cleared_queue(queue: JobQueue, run: Run, dataset: Dataset) -> None:
-    """A queue is emptied whole, whatever the priority with which each message came, and tells how many there were."""
+    """A queue is emptied whole, whatever the messages' priorities, and their number is returned."""
     for number, priority in enumerate(Priority):
         job = dataset.message(Job.from_id(f"far-{number:06d}"))
         queue.submit(run.model_copy(update={"priority": priority}), [job])
@@ -85,7 +85,7 @@ def test_cleared_queue(queue: JobQueue, run: Run, dataset: Dataset) -> None:
 
 
 def test_priorities_are_seen_alike(queue: JobQueue, run: Run, dataset: Dataset) -> None:
-    """A run whose priority has changed still sees what waits from before."""
+    """A run whose priority has changed still sees the messages with the old one."""
     queue.submit(run.model_copy(update={"priority": Priority.HIGH}), messages(dataset, 1))
     assert queue.length(run) == 1
     assert ids(queue.queued(run)) == ["far-000000"]
@@ -96,7 +96,7 @@ def test_priorities_are_seen_alike(queue: JobQueue, run: Run, dataset: Dataset) 
 def test_message_on_the_wire(
     redis_url: str, redis_client: "redis.Redis", run: Run, dataset: Dataset, priority: Priority
 ) -> None:
-    """A message is JSON, calls the task by name, and holds names and a fingerprint, no path."""
+    """A message is JSON, calls the task by name, and holds names and a fingerprint but no path."""
     run = run.model_copy(update={"priority": priority})
     CeleryQueue(make_app(redis_url), redis_client).submit(run, messages(dataset, 1))
     name = queue_name(run.key) + (f"\x06\x16{priority.step}" if priority.step else "")
@@ -113,14 +113,14 @@ def test_message_on_the_wire(
 
 @pytest.mark.redis
 def test_foreign_messages_are_passed_over(redis_url: str, redis_client: "redis.Redis", run: Run) -> None:
-    """Looking at the queue survives whatever lies in it."""
+    """Foreign messages in the queue are ignored."""
     foreign = ("no json", "[]", '{"headers": {}}', '{"headers": {"id": 3}}', '{"headers": {"id": "other:far-000001"}}')
     redis_client.lpush(queue_name(run.key), *foreign, "[" * 100_000)
     assert ids(CeleryQueue(make_app(redis_url), redis_client).queued(run)) == []
 
 
 def test_only_json_is_accepted() -> None:
-    """No message can bring code: pickle and the like are refused."""
+    """Pickle and the like are refused, so no message can bring code."""
     assert list(make_app("memory://").conf.accept_content) == ["json"]
 
 
@@ -150,7 +150,7 @@ def test_passwords_are_masked(url: str, shown: str) -> None:
 
 
 def test_address_given_wins(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The option comes before the environment, and that before the default."""
+    """The option takes precedence over the environment, and the environment over the default."""
     monkeypatch.setenv("FARM_BROKER_URL", "redis://there/0")
     assert broker_url("redis://here/0") == "redis://here/0"
     assert broker_url(None) == "redis://there/0"
@@ -160,7 +160,7 @@ def test_address_given_wins(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("url", ["redis://127.0.0.1:1/0", "redis+socket:///nowhere/redis.sock", "redis://x:port/0"])
 def test_no_redis_there(url: str) -> None:
-    """A Redis that can't be reached is one line with its address."""
+    """A Redis that can't be reached gives one line with its address."""
     with pytest.raises(BrokerError, match="no Redis at") as refused:
         connect(url)
     assert "\n" not in str(refused.value)
@@ -179,7 +179,7 @@ def test_no_redis_there(url: str) -> None:
     ],
 )
 def test_no_part_of_a_password_is_told(url: str) -> None:
-    """However odd the address, the refusal is the farm's own, in one line that keeps the secret."""
+    """However odd the address, the refusal is the farm's own, in one line without the secret."""
     with pytest.raises(BrokerError) as refused:
         connect(broker_url(url))
     assert not re.search("hu|sh", str(refused.value).replace("should", ""))
@@ -187,7 +187,7 @@ def test_no_part_of_a_password_is_told(url: str) -> None:
 
 
 def test_silent_redis() -> None:
-    """A program that takes the connection and never answers is no Redis."""
+    """A program that accepts the connection and never answers isn't a Redis."""
     with socket.create_server(("127.0.0.1", 0)) as server, pytest.raises(BrokerError, match="no Redis at"):
         connect(f"redis://127.0.0.1:{server.getsockname()[1]}/0")
 
@@ -213,7 +213,7 @@ def test_look_at_a_redis_that_is_away(run: Run, ask: str) -> None:
 
 @pytest.mark.redis
 def test_waits_for_a_redis_that_comes_later(tmp_path: Path) -> None:
-    """A worker that is started before its Redis finds it when it comes."""
+    """A worker that is started before its Redis finds it once it starts."""
     socket = tmp_path / "late.sock"
     server = find_redis_server()
     command = f"sleep 0.5; exec {server} --port 0 --unixsocket {socket} --save ''"
@@ -226,6 +226,6 @@ def test_waits_for_a_redis_that_comes_later(tmp_path: Path) -> None:
 
 
 def test_does_not_wait_for_ever() -> None:
-    """A Redis that never comes is told of."""
+    """A worker reports a Redis that never starts."""
     with pytest.raises(BrokerError, match="no Redis at"):
         wait_for("redis://127.0.0.1:1/0", patience_s=0.1)

@@ -1,4 +1,4 @@
-"""Redis with a password over TLS: a real server, a real worker, and what is refused."""
+"""Redis with a password over TLS: a real server, a real worker, and refusals."""
 
 import re
 from collections.abc import Iterator
@@ -22,7 +22,7 @@ from tests.farm.run.queue.servers import redis_server as run_redis
 
 @pytest.fixture(scope="module")
 def certificates(tmp_path_factory: pytest.TempPathFactory) -> Certificates:
-    """Made once: they cost a tenth of a second each."""
+    """Certificates, made once, since they cost a tenth of a second each."""
     return make_certificates(tmp_path_factory.mktemp("certificates"))
 
 
@@ -37,7 +37,7 @@ def place(certificates: Certificates, tmp_path_factory: pytest.TempPathFactory) 
 
 
 def assert_refused(url: str, reason: str) -> None:
-    """No client comes of it: one line, with the reason, without the password."""
+    """Assert that no client is made, and the error is one line with the reason and without the password."""
     with pytest.raises(BrokerError, match=reason) as refused:
         connect(broker_url(url))
     assert "\n" not in str(refused.value)
@@ -48,7 +48,7 @@ def assert_refused(url: str, reason: str) -> None:
 def test_a_worker_does_its_jobs_over_tls_with_a_password(
     place: str, certificates: Certificates, dataset: Dataset, worker_command: list[str], tmp_path: Path
 ) -> None:
-    """Queue, ledger and worker all go over the one address."""
+    """Queue, ledger and worker all use the one address."""
     url = broker_url(f"rediss://:{ENCODED}@{place}?ssl_ca_certs={certificates.authority}")
     client = connect(url)
     coordinator = Coordinator(dataset, open_handle(dataset, url, client), poll_s=0.1)
@@ -65,19 +65,19 @@ def test_a_worker_does_its_jobs_over_tls_with_a_password(
 
 @pytest.mark.redis
 def test_a_certificate_of_another_authority_is_refused(place: str, certificates: Certificates) -> None:
-    """Whoever can't show a certificate of the named authority isn't talked to."""
+    """A server that can't show a certificate of the named authority is refused."""
     assert_refused(f"rediss://:{ENCODED}@{place}?ssl_ca_certs={certificates.stranger}", "certificate verify failed")
 
 
 @pytest.mark.redis
 def test_tls_without_options_checks_the_certificate(place: str) -> None:
-    """A private authority is unknown to the system, so the bare address is refused, not silently trusted."""
+    """A private authority is unknown to the system, so the bare address is refused."""
     assert_refused(f"rediss://:{ENCODED}@{place}", "certificate verify failed")
 
 
 @pytest.mark.redis
 def test_celery_checks_the_certificate_too(place: str) -> None:
-    """Celery's own default for `rediss://` is no check at all; with the farm's address it refuses."""
+    """Celery's default for `rediss://` checks nothing; with the farm's address it refuses."""
     app = make_app(broker_url(f"rediss://:{ENCODED}@{place}"))
     with app.connection() as connection, pytest.raises(OperationalError, match="certificate verify failed"):
         connection.ensure_connection(max_retries=1, interval_start=0)
@@ -85,27 +85,27 @@ def test_celery_checks_the_certificate_too(place: str) -> None:
 
 @pytest.mark.redis
 def test_a_certificate_for_another_host_is_refused(place: str, certificates: Certificates) -> None:
-    """The certificate is for 127.0.0.1; the same server by its name isn't it."""
+    """The certificate is for 127.0.0.1, so the same server under its name is refused."""
     url = f"rediss://:{ENCODED}@{place}?ssl_ca_certs={certificates.authority}".replace("127.0.0.1", "localhost")
     assert_refused(url, "certificate verify failed: Hostname mismatch")
 
 
 @pytest.mark.redis
 def test_a_wrong_password_is_refused(place: str, certificates: Certificates) -> None:
-    """By Redis, and told without the word."""
+    """Redis refuses a wrong password, and the error doesn't show it."""
     url = f"rediss://:wrong-word@{place}?ssl_ca_certs={certificates.authority}"
     assert_refused(url, "invalid username-password pair")
 
 
 @pytest.mark.redis
 def test_an_address_without_tls_finds_no_redis(place: str) -> None:
-    """The server speaks TLS alone."""
+    """An address without TLS is refused by a server that speaks TLS alone."""
     assert_refused(f"redis://:{ENCODED}@{place}", "no Redis at")
 
 
 @pytest.mark.redis
 def test_a_missing_authority_is_one_line(place: str) -> None:
-    """A file that isn't there."""
+    """A missing file of the authority gives one line."""
     assert_refused(f"rediss://:{ENCODED}@{place}?ssl_ca_certs=/nowhere.pem", "No such file")
 
 
@@ -123,7 +123,7 @@ def test_a_missing_authority_is_one_line(place: str) -> None:
     ],
 )
 def test_no_address_switches_the_check_off(query: str) -> None:
-    """However it is written."""
+    """No spelling of the address switches the check off."""
     with pytest.raises(BrokerError, match="without a check"):
         broker_url(f"rediss://:secret@there/0?{query}")
 
@@ -137,7 +137,7 @@ def test_no_address_switches_the_check_off(query: str) -> None:
     ],
 )
 def test_addresses_that_would_weaken_tls(url: str, reason: str) -> None:
-    """Other ways to lose the check, or TLS itself, are refused with what to write."""
+    """Other ways to weaken the check, or TLS itself, are refused, and the error says what to write."""
     with pytest.raises(BrokerError, match=reason):
         broker_url(url)
 
@@ -151,13 +151,13 @@ def test_addresses_that_would_weaken_tls(url: str, reason: str) -> None:
     ],
 )
 def test_the_check_is_spelt_out(given: str, used: str) -> None:
-    """As Celery wants it; and once done, it stays."""
+    """The address spells out the check as Celery wants it, and spelling it out twice changes nothing."""
     assert broker_url(given) == used
     assert broker_url(used) == used
 
 
 def test_the_address_comes_from_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where a container's secret is mounted; an address in the environment comes first."""
+    """The address may come from a file, where a container's secret is mounted; the environment's address wins."""
     (tmp_path / "url").write_text("redis://:secret@there/3\n")
     monkeypatch.delenv("FARM_BROKER_URL", raising=False)
     monkeypatch.setenv("FARM_BROKER_URL_FILE", str(tmp_path / "url"))
@@ -170,7 +170,7 @@ def test_the_address_comes_from_a_file(tmp_path: Path, monkeypatch: pytest.Monke
 def test_a_file_without_an_address_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, content: bytes | None
 ) -> None:
-    """One that is missing or no text, in one line with its name."""
+    """A file that is missing or isn't text is refused in one line with its name."""
     path = tmp_path / "url"
     if content is not None:
         path.write_bytes(content)

@@ -1,4 +1,4 @@
-"""One suite over the board in memory and the one in Redis."""
+"""One suite over the run registry in memory and the one in Redis."""
 
 import pytest
 import redis
@@ -16,20 +16,20 @@ IDLE = WorkerReport(name="a@host", state=WorkerState.IDLE)
 
 @pytest.fixture(params=["memory", pytest.param("redis", marks=pytest.mark.redis)])
 def registry(request: pytest.FixtureRequest) -> RunRegistry:
-    """An empty board."""
+    """An empty registry."""
     if request.param == "memory":
         return MemoryRegistry()
     return RedisRegistry(request.getfixturevalue("redis_client"))
 
 
 def test_empty_board(registry: RunRegistry) -> None:
-    """An empty board tells of no run and no worker."""
+    """An empty registry has no run and no worker."""
     assert registry.runs() == {}
     assert registry.workers() == ()
 
 
 def test_registered_run_is_up(registry: RunRegistry) -> None:
-    """A run that is put up is found by its key, with all that it tells."""
+    """A registered run is found by its key, with all of its fields."""
     run = RUN.model_copy(update={"priority": Priority.HIGH, "state": RunState.PAUSED})
     assert registry.register(run) == run
     assert registry.runs() == {run.key: run}
@@ -44,7 +44,7 @@ def test_registering_again_changes_nothing(registry: RunRegistry) -> None:
 
 
 def test_replaced_run(registry: RunRegistry) -> None:
-    """A notice takes the place of the former one, or of none."""
+    """A notice replaces the earlier one, or is the first."""
     registry.replace(RUN)
     cancelled = RUN.model_copy(update={"state": RunState.CANCELLED})
     registry.replace(cancelled)
@@ -52,7 +52,7 @@ def test_replaced_run(registry: RunRegistry) -> None:
 
 
 def test_runs_of_one_name_are_apart(registry: RunRegistry) -> None:
-    """Two descriptions under one name are two runs, of which one can be taken down."""
+    """Two descriptions under one name are two runs, and one of them can be removed."""
     other = RUN.model_copy(update={"spec_sha256": "1" * 64})
     registry.register(RUN)
     registry.register(other)
@@ -62,7 +62,7 @@ def test_runs_of_one_name_are_apart(registry: RunRegistry) -> None:
 
 
 def test_newest_report_counts(registry: RunRegistry) -> None:
-    """Of each worker the last report is up, in the order of their names."""
+    """The last report of each worker is listed, in the order of their names."""
     working = WorkerReport(
         name="a@host", state=WorkerState.WORKING, reason="none", jobs=("far-000001",), done=3, rss_bytes=2**31
     )
@@ -73,7 +73,7 @@ def test_newest_report_counts(registry: RunRegistry) -> None:
 
 
 def test_worker_that_signs_off(registry: RunRegistry) -> None:
-    """A worker that has ended is not told of; signing off twice is no error."""
+    """A worker that has ended isn't listed, and signing off twice is no error."""
     registry.report(IDLE)
     registry.sign_off(IDLE.name)
     registry.sign_off(IDLE.name)
@@ -82,7 +82,7 @@ def test_worker_that_signs_off(registry: RunRegistry) -> None:
 
 @pytest.mark.redis
 def test_silent_worker_is_gone(redis_client: "redis.Redis") -> None:
-    """A worker that has not reported for long is not told of, and the next report of another removes its own."""
+    """A worker that hasn't reported for long isn't listed, and the next report of another one removes it."""
     registry = RedisRegistry(redis_client)
     registry.report(IDLE)
     redis_client.zincrby("farm:workers:seen", -SEEN_S - 1, IDLE.name)
@@ -96,7 +96,7 @@ def test_silent_worker_is_gone(redis_client: "redis.Redis") -> None:
 @pytest.mark.redis
 @pytest.mark.parametrize("text", ["", "no json", "{}", '{"dataset": "../..", "spec_sha256": "0"}'])
 def test_unreadable_notices_are_passed_over(redis_client: "redis.Redis", text: str) -> None:
-    """What another version or hand has written hides nothing else, and gives way to a run that registers."""
+    """An unreadable notice of another version or program hides no other one, and is replaced when its run registers."""
     registry = RedisRegistry(redis_client)
     registry.report(IDLE)
     redis_client.hset("farm:runs", RUN.key, text)
@@ -110,14 +110,14 @@ def test_unreadable_notices_are_passed_over(redis_client: "redis.Redis", text: s
 
 @pytest.mark.redis
 def test_notice_under_another_key_is_passed_over(redis_client: "redis.Redis") -> None:
-    """A notice whose key is not its run's is no notice."""
+    """A notice whose key isn't its run's is ignored."""
     redis_client.hset("farm:runs", "wires:000000000000", RUN.model_dump_json())
     assert RedisRegistry(redis_client).runs() == {}
 
 
 @pytest.mark.redis
 def test_notices_lapse(redis_client: "redis.Redis") -> None:
-    """Runs that nobody writes of are forgotten in the end."""
+    """Notices that nobody writes expire in the end."""
     registry = RedisRegistry(redis_client)
     old = RUN.model_copy(update={"dataset": "old"})
     registry.register(old)
@@ -127,7 +127,7 @@ def test_notices_lapse(redis_client: "redis.Redis") -> None:
 
 
 def test_redis_that_is_away() -> None:
-    """A board that can't be reached is the farm's own error."""
+    """A registry that can't be reached raises the farm's own error."""
     registry = RedisRegistry(redis.Redis(port=1, retry=Retry(NoBackoff(), 0), decode_responses=True))
     for ask in (registry.runs, registry.workers, lambda: registry.register(RUN), lambda: registry.report(IDLE)):
         with pytest.raises(BrokerError):
@@ -135,5 +135,5 @@ def test_redis_that_is_away() -> None:
 
 
 def test_priorities_are_in_order() -> None:
-    """High comes before normal, and that before low."""
+    """High comes before normal, and normal before low."""
     assert Priority.HIGH.step < Priority.NORMAL.step < Priority.LOW.step

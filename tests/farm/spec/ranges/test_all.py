@@ -1,4 +1,4 @@
-"""Ranges: the published defaults, and ranges that do not fit each other."""
+"""Ranges: the published defaults, and ranges that don't fit each other."""
 
 import pytest
 
@@ -13,7 +13,7 @@ def with_ranges(**ranges: object) -> Ranges:
 
 
 def test_the_defaults_are_the_published_ranges() -> None:
-    """A row of the publication's table each."""
+    """Each range equals a row of the publication's table."""
     ranges = Ranges()
     assert (ranges.floor.offset_x, ranges.floor.rotation_deg, ranges.floor.scale) == ((-100, 100), (0, 360), (0.7, 1.5))
     assert (ranges.wind.distance, ranges.wind.height, ranges.wind.tilt_deg) == ((5, 8), (0, 3), (60, 120))
@@ -32,31 +32,31 @@ def test_the_defaults_are_the_published_ranges() -> None:
 
 
 def test_a_camera_among_the_cables_is_refused() -> None:
-    """Both keys are named."""
+    """The error names both keys."""
     with pytest.raises(SpecError, match=r"camera\.heights_m .*cable\.count"):
         with_ranges(camera={"heights_m": [0.03]})
 
 
 def test_a_range_the_wrong_way_round_is_refused() -> None:
-    """With its place in the description."""
+    """The error gives the range's place in the description."""
     with pytest.raises(SpecError, match=r"ranges\.floor\.scale.*low end"):
         with_ranges(floor={"scale": [1.5, 0.7]})
 
 
 def test_a_narrowest_cable_above_the_widest_is_refused() -> None:
-    """Both are shares of the picture."""
+    """The narrowest cable's share of the picture must not exceed the widest's."""
     with pytest.raises(SpecError, match=r"narrowest_share 0\.2 is above widest_share 0\.1"):
         with_ranges(cable={"narrowest_share": 0.2, "widest_share": 0.1})
 
 
 def test_one_number_is_a_range_without_width() -> None:
-    """For the diameter and the length, of which the publication has one."""
+    """The diameter and the length, of which the publication has one value, may be one number."""
     cable = with_ranges(cable={"diameter_m": 0.003, "length_m": 0.2}).cable
     assert (cable.diameter_m, cable.length_m) == ((0.003, 0.003), (0.2, 0.2))
 
 
 def test_a_camera_that_would_see_the_edge_of_the_floor_is_refused() -> None:
-    """It depends on its tilt, its lens and its height; straight, 1.5 m is low enough."""
+    """The limit depends on tilt, lens and height; straight down, 1.5 m is low enough."""
     assert with_ranges(camera={"heights_m": [1.5]}).camera.heights_m == (1.5,)
     for camera in (
         {"tilt_deg": [0.0, 30.0], "heights_m": [1.5]},
@@ -80,7 +80,7 @@ def test_a_camera_that_would_see_the_edge_of_the_floor_is_refused() -> None:
     ],
 )
 def test_what_no_scene_could_be_drawn_from_is_refused(part: str, key: str, bounds: list[float]) -> None:
-    """When the description is read, with its place in it, and not by each worker."""
+    """Impossible ranges are refused when the description is read, with their place in it, and not by each worker."""
     with pytest.raises(SpecError, match=rf"ranges\.{part}\.{key}"):
         with_ranges(**{part: {key: bounds}})
 
@@ -97,6 +97,6 @@ def test_what_no_scene_could_be_drawn_from_is_refused(part: str, key: str, bound
     ],
 )
 def test_cables_that_could_not_be_made_are_refused(part: str, key: str, bounds: list[float]) -> None:
-    """Likewise."""
+    """Ranges of cables that could not be made are refused."""
     with pytest.raises(SpecError, match=rf"ranges\.cable\.{part}\.{key}"):
         with_ranges(cable={part: {key: bounds}})

@@ -1,4 +1,4 @@
-"""Depth of contact against geometry and against a search of everything."""
+"""Depth of contact, against geometry and against an exhaustive search."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,7 @@ from worker.simulate.shapes import bent_rod
 def test_the_depth_of_a_crossing_is_its_geometry(
     radii: tuple[float, float], angle: float, overlap: float, shift: float
 ) -> None:
-    """Two straight cables that overlap by a share of the smaller radius, whatever their radii, angle and place."""
+    """The depth is right for two straight cables that overlap, whatever their radii, angle and place."""
     s = np.linspace(-0.1, 0.1, 41)[:, None]
     lower = s * [1.0, 0.0, 0.0] + [0.0, 0.0, radii[0]]
     rise = sum(radii) - overlap * min(radii)
@@ -37,7 +37,7 @@ def test_the_depth_of_a_crossing_is_its_geometry(
 @settings(max_examples=30, deadline=None)
 @given(distance=st.floats(0.2, 1.99), shift=st.floats(0.0, 0.004))
 def test_the_depth_of_parallel_cables_is_their_distance(distance: float, shift: float) -> None:
-    """Side by side, the nodes of one not beside the other's."""
+    """Side by side, the depth is right even if the nodes of the two aren't beside each other."""
     beside = rod(y=distance * RADIUS) + np.array([shift, 0.0, 0.0])
     figures = measure(shapes(rod(), beside))
     assert figures.cable_penetration == pytest.approx(2 - distance, abs=1e-9)
@@ -45,7 +45,7 @@ def test_the_depth_of_parallel_cables_is_their_distance(distance: float, shift: 
 
 
 def test_many_cables_are_measured_like_two() -> None:
-    """The pairs left out of the search hold nothing: every pair alone gives no more than all together."""
+    """No pair that the search leaves out is in contact: every pair alone is no deeper than all together."""
     draw = np.random.default_rng(3)
     places = np.pad(draw.uniform(-0.05, 0.05, (10, 2)), ((0, 0), (0, 1)))
     many = [rod(along_y=bool(k % 2), z=RADIUS * (1 + 0.2 * k)) + places[k] for k in range(10)]
@@ -54,14 +54,14 @@ def test_many_cables_are_measured_like_two() -> None:
 
 
 def test_a_tight_bend_does_not_cut_into_itself() -> None:
-    """A half circle of two radii, which leaves a gap of two radii inside."""
+    """A half circle of two radii leaves a gap of two radii inside, and has no depth."""
     angle = np.linspace(0, np.pi, 33)
     arc = np.stack([2 * RADIUS * np.cos(angle), 2 * RADIUS * np.sin(angle), np.full_like(angle, RADIUS)], axis=1)
     assert measure(shapes(arc)).cable_penetration_max == 0
 
 
 def test_a_flat_loop_cuts_into_itself() -> None:
-    """The centrelines meet: two radii deep."""
+    """A flat loop, whose centrelines meet, is two radii deep."""
     assert measure(shapes(looped())).cable_penetration_max == pytest.approx(2.0, abs=1e-6)
 
 
@@ -74,7 +74,7 @@ def wavy(draw: np.random.Generator) -> Points:
 
 @pytest.mark.parametrize("seed", range(12))
 def test_random_cables_are_as_deep_as_a_search_of_everything_finds(seed: int) -> None:
-    """Within what the search's own sampling, 60 a span, can miss: at most half a step aside."""
+    """The depth is right within the error of an exhaustive search with 60 samples a span."""
     draw = np.random.default_rng(seed)
     nodes, radii = [wavy(draw) for _ in range(3)], tuple(draw.uniform(0.0006, 0.002, 3))
     fine = [smooth(each, 60) for each in nodes]
@@ -92,7 +92,7 @@ def test_random_cables_are_as_deep_as_a_search_of_everything_finds(seed: int) ->
 
 
 def test_the_gap_of_segments_is_that_of_their_nearest_points() -> None:
-    """Crossed, end to end, parallel, and a point."""
+    """The gap is right for crossed, collinear and parallel segments, and for a point."""
     p, p_end = np.zeros((4, 3)), np.tile([1.0, 0, 0], (4, 1))
     q = np.array([[0.5, -1, 0.3], [2, 0, 0], [0.2, 0.4, 0], [0.5, 0, 0.7]])
     q_end = np.array([[0.5, 1, 0.3], [3, 5, 0], [0.7, 0.4, 0], [0.5, 0, 0.7]])

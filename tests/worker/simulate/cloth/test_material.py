@@ -1,4 +1,4 @@
-"""From Young's modulus to the settings of a strip, and back."""
+"""Conversion of Young's modulus to the settings of a strip, and back."""
 
 import pytest
 
@@ -17,12 +17,12 @@ def scene_of(modulus_pa: float) -> Scene:
 
 @pytest.mark.parametrize("modulus_pa", [1e6, 3e6, 1e7, 3e7])
 def test_the_drawn_range_of_moduli_is_reached(modulus_pa: float) -> None:
-    """At the default quality every modulus that is drawn by default is also achieved, at any density."""
+    """At the default quality every modulus in the default range is achieved, at any density."""
     assert achieved_moduli_pa(scene_of(modulus_pa), FALL) == pytest.approx([modulus_pa] * 3)
 
 
 def test_a_modulus_that_would_be_unstable_is_lowered_and_told() -> None:
-    """A cable as stiff as hard plastic gets the highest safe setting, and the achieved modulus says so."""
+    """A cable as stiff as hard plastic gets the highest safe setting, and the achieved modulus is reported."""
     assert all(modulus < 1e8 for modulus in achieved_moduli_pa(scene_of(3e9), FALL))
 
 

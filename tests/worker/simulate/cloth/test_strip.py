@@ -27,5 +27,5 @@ def test_faces_point_up() -> None:
 
 
 def test_faces_are_counted_from_the_first_vertex() -> None:
-    """A joined mesh numbers the vertices of a later strip further on."""
+    """In a joined mesh a later strip's vertices are numbered after the earlier ones."""
     assert zigzag_faces(4, 100) == [(100, 102, 101), (101, 102, 103)]

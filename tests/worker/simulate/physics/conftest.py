@@ -1,4 +1,4 @@
-"""A solver that no longer gets on ends the tests with its traceback, instead of holding them up for ever."""
+"""End the tests with a traceback if the solver hangs, instead of holding them up for ever."""
 
 import faulthandler
 import os
@@ -11,18 +11,18 @@ from worker.simulate.rod.model import Surroundings
 from worker.simulate.rod.simulation import RodSimulation
 
 PATIENCE_S = 60
-"""Twenty times what the longest of these tests takes, once the solver is compiled."""
+"""Seconds that a test may take: twenty times the longest of these, once the solver is compiled."""
 
 
 @pytest.fixture(scope="session")
 def _compiled_solver() -> None:
-    """One step, so that no test's patience is spent on the compiler."""
+    """Make one step first, so that the compiler's time doesn't count as any test's."""
     RodSimulation([rod(line((0, 0, 1), (0.1, 0, 1), 10))], Surroundings(), steps_per_s=1000).advance(1)
 
 
 @pytest.fixture(scope="session")
 def _real_stderr(pytestconfig: pytest.Config) -> Iterator[int]:
-    """The stream that is shown; the one that tests write to is captured, and lost with the process."""
+    """The original standard error; the one that tests write to is captured and lost with the process."""
     with pytestconfig.pluginmanager.getplugin("capturemanager").global_and_fixture_disabled():
         stream = os.dup(2)
     yield stream

@@ -1,4 +1,4 @@
-"""Rods, measures and numbers that the physics tests share."""
+"""Rods, measurements and numbers that the physics tests share."""
 
 from collections.abc import Callable, Iterable
 
@@ -16,7 +16,7 @@ GRAVITY_M_S2 = 9.81
 
 WEIGHTLESS = Surroundings(gravity_m_s2=(0.0, 0.0, 0.0), floor=False)
 IN_THE_AIR = Surroundings(floor=False)
-"""Gravity, and nothing else."""
+"""Surroundings with gravity and nothing else."""
 
 
 def line(start: Iterable[float], end: Iterable[float], segments: int) -> Array:
@@ -34,7 +34,7 @@ def rod(
     natural_curvature_per_m: Array | None = None,
     pinned: Iterable[int] = (),
 ) -> Rod:
-    """A rod; `pinned` are numbers of nodes, negative ones counted from the end."""
+    """A rod; `pinned` holds numbers of nodes, negative ones counted from the end."""
     held = np.zeros(len(nodes_m), np.bool_)
     held[list(pinned)] = True
     return Rod(
@@ -48,7 +48,7 @@ def rod(
 
 
 def curve_m(nodes_m: Array, parts: int) -> Array:
-    """(n, 3) points on the Catmull-Rom curve through nodes, so many a segment; beyond the ends it goes on straight."""
+    """Points (n, 3) on the Catmull-Rom curve through nodes, `parts` per segment; beyond the ends it is straight."""
     before, after = 2 * nodes_m[:1] - nodes_m[1:2], 2 * nodes_m[-1:] - nodes_m[-2:-1]
     p = np.concatenate([before, nodes_m, after])[:, None]
     p0, p1, p2, p3 = p[:-3], p[1:-2], p[2:-1], p[3:]
@@ -63,12 +63,12 @@ def modulus_pa(slenderness: float, length_m: float) -> float:
 
 
 def weight_per_length_n_m(one: Rod) -> float:
-    """Of a rod under the tests' gravity."""
+    """Weight per length of a rod under the tests' gravity."""
     return one.mass_per_length_kg_m * GRAVITY_M_S2
 
 
 def shapes(simulation: RodSimulation, rods: Iterable[Rod], order: tuple[int, ...] | None = None) -> CableShapes:
-    """Where a simulation's rods are, as the gates take them; they start in ascending order unless told otherwise."""
+    """The rods of a simulation as the gates take them; they start in ascending order unless another is given."""
     rods = list(rods)
     numbers = range(len(rods))
     return CableShapes(
@@ -83,14 +83,14 @@ def shapes(simulation: RodSimulation, rods: Iterable[Rod], order: tuple[int, ...
 
 
 def masses_kg(one: Rod) -> NDArray[np.float64]:
-    """Of a rod's nodes: half a segment's at the ends."""
+    """Masses of a rod's nodes, half a segment's at the ends."""
     mass = np.full(len(one.nodes_m), one.mass_per_length_kg_m * one.segment_length_m)
     mass[[0, -1]] /= 2
     return mass
 
 
 def angular_frequency_rad_s(simulation: RodSimulation, reading: Callable[[Array], float], *, steps: int) -> float:
-    """Of a reading of the first rod's nodes that swings about zero, over the last whole period of `steps` steps."""
+    """Angular frequency of a reading of the first rod's nodes that swings about zero, over the last whole period."""
     readings = np.empty(steps)
     for step in range(steps):
         simulation.advance(1)

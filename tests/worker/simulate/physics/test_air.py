@@ -10,7 +10,7 @@ from worker.simulate.rod.simulation import RodSimulation
 
 
 def in_air(velocity_m_s: tuple[float, float, float]) -> Surroundings:
-    """Nothing but a steady wind."""
+    """Surroundings with nothing but a steady wind."""
     breeze = Breeze(velocity_m_s=np.array(velocity_m_s), gusts=np.zeros((0, 3)), until_s=1e3)
     return Surroundings(gravity_m_s2=(0.0, 0.0, 0.0), floor=False, breeze=breeze)
 
@@ -29,7 +29,7 @@ def test_the_lightest_rod_is_never_faster_than_the_air(modulus: float, density_k
     for _ in range(100):
         simulation.advance(1)
         assert np.linalg.norm(simulation.velocities_m_s(0), axis=1).max() <= np.linalg.norm(wind)
-    # And across it, it is carried along.
+    # Across the wind, the rod is carried along.
     assert simulation.velocities_m_s(0)[:, 1] == pytest.approx(9.0, rel=0.05)
 
 

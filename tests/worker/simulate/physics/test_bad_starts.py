@@ -16,7 +16,7 @@ from worker.simulate.rod.simulation import RodSimulation
 
 
 def overlapping() -> list[Rod]:
-    """Two that cross with their axes half a radius apart."""
+    """Two rods that cross with their axes half a radius apart."""
     return [
         rod(line((-0.1, 0, 0.01), (0.1, 0, 0.01), 40)),
         rod(line((0, -0.1, 0.0105), (0.01, 0.1, 0.0105), 40)),
@@ -24,27 +24,27 @@ def overlapping() -> list[Rod]:
 
 
 def crossing_at_one_height() -> list[Rod]:
-    """Two whose axes meet, so that no side is the right one."""
+    """Two rods whose axes meet, so that neither side is the right one."""
     return [rod(line((-0.1, 0, 0.01), (0.1, 0, 0.01), 40)), rod(line((0, -0.1, 0.01), (0, 0.1, 0.01), 40))]
 
 
 def coincident() -> list[Rod]:
-    """The same rod twice."""
+    """Two rods in the same place."""
     return [rod(line((-0.1, 0, 0.01), (0.1, 0, 0.01), 40)) for _ in range(2)]
 
 
 def side_by_side() -> list[Rod]:
-    """Two that overlap by half a radius all along."""
+    """Two rods that overlap by half a radius all along."""
     return [rod(line((-0.1, y, RADIUS_M), (0.1, y, RADIUS_M), 40)) for y in (0, 1.5 * RADIUS_M)]
 
 
 def upright() -> list[Rod]:
-    """One end down, perfectly vertical."""
+    """A perfectly vertical rod on one end."""
     return [rod(line((0, 0, 0.005), (0, 0, 0.205), 40))]
 
 
 def at_the_floor() -> list[Rod]:
-    """A rod that already lies, and one upon it."""
+    """A rod on the floor, and one on top of it."""
     return [
         rod(line((-0.1, 0, RADIUS_M), (0.1, 0, RADIUS_M), 40)),
         rod(line((0, -0.1, 3 * RADIUS_M), (0, 0.1, 3 * RADIUS_M), 40)),
@@ -52,7 +52,7 @@ def at_the_floor() -> list[Rod]:
 
 
 def within_the_floor() -> list[Rod]:
-    """Half sunk."""
+    """A rod that is half sunk."""
     return [rod(line((-0.1, 0, 0), (0.1, 0, 0), 40))]
 
 
@@ -71,15 +71,15 @@ def test_a_bad_start_comes_to_rest_apart(start: Callable[[], list[Rod]]) -> None
     rods = start()
     simulation = RodSimulation(rods, Surroundings(damping_s=INTERNAL_DAMPING_S), steps_per_s=RodFall().steps_per_s)
     highest = max(float(one.nodes_m[:, 2].max()) for one in rods)
-    # A limp chain's free end may run ahead of free fall; twice its speed bounds that, and is no explosion.
+    # A limp chain's free end may be faster than free fall; twice its speed bounds that and excludes an explosion.
     bound = 2 * np.sqrt(2 * 9.81 * (highest + 2 * RADIUS_M))
-    # An upright rod takes its time to topple.
+    # An upright rod takes a while to topple.
     for _ in range(80):
         simulation.advance(50)
         assert min(float(simulation.nodes_m(k)[:, 2].min()) for k in range(len(rods))) > 0
         assert max(float(np.abs(simulation.velocities_m_s(k)).max()) for k in range(len(rods))) < bound
     settled = shapes(simulation, rods)
-    # Which of two came to lie on top is not decided by such a start.
+    # Such a start doesn't decide which of the two comes to lie on top.
     assert stress_fault(settled, reach_m=1.0) in {None, StressFault.PASSED_THROUGH}
     figures = measure(settled)
     assert Gate.LENGTH.on_target(figures.length_error)
@@ -93,7 +93,7 @@ def test_a_bad_start_comes_to_rest_apart(start: Callable[[], list[Rod]]) -> None
 def test_crossed_rods_within_each_other_come_to_rest_one_on_the_other(
     rise_radii: float, first_on_top: bool, modulus: float
 ) -> None:
-    """At r + r, within gate 2; the higher one comes on top, and of two at exactly one height the second.
+    """At rest they are r + r apart, within gate 2: the higher one on top, or the second of two at one height.
 
     What they are deeper than the slop goes down as exp(-t / tau) with the time constant of undoing it, so half a second
     leaves nothing of it.

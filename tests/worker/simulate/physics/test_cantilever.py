@@ -15,11 +15,11 @@ from worker.simulate.rod.simulation import RodSimulation
 LENGTH_M = 0.4
 
 SETTINGS = {1.0: (0.1, 200), 10.0: (0.05, 100), 100.0: (0.3, 100), 1000.0: (1.0, 50)}
-"""By slenderness: a damping and steps per second at which it comes to rest soon."""
+"""Damping, and steps per second, with which a cantilever comes to rest soon, by slenderness."""
 
 
 def clamped(slenderness: float, segments: int) -> Rod:
-    """Free over `LENGTH_M` from the middle of its first segment on."""
+    """A rod that is free over `LENGTH_M` from the middle of its first segment on."""
     segment = LENGTH_M / (segments - 0.5)
     nodes = line((-segment / 2, 0, 1), (LENGTH_M, 0, 1), segments)
     return rod(nodes, modulus_pa=modulus_pa(slenderness, LENGTH_M), pinned=(0, 1))
@@ -29,7 +29,7 @@ def clamped(slenderness: float, segments: int) -> Rod:
 def settled(
     slenderness: float, segments: int, damping_s: float, steps_per_s: int
 ) -> tuple[Rod, RodSimulation, CantileverError]:
-    """At rest to a micrometre a second: what is left to go, speed times period, is far below what is measured."""
+    """A cantilever at rest to 1 um/s: its remaining movement, speed times period, is far below the measured errors."""
     cantilever = clamped(slenderness, segments)
     surroundings = Surroundings(floor=False, gravity_m_s2=(0, 0, -GRAVITY_M_S2), damping_s=damping_s)
     simulation = RodSimulation([cantilever], surroundings, steps_per_s=steps_per_s)
@@ -70,9 +70,9 @@ def test_a_cantilever_converges_at_second_order_in_the_segment_length(
 
 @pytest.mark.parametrize(("damping_s", "steps_per_s"), [(0.02, 100), (0.1, 100), (0.05, 500)])
 def test_where_a_cantilever_rests_depends_on_neither_damping_nor_time_step(damping_s: float, steps_per_s: int) -> None:
-    """Both stand in front of velocities, which are zero at rest: H/W differs by a swing's remainder at 1e-5 m/s."""
+    """Damping and time step multiply velocities, which are zero at rest: H/W differs by a swing's rest at 1e-5 m/s."""
     _, _, reference = settled(10.0, 80, *SETTINGS[10.0])
     _, _, other = settled(10.0, 80, damping_s, steps_per_s)
-    # Of the first swing, at 3.516 sqrt(g / (G L)), in lengths; no sign is lost, both errors are below 1e-4.
+    # The first swing, at 3.516 sqrt(g / (G L)), in lengths; no sign is lost, as both errors are below 1e-4.
     remainder = 1e-5 / (3.516 * np.sqrt(GRAVITY_M_S2 / 10.0 / LENGTH_M)) / LENGTH_M
     assert other.error == pytest.approx(reference.error, abs=2 * remainder * (1 + droop_ratio(10.0) ** 2) + 1e-6)

@@ -23,7 +23,7 @@ from worker.simulate.rod.simulation import RodSimulation
 SOFT_PA, STIFF_PA = 2e6, 1e8
 TIME_S = 3.0
 AVERAGED_STEPS = 200
-"""Reactions tremble from step to step by what the sweeps leave open; what they carry is their mean."""
+"""Steps over which contact forces are averaged, since they tremble by what the solver's sweeps leave open."""
 
 
 def cable_over_ridge(modulus_pa: float, segment_radii: float) -> tuple[Rod, Rod, RidgeCrossing]:
@@ -42,7 +42,7 @@ def cable_over_ridge(modulus_pa: float, segment_radii: float) -> tuple[Rod, Rod,
 
 @cache
 def settled(modulus_pa: float, segment_radii: float) -> tuple[Array, NDArray[np.float64], RidgeCrossing]:
-    """Where the cable lies, the mean upward force on each node, and the reference."""
+    """The resting shape, the mean upward force on each node, and the reference."""
     cable, ridge, reference = cable_over_ridge(modulus_pa, segment_radii)
     surroundings = Surroundings(friction_floor=0, friction_rods=0, damping_s=0.05)
     simulation = RodSimulation([cable, ridge], surroundings, steps_per_s=1000)
@@ -68,7 +68,7 @@ def test_a_rod_lifts_off_and_is_carried_as_the_beam(modulus: float, segment_radi
 
 
 def test_floor_and_ridge_together_carry_the_rod() -> None:
-    """The vertical forces sum to the weight, but for a change of speed within gate 4's bound over the averaged time."""
+    """The vertical forces sum to the weight, up to a change of speed within gate 4's bound over the averaged time."""
     nodes, reactions, reference = settled(STIFF_PA, 4)
     weight = reference.weight_per_length_n_m * float(np.linalg.norm(np.diff(nodes, axis=0), axis=1).sum())
     change = 2 * Gate.SPEED_MAX.value.target / 1000 / (AVERAGED_STEPS / 1000) / GRAVITY_M_S2
@@ -76,7 +76,7 @@ def test_floor_and_ridge_together_carry_the_rod() -> None:
 
 
 def test_a_stiff_rod_bridges_where_a_soft_one_drapes() -> None:
-    """The lift-off length grows with E^(1/4), within gate 6 for either length."""
+    """The lift-off length grows with E^(1/4), within gate 6 for both moduli."""
     lengths = []
     for modulus in (SOFT_PA, STIFF_PA):
         nodes, _, _ = settled(modulus, 4)

@@ -1,4 +1,4 @@
-"""Energy: in still air nothing adds to it."""
+"""In still air nothing adds energy."""
 
 from collections.abc import Sequence
 
@@ -16,7 +16,7 @@ from worker.simulate.rod.simulation import RodSimulation
 
 
 def greatest_rise(rods: Sequence[Rod], surroundings: Surroundings, *, steps: int, steps_per_s: int = 1000) -> float:
-    """Gate 7, in a fall of so many steps; heights, and so the start's energy, count from the floor."""
+    """Gate 7 in a fall of this many steps; heights, and so the start's energy, count from the floor."""
     simulation = RodSimulation(rods, surroundings, steps_per_s=steps_per_s)
     energies = [simulation.energy().total]
     for _ in range(steps):

@@ -20,7 +20,7 @@ FAST = pytest.mark.parametrize("speed_m_s", [5.0, 10.0])
 def test_rods_fired_at_each_other_do_not_pass_through(
     shift_m: float, angle_deg: float, modulus: float, speed_m_s: float
 ) -> None:
-    """The order of a crossing never turns over while both rods are there, whatever u h is to the radius."""
+    """The order of a crossing never changes while both rods are there, however u h compares with the radius."""
     along = 0.1 * np.array([np.cos(np.radians(angle_deg)), np.sin(np.radians(angle_deg)), 0])
     low = rod(line((-0.1, 0, 1), (0.1, 0, 1), 40), modulus_pa=modulus)
     centre = np.array([shift_m, 0, 1.05])
@@ -29,7 +29,7 @@ def test_rods_fired_at_each_other_do_not_pass_through(
     simulation.set_velocities(0, np.tile([0, 0, speed_m_s], (41, 1)))
     simulation.set_velocities(1, np.tile([0, 0, -speed_m_s], (41, 1)))
     met = False
-    # They meet after 24 mm; until twice that the middles are still over each other, and the ends have not come round.
+    # They meet after 24 mm; until twice that their middles overlap in plan, and no end has come round.
     while simulation.time_s < 0.048 / speed_m_s:
         simulation.advance(1)
         met = met or bool(simulation.contact_force_n(1, 0)[2] > 0)
@@ -41,9 +41,9 @@ def test_rods_fired_at_each_other_do_not_pass_through(
 @pytest.mark.parametrize("modulus", [1e6, 1e8])
 @pytest.mark.parametrize("slope_deg", [0, 30, 90])
 def test_a_rod_fired_at_the_floor_does_not_pass_through(slope_deg: float, modulus: float, speed_m_s: float) -> None:
-    """No node's z is ever below 0, the rod's axis within the floor: level, on a slant or with an end first."""
+    """No node's z, that of the axis, is ever below 0: level, slanting or with an end first."""
     rise, run = 0.1 * np.sin(np.radians(slope_deg)), 0.1 * np.cos(np.radians(slope_deg))
-    # The least lean makes an upright rod fall over to a side, as any real one does.
+    # The least lean makes an upright rod fall to a side, as any real one does.
     fired = rod(line((0, 0, 0.03), (run + 1e-4, 0, 0.03 + rise), 20), modulus_pa=modulus)
     surroundings = Surroundings(damping_s=0.003)
     simulation = RodSimulation([fired], surroundings, steps_per_s=STEPS_PER_S)

@@ -1,4 +1,4 @@
-"""Rods that fall with nothing in their way."""
+"""Rods that fall freely."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ from worker.simulate.shapes import bent_rod
 @pytest.mark.parametrize("steps_per_s", [100, 1000, 4000])
 @pytest.mark.parametrize("end", [(0.4, 0, 1), (0.2, 0.3, 1.1), (0, 0, 1.4)])
 def test_a_rod_falls_as_semi_implicit_euler_says(end: tuple[float, float, float], steps_per_s: int) -> None:
-    """It falls g t^2 (1 + h/t) / 2 exactly, up to the rounding of so many steps, and without deformation."""
+    """A rod falls g t^2 (1 + h/t) / 2 exactly, up to the rounding of its steps, and doesn't deform."""
     nodes = line((0, 0, 1), end, 80)
     simulation = RodSimulation([rod(nodes)], IN_THE_AIR, steps_per_s=steps_per_s)
     steps = round(0.3 * steps_per_s)
@@ -24,7 +24,7 @@ def test_a_rod_falls_as_semi_implicit_euler_says(end: tuple[float, float, float]
 
 
 def test_a_naturally_bent_rod_falls_without_deformation() -> None:
-    """At its natural curvature no moment acts in it, so all nodes fall alike, but for a strain of 1e-7 in each edge.
+    """At its natural curvature a rod has no moment, so all nodes fall alike, up to a strain of 1e-7 in each edge.
 
     The chords carry a little tension there, and the solver finds it up to that strain.
     """

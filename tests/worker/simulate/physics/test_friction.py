@@ -41,7 +41,7 @@ def test_a_rod_slips_on_a_slope_steeper_than_its_friction(excess: float, bearing
 @pytest.mark.parametrize("bearing_deg", [0, 37, 90])
 @pytest.mark.parametrize("share", [0.0, 0.5, 0.9])
 def test_a_rod_sticks_on_a_slope_flatter_than_its_friction(share: float, bearing_deg: float) -> None:
-    """With tan a < mu it creeps no faster than gate 4 lets a resting scene."""
+    """With tan a < mu the rod creeps no faster than gate 4 allows in a resting scene."""
     simulation = on_slope(float(np.arctan(share * FRICTION)), np.radians(bearing_deg))
     before = simulation.nodes_m(0)
     simulation.advance(500)
@@ -56,7 +56,7 @@ LIGHT_SEGMENTS = 20
 
 
 def rope_over_drum(pull_ratio: float, friction: float) -> RodSimulation:
-    """A limp rope over half a drum, its two hanging ends so long that their weights have the given ratio."""
+    """A limp rope over half a drum; the two hanging ends are as long as the given ratio of their weights requires."""
     reach = DRUM_RADIUS_M + ROPE_RADIUS_M
     turns = round(np.pi * reach / SEGMENT_M)
     # The corners lie outside the circle, so that the chords just touch it.
@@ -75,7 +75,7 @@ def rope_over_drum(pull_ratio: float, friction: float) -> RodSimulation:
 
 
 def capstan_ratio(friction: float) -> float:
-    """At which the rope on the half drum is about to run: dT/dp = mu (T + w R sin p) + w R cos p.
+    """Ratio at which the rope on the half drum is about to run: dT/dp = mu (T + w R sin p) + w R cos p.
 
     The angle p counts from the light side. Without the weight on the drum, w R, this is e^(mu pi).
     """
@@ -85,7 +85,7 @@ def capstan_ratio(friction: float) -> float:
 
 
 def speed_on_drum_m_s(pull_ratio: float, friction: float) -> float:
-    """Mean over the last of three tenths of a second, of the heavy end."""
+    """Mean speed of the heavy end over the last of three tenths of a second."""
     simulation = rope_over_drum(pull_ratio, friction)
     simulation.advance(400)
     before = simulation.nodes_m(0)[-1, 2]
@@ -95,13 +95,13 @@ def speed_on_drum_m_s(pull_ratio: float, friction: float) -> float:
 
 @pytest.mark.parametrize("friction", [0.2, 0.4])
 def test_a_rope_around_a_drum_sticks_below_the_capstans_ratio(friction: float) -> None:
-    """T2 / T1 < e^(mu p): it creeps no faster than gate 4 lets the fastest node of a resting scene."""
+    """With T2 / T1 < e^(mu p) the rope creeps no faster than gate 4 allows the fastest node of a resting scene."""
     speed = speed_on_drum_m_s(0.7 * capstan_ratio(friction), friction)
     assert Gate.SPEED_MAX.on_target(abs(speed) * 1000)
 
 
 @pytest.mark.parametrize("friction", [0.2, 0.4])
 def test_a_rope_around_a_drum_runs_above_the_capstans_ratio(friction: float) -> None:
-    """T2 / T1 > e^(mu p): the excess, 0.3 T2 over a mass of two ropes' ends, gives it over 50 mm/s within 0.2 s."""
+    """With T2 / T1 > e^(mu p) the excess, 0.3 T2 over the mass of both ends, accelerates it to 50 mm/s within 0.2 s."""
     speed = speed_on_drum_m_s(1.3 * capstan_ratio(friction), friction)
     assert speed > 10 * Gate.SPEED_MAX.value.target / 1000

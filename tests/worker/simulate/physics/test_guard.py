@@ -1,4 +1,4 @@
-"""What no wrong impulse may do: a step that gains energy, or presses rods into each other, is made again."""
+"""Wrong impulses do no harm: a step that gains energy, or presses rods into each other, is made again."""
 
 from itertools import product
 
@@ -14,12 +14,12 @@ from worker.simulate.rod.step import SPEED_SPARE_M_S
 
 
 def fastest_m_s(simulation: RodSimulation, rods: list[Rod]) -> float:
-    """Of all nodes."""
+    """The fastest speed of all nodes."""
     return max(float(np.linalg.norm(simulation.velocities_m_s(k), axis=1).max()) for k in range(len(rods)))
 
 
 def mass_kg(rods: list[Rod]) -> float:
-    """Of all."""
+    """The mass of all rods."""
     return float(sum(masses_kg(one).sum() for one in rods))
 
 
@@ -64,7 +64,7 @@ def pile(seed: int, modulus: float) -> list[Rod]:
 
 @pytest.mark.parametrize("modulus", [1e6, 1e8, 1e10])
 def test_rods_that_land_on_each_other_gain_no_energy_but_by_being_parted(modulus: float) -> None:
-    """KE + m g z + bending rises in no step by more than u J, and what a step may spare.
+    """KE + m g z + bending rises in no step by more than u J and the step's allowance.
 
     J is the sum of all impulses of the step, and u the speed at which rods are parted that are within each other, or
     within the floor, by 0.02 r: gate 2, and twice as deep as these ever are.
@@ -85,7 +85,7 @@ def test_rods_that_land_on_each_other_gain_no_energy_but_by_being_parted(modulus
 
 @pytest.mark.parametrize("size_n_s", [1e-4, 1e-2, 1.0])
 def test_wrong_impulses_to_start_from_do_not_throw_rods(size_n_s: float) -> None:
-    """KE + m g z + bending is not above that before, but for all rods at the speed that the step may spare.
+    """KE + m g z + bending stays below its start's, plus that of all rods at the speed of the step's allowance.
 
     The weight of a rod gives it 5e-6 N s in a step.
     """
@@ -108,7 +108,7 @@ def test_wrong_impulses_to_start_from_do_not_throw_rods(size_n_s: float) -> None
 
 
 def test_a_step_that_is_made_again_is_counted() -> None:
-    """Once, from no impulses: a sound end is found from there, and no rod is stopped."""
+    """The step is repeated once, from no impulses, which finds a sound end, so no rod is stopped."""
     simulation = RodSimulation(pile(1, 1e8), Surroundings(damping_s=0.01), steps_per_s=1000)
     simulation.advance(60)
     before, impulse = simulation.counts, simulation._candidates.impulse
@@ -121,7 +121,7 @@ def test_a_step_that_is_made_again_is_counted() -> None:
 
 
 def test_rods_that_fall_freely_need_no_step_again() -> None:
-    """None gains energy, as none touches."""
+    """Rods that touch nothing gain no energy."""
     simulation = RodSimulation(pile(0, 1e8), IN_THE_AIR, steps_per_s=1000)
     simulation.advance(100)
     assert simulation.counts["retries"] == simulation.counts["stops"] == 0
@@ -129,7 +129,7 @@ def test_rods_that_fall_freely_need_no_step_again() -> None:
 
 @pytest.mark.parametrize("modulus", [1e6, 1e8, 1e10])
 def test_a_pile_is_never_stopped_for_want_of_a_sound_end(modulus: float) -> None:
-    """A step halved often enough has one."""
+    """A step that is halved often enough has a sound end."""
     simulation = RodSimulation(pile(1, modulus), Surroundings(damping_s=0.01), steps_per_s=1000)
     simulation.advance(500)
     assert simulation.counts["stops"] == 0

@@ -9,7 +9,7 @@ from worker.simulate.rod.simulation import RodSimulation
 
 
 def momentum_kg_m_s(simulation: RodSimulation, rods: list[Rod]) -> Array:
-    """(3,) of all rods."""
+    """The momentum of all rods, (3,)."""
     return sum((masses_kg(one) @ simulation.velocities_m_s(k) for k, one in enumerate(rods)), np.zeros(3))
 
 

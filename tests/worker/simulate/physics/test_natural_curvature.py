@@ -1,4 +1,4 @@
-"""Rods that are bent without stress: what is left of the coil that a cable came from."""
+"""Rods that are bent without stress, as by the coil from which a cable came."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ LENGTH_M = 0.4
 
 
 def turns_rad(nodes_m: Array) -> Array:
-    """(N - 2,) by how much the rod turns left at each inner node, seen from above."""
+    """Turns of the rod to the left at its inner nodes, seen from above, (N - 2,)."""
     edges = np.diff(nodes_m[:, :2], axis=0)
     bearings: Array = np.unwrap(np.arctan2(edges[:, 1], edges[:, 0]))
     return np.diff(bearings)
@@ -22,7 +22,7 @@ def turns_rad(nodes_m: Array) -> Array:
 
 @pytest.mark.parametrize("modulus", [1e6, 3e7])
 def test_a_bent_rod_keeps_its_shape_when_it_lands(modulus: float) -> None:
-    """It falls level and strikes the floor all at once, so nothing bends it: turns change by a node's creep over l."""
+    """A rod that falls level strikes the floor all at once and isn't bent: turns change by a node's creep over l."""
     level = bent_rod(LENGTH_M, (-5, 3, 5, -2, 4), SEGMENTS + 1)
     nodes = np.column_stack([level, np.full(SEGMENTS + 1, 0.02)])
     bent = rod(nodes, modulus_pa=modulus, natural_curvature_per_m=curvature_at_rest(nodes))

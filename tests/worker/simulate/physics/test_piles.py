@@ -18,7 +18,7 @@ Place = tuple[float, float, float]
 
 
 def missed_gates(shapes: CableShapes) -> dict[str, float]:
-    """The figures of gates 1 to 4 that are not on target."""
+    """The figures of gates 1 to 4 that miss their targets."""
     figures = settled_figures(measure(shapes))
     return {gate.name: figure for gate, figure in figures.items() if not gate.on_target(figure)}
 
@@ -26,7 +26,7 @@ def missed_gates(shapes: CableShapes) -> dict[str, float]:
 @pytest.mark.parametrize("index", range(4))
 @pytest.mark.parametrize("cables", [2, 8])
 def test_a_drawn_pile_rests_within_its_gates(cables: int, index: int) -> None:
-    """Gates 1 to 4 at their targets, for cables and wind of the default ranges."""
+    """Gates 1 to 4 are on target, for cables and wind of the default ranges."""
     scene = make_scene(index=index, ranges={"cable": {"count": [cables, cables]}})
     assert missed_gates(drop_cables(scene, RodFall())) == {}
 
@@ -39,7 +39,7 @@ def across(start: Place, end: Place, *, radius_m: float, modulus_pa: float, dens
 
 
 def test_rods_of_other_radius_stiffness_and_density_rest_on_each_other() -> None:
-    """Gates 1 to 4 at their targets, with radii, moduli and densities a factor of 3, 100 and 4 apart."""
+    """Gates 1 to 4 are on target, with radii, moduli and densities a factor of 3, 100 and 4 apart."""
     rods = [
         across((-0.1, 0, 0.01), (0.1, 0.01, 0.01), radius_m=0.001, modulus_pa=3e7, density_kg_m3=1200),
         across((0, -0.1, 0.02), (0.01, 0.1, 0.02), radius_m=0.002, modulus_pa=1e6, density_kg_m3=5000),
@@ -57,7 +57,7 @@ PILES = 8
 
 
 def pile_figures(index: int, steps_per_s: int) -> tuple[float, float, float]:
-    """Of a pile of four: mean height over the radius, root mean square curvature times length, and crossings."""
+    """Figures of a pile of four: mean height in radii, root mean square curvature times length, and crossings."""
     scene = make_scene(index=index, ranges={"cable": {"count": [4, 4]}})
     settled = drop_cables(scene, RodFall(steps_per_s=steps_per_s))
     heights = [nodes[:, 2] / radius for nodes, radius in zip(settled.nodes_m, settled.radii_m, strict=True)]
@@ -72,7 +72,7 @@ def pile_figures(index: int, steps_per_s: int) -> tuple[float, float, float]:
 
 
 def test_piles_are_alike_whatever_the_time_step() -> None:
-    """The mean difference over scenes is zero within three standard errors, or 1 % of the mean where these are small.
+    """The mean difference over scenes is zero within three standard errors, or 1 % of the mean if these are small.
 
     Piles are chaotic, so the figures of one scene may differ; over the scenes they may not, one way or the other. A
     bias of the time step itself, first order in h and of the curvature's 1 % at most, hides in no mean.

@@ -1,4 +1,4 @@
-"""The same scene twice: gate 9."""
+"""Gate 9: the same scene twice."""
 
 import os
 import subprocess
@@ -25,7 +25,7 @@ print(digest.hexdigest(), shapes.steps)
 
 
 def in_a_process(threads: int) -> str:
-    """What a process of its own, with so many threads, makes of a pile."""
+    """The result of a pile in a process of its own with this number of threads."""
     environment = {**os.environ, "NUMBA_NUM_THREADS": str(threads), "OMP_NUM_THREADS": str(threads)}
     command = [sys.executable, "-c", PROGRAM]
     return subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout
@@ -40,6 +40,6 @@ def test_a_pile_has_the_same_bits_in_every_process_at_any_number_of_threads() ->
 
 @pytest.mark.parametrize("cables", [1, 6])
 def test_a_pile_has_the_same_bits_within_a_process(cables: int) -> None:
-    """Nothing is left over from a run that changes the next."""
+    """A run leaves nothing that changes the next."""
     scene = make_scene(index=2, ranges={"cable": {"count": [cables, cables]}})
     assert same_bits(drop_cables(scene, RodFall()), drop_cables(scene, RodFall()))

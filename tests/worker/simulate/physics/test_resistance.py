@@ -1,4 +1,4 @@
-"""Dry resistance: a share R of the weight that opposes the motion of a rod that touches something."""
+"""Dry resistance: a share R of the weight that opposes the motion of a rod in contact."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ STEP_S = 1 / STEPS_PER_S
 
 
 def test_it_leaves_a_rod_alone_that_touches_nothing() -> None:
-    """It falls g t^2 (1 + h/t) / 2 exactly, as without it."""
+    """A rod that touches nothing falls g t^2 (1 + h/t) / 2 exactly, as without resistance."""
     nodes = line((0, 0, 1), (0.2, 0, 1), 40)
     simulation = RodSimulation([rod(nodes)], Surroundings(floor=False, resistance=0.5), steps_per_s=STEPS_PER_S)
     without = RodSimulation([rod(nodes)], IN_THE_AIR, steps_per_s=STEPS_PER_S)
@@ -24,7 +24,7 @@ def test_it_leaves_a_rod_alone_that_touches_nothing() -> None:
 
 
 def sliding(speed_m_s: float, bearing: tuple[float, float, float], resistance: float) -> RodSimulation:
-    """A rod on a floor without friction."""
+    """A rod that slides on a floor without friction."""
     lying = rod(line((0, 0, RADIUS_M), (0.2, 0, RADIUS_M), 40))
     simulation = RodSimulation([lying], Surroundings(friction_floor=0, resistance=resistance), steps_per_s=STEPS_PER_S)
     simulation.set_velocities(0, np.tile(speed_m_s * np.array(bearing), (41, 1)))
@@ -34,16 +34,16 @@ def sliding(speed_m_s: float, bearing: tuple[float, float, float], resistance: f
 @pytest.mark.parametrize("resistance", [0.01, 0.1])
 @pytest.mark.parametrize("bearing", [(1.0, 0.0, 0.0), (0.6, 0.8, 0.0)])
 def test_it_slows_a_rod_that_slides_without_friction(bearing: tuple[float, float, float], resistance: float) -> None:
-    """dv/dt = -R g, from the second step on: that a rod touches something is known from the step before."""
+    """dv/dt = -R g from the second step on, as contact is known from the step before."""
     simulation = sliding(0.5, bearing, resistance)
     simulation.advance(200)
     expected = 0.5 - resistance * GRAVITY_M_S2 * 199 * STEP_S
-    # To the strain of 1e-8 that lengths are kept to.
+    # The tolerance is the strain of 1e-8 to which lengths are kept.
     assert simulation.velocities_m_s(0) == pytest.approx(np.outer(np.full(41, expected), bearing), abs=1e-8)
 
 
 def test_it_stops_a_rod_and_does_not_push_it_back() -> None:
-    """It slides for v / (R g), v^2 / (2 R g) far, but for a step or two at the start and at the end, and then lies."""
+    """A rod slides for v / (R g) over v^2 / (2 R g), up to a step or two at start and end, and then lies."""
     simulation = sliding(0.2, (1.0, 0.0, 0.0), 0.1)
     duration = 0.2 / (0.1 * GRAVITY_M_S2)
     simulation.advance(round(duration * STEPS_PER_S) + 2)
@@ -54,7 +54,7 @@ def test_it_stops_a_rod_and_does_not_push_it_back() -> None:
 LENGTH_M = 0.1
 DRUM_RADIUS_M = 0.005
 PIVOT_M = DRUM_RADIUS_M + RADIUS_M
-"""A rod that rocks on a drum without slipping rolls on the sum of the radii: contacts act on axes."""
+"""Sum of the radii, on which a rod that rocks on a drum without slipping rolls, as contacts act on axes."""
 
 TILT = 0.05
 
@@ -70,7 +70,7 @@ def rocking(resistance: float) -> RodSimulation:
 
 
 def tilts(simulation: RodSimulation, steps: int) -> list[float]:
-    """After each of so many steps."""
+    """The tilt after each of this many steps."""
     found = []
     for _ in range(steps):
         simulation.advance(1)
@@ -80,7 +80,7 @@ def tilts(simulation: RodSimulation, steps: int) -> list[float]:
 
 
 SWING_S = np.pi / np.sqrt(12 * GRAVITY_M_S2 * PIVOT_M) * LENGTH_M
-"""Half a period of m L^2 / 12 a'' = -m g s a, with s the sum of the radii."""
+"""Half the period of m L^2 / 12 a'' = -m g s a, with s the sum of the radii."""
 
 
 def test_a_rod_that_rocks_on_another_comes_to_rest_with_it() -> None:
@@ -102,7 +102,7 @@ def test_a_rod_that_rocks_on_another_comes_to_rest_with_it() -> None:
 
 
 def test_a_rod_that_rocks_on_another_goes_on_without_it() -> None:
-    """After six swings it has lost what implicit Euler takes, exp(-w h / 2) a radian, and 10 % at most to contact."""
+    """After six swings the rod has lost exp(-w h / 2) per radian to implicit Euler, and at most 10 % to contact."""
     simulation = rocking(0.0)
     swing = round(SWING_S * STEPS_PER_S)
     simulation.advance(4 * swing)

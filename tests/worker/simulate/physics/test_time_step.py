@@ -1,4 +1,4 @@
-"""Order in the time step, without contact, over the time of a real fall."""
+"""The order in the time step without contact, over the time of a real fall."""
 
 from collections.abc import Callable
 
@@ -14,7 +14,7 @@ from worker.simulate.rod.simulation import RodSimulation
 from worker.simulate.shapes import CableShapes
 
 FALL_S = 0.08
-"""From 32 mm, where the highest of eight cables starts."""
+"""Seconds of a fall from 32 mm, where the highest of eight cables starts."""
 
 
 def swinging() -> tuple[Rod, Surroundings]:
@@ -23,7 +23,7 @@ def swinging() -> tuple[Rod, Surroundings]:
 
 
 def springing() -> tuple[Rod, Surroundings]:
-    """A rod pressed straight that falls, and bends as it does."""
+    """A rod that was pressed straight, and bends while it falls."""
     nodes = line((0, 0, 1), (0.4, 0, 1), 80)
     return rod(nodes, natural_curvature_per_m=np.full(81, 5.0)), Surroundings(floor=False, damping_s=0.003)
 
@@ -43,7 +43,7 @@ CASES = pytest.mark.parametrize("case", [swinging, springing, blown])
 
 
 def after_the_fall(case: Callable[[], tuple[Rod, Surroundings]], steps_per_s: int) -> CableShapes:
-    """Where it is."""
+    """The nodes after the fall."""
     one, surroundings = case()
     simulation = RodSimulation([one], surroundings, steps_per_s=steps_per_s)
     simulation.advance(round(FALL_S * steps_per_s))
@@ -53,7 +53,7 @@ def after_the_fall(case: Callable[[], tuple[Rod, Surroundings]], steps_per_s: in
 
 @CASES
 def test_the_error_is_of_first_order_in_the_time_step(case: Callable[[], tuple[Rod, Surroundings]]) -> None:
-    """Implicit Euler: the movement when h is halved is c h / 2 + O(h^2), so it halves with h, within gate 8."""
+    """For implicit Euler the movement when h is halved is c h / 2 + O(h^2), so it halves with h, within gate 8."""
     runs = [after_the_fall(case, 4000 * 2**k) for k in range(4)]
     coarse, middle, fine = (largest_movement(runs[k], runs[k + 1]) for k in range(3))
     assert all(Gate.ORDER.on_target(order) for order in observed_orders((coarse, middle, fine)))
@@ -63,7 +63,7 @@ def test_the_error_is_of_first_order_in_the_time_step(case: Callable[[], tuple[R
 def test_halving_the_default_step_moves_no_node_by_half_a_radius(
     case: Callable[[], tuple[Rod, Surroundings]],
 ) -> None:
-    """|x_h - x_(h/2)| at the default step, within gate 8."""
+    """At the default step |x_h - x_(h/2)| is within gate 8."""
     steps_per_s = RodFall().steps_per_s
     movement = largest_movement(after_the_fall(case, steps_per_s), after_the_fall(case, 2 * steps_per_s))
     assert Gate.STEP_HALVING.on_target(movement)

@@ -10,12 +10,12 @@ from worker.simulate.rod.simulation import RodSimulation
 
 LENGTH_M = 0.2
 FIRST_ROOT = 1.8751040687
-"""b with cos(b) cosh(b) = -1."""
+"""First root b of cos(b) cosh(b) = -1."""
 
 
 @pytest.mark.parametrize("segments", [20, 40])
 def test_a_cantilever_vibrates_at_its_first_frequency(segments: int) -> None:
-    """3.516 sqrt(EI / (rho A L^4)); implicit Euler is slower by (wh)^2 / 3, and n segments are off by under 1/n^2."""
+    """The frequency is 3.516 sqrt(EI / (rho A L^4)), less (wh)^2 / 3 for implicit Euler; n segments err by 1/n^2."""
     segment = LENGTH_M / (segments - 0.5)
     beam = rod(line((-segment / 2, 0, 1), (LENGTH_M, 0, 1), segments), modulus_pa=1e9, pinned=(0, 1))
     frequency = cantilever_frequency_rad_s(beam.bending_stiffness_n_m2, beam.mass_per_length_kg_m, LENGTH_M)

@@ -1,4 +1,4 @@
-"""Equations of a chain of nodes, against a dense solver."""
+"""The equations of a chain of nodes, against a dense solver."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from worker.simulate.rod.model import Array
 
 
 def chain(nodes: int, stiffness: float, *, held: tuple[int, ...] = ()) -> Array:
-    """Unit masses under random loads, with bending of some stiffness; segments keep their lengths."""
+    """Unit masses under random loads, with some bending stiffness and segments of fixed length."""
     draw = np.random.default_rng(nodes)
     bends = np.diff(np.eye(nodes), n=2, axis=0)
     matrix = np.eye(nodes) + stiffness * bends.T @ bends
@@ -51,7 +51,7 @@ def dense(rows: Array) -> Array:
 @pytest.mark.parametrize("nodes", [4, 5, 101])
 @pytest.mark.parametrize("stiffness", [0.0, 1.0, 1e4])
 def test_equations_hold(nodes: int, stiffness: float) -> None:
-    """Of soft and of stiff rods, of few nodes and of many."""
+    """The solution fulfils the equations of soft and of stiff rods, of few nodes and of many."""
     rows = chain(nodes, stiffness)
     expected = np.linalg.solve(dense(rows), rows[:, RIGHT : RIGHT + 4].ravel()).reshape(nodes, 4)
     solve(rows)
@@ -60,7 +60,7 @@ def test_equations_hold(nodes: int, stiffness: float) -> None:
 
 
 def test_a_coordinate_can_be_left_out() -> None:
-    """Its equation is one of its own."""
+    """A coordinate that is left out has an equation of its own."""
     rows = chain(30, 10.0, held=(7, 8, 29))
     expected = np.linalg.solve(dense(rows), rows[:, RIGHT : RIGHT + 4].ravel()).reshape(30, 4)
     own = rows[[7, 8, 29], RIGHT + 2].copy()

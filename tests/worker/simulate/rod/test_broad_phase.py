@@ -1,4 +1,4 @@
-"""The list of pairs that may touch, against a search of everything."""
+"""The list of pairs that may touch, against an exhaustive search."""
 
 import numpy as np
 import pytest
@@ -40,34 +40,34 @@ def heap(seed: int, rods: int = 4, speed_m_s: float = 0.5) -> tuple[Bodies, Moti
 
 
 def margin_m(bodies: Bodies, v: Array, frame: Array, step_s: float) -> float:
-    """As `worker.simulate.rod.march` has it."""
+    """The margin, as in `worker.simulate.rod.march`."""
     fastest = np.linalg.norm(v - frame[:, None], axis=0).max()
     return float(2 * step_s * fastest + 0.1 * bodies.radius.min())
 
 
 def bulge_m(bodies: Bodies, x: Array) -> Array:
-    """Of each node."""
+    """The bulge at each node."""
     bulge = np.empty(len(bodies.owner))
     find_bulge(bodies, x, bulge)
     return bulge
 
 
 def reach_m(bodies: Bodies, v: Array, bulge: Array, frame: Array = AT_REST, step_s: float = STEP_S) -> Array:
-    """Of each node."""
+    """The reach of each node."""
     reach = np.empty(len(bodies.owner))
     find_reach(bodies, v, frame, step_s, margin_m(bodies, v, frame, step_s), bulge, reach)
     return reach
 
 
 def listed(bodies: Bodies, motion: Motion, frame: Array = AT_REST, before: Candidates | None = None) -> Candidates:
-    """A new list."""
+    """A new list of pairs."""
     before = no_candidates(len(bodies.owner)) if before is None else before
     reach = reach_m(bodies, motion.v, bulge_m(bodies, motion.x), frame)
     return find_candidates(bodies, motion, frame, STEP_S, reach, before)
 
 
 def near_pairs(bodies: Bodies, x: Array, v: Array, bulge: Array, step_s: float = STEP_S) -> set[tuple[int, int]]:
-    """All pairs of segments that are near in a step, by a search of everything."""
+    """All pairs of segments that are near in a step, by an exhaustive search."""
     starts = np.flatnonzero(bodies.owner[1:] == bodies.owner[:-1]).tolist()
     margin = margin_m(bodies, v, AT_REST, step_s)
     pairs = set()
@@ -90,14 +90,14 @@ def near_pairs(bodies: Bodies, x: Array, v: Array, bulge: Array, step_s: float =
 
 
 def pairs_of(candidates: Candidates) -> list[tuple[int, int]]:
-    """As they are listed."""
+    """The pairs in the order of the list."""
     return list(zip(candidates.one.tolist(), candidates.other.tolist(), strict=True))
 
 
 @settings(max_examples=15, deadline=None)
 @given(seed=SEED)
 def test_all_pairs_that_are_near_are_listed_once_in_ascending_order(seed: int) -> None:
-    """No pair is missed, none is named twice, none is of neighbours or of the gap between two rods."""
+    """No pair is missed or named twice, and none has neighbours or the gap between two rods."""
     bodies, motion = heap(seed)
     pairs = pairs_of(listed(bodies, motion))
     assert near_pairs(bodies, motion.x, motion.v, bulge_m(bodies, motion.x)) <= set(pairs)
@@ -134,7 +134,7 @@ def test_a_list_that_still_holds_misses_none(seed: int, shake: float) -> None:
 
 
 def test_a_list_lasts_while_some_rods_land_and_others_rest() -> None:
-    """One comes down at 1 m/s, one lies: for some steps, whenever the one is stopped."""
+    """While one rod falls at 1 m/s and another rests, the list holds for some steps, whenever the first is stopped."""
     bodies, motion = flatten([rod(line((0, 0, z), (0.1, 0, z), 20)) for z in (0.001, 0.006)])
     motion.v[2, 21:] = -1.0
     candidates = listed(bodies, motion)
@@ -146,7 +146,7 @@ def test_a_list_lasts_while_some_rods_land_and_others_rest() -> None:
 
 @pytest.mark.parametrize("node", [0, 7, 30])
 def test_a_node_that_leaves_its_way_ends_the_list(node: int) -> None:
-    """By a radius, to the side."""
+    """A node that moves aside by a radius ends the list."""
     bodies, motion = heap(0, speed_m_s=0.1)
     candidates = listed(bodies, motion)
     reach = reach_m(bodies, motion.v, bulge_m(bodies, motion.x))
@@ -156,7 +156,7 @@ def test_a_node_that_leaves_its_way_ends_the_list(node: int) -> None:
 
 
 def test_more_speed_or_a_longer_step_ends_the_list() -> None:
-    """Each lets nodes reach farther within the step than the list was made for; less of either does not."""
+    """Faster nodes or longer steps reach farther than the list was made for, and end it; slower, shorter ones don't."""
     bodies, motion = heap(0)
     candidates = listed(bodies, motion)
     for faster, longer, holds in [(1, 1, True), (0.5, 1, True), (1, 0.5, True), (5, 1, False), (1, 5, False)]:
@@ -165,7 +165,7 @@ def test_more_speed_or_a_longer_step_ends_the_list() -> None:
 
 
 def test_a_common_motion_does_not_matter_before_rods_land() -> None:
-    """Metres farther at 20 m/s they are near to whom they were, and the list is that of rods at rest."""
+    """After a common motion of metres at 20 m/s the rods have the same list as at rest."""
     bodies, motion = heap(0, speed_m_s=0.0)
     still = pairs_of(listed(bodies, motion, middle_of(motion.v)))
     motion.v[:] += np.array([[3.0], [0.0], [-20.0]])
@@ -179,14 +179,14 @@ def test_a_common_motion_does_not_matter_before_rods_land() -> None:
 
 
 def test_an_empty_list_does_not_hold() -> None:
-    """So the first step makes one."""
+    """An empty list doesn't hold, so the first step makes one."""
     bodies, motion = heap(0)
     reach = reach_m(bodies, motion.v, bulge_m(bodies, motion.x))
     assert not still_hold(no_candidates(len(bodies.owner)), motion.x, reach, together=False)
 
 
 def test_a_new_list_remembers_what_the_old_one_did() -> None:
-    """Normals and impulses go with their pairs; a pair that was not there before has none."""
+    """Normals and impulses are kept with their pairs; a new pair has none."""
     bodies, motion = heap(1)
     before = listed(bodies, motion)
     before.normal[:], before.impulse[:] = np.random.default_rng(0).normal(size=(2, len(before.one), 3))
@@ -204,7 +204,7 @@ def test_a_new_list_remembers_what_the_old_one_did() -> None:
 @pytest.mark.parametrize("place", [1e9, -1e300, np.inf, np.nan])
 @pytest.mark.parametrize("speed_m_s", [0.0, 1e6, 1e300, np.nan])
 def test_a_node_that_flies_off_neither_hides_pairs_nor_makes_impossible_ones(place: float, speed_m_s: float) -> None:
-    """Pairs of segments that it is not in are listed as ever, and all listed are of segments that there are."""
+    """Pairs without a node that flies off are listed as ever, and all listed segments exist."""
     bodies, motion = heap(2)
     bulge = bulge_m(bodies, motion.x)
     expected = {pair for pair in near_pairs(bodies, motion.x, motion.v, bulge) if not {4, 5} & set(pair)}
@@ -218,7 +218,7 @@ def test_a_node_that_flies_off_neither_hides_pairs_nor_makes_impossible_ones(pla
 
 
 def test_rods_kilometres_apart_have_a_list_of_their_own() -> None:
-    """Each of its own near pairs only."""
+    """The list has only the near pairs of each rod."""
     one = rod(line((0, 0, 0), (0.1, 0, 0), 20))
     other = rod(line((0, 0.001, 0.0015), (0.1, 0.001, 0.0015), 20))
     far = np.array([1e5, 2e5, 0.0])
@@ -228,7 +228,7 @@ def test_rods_kilometres_apart_have_a_list_of_their_own() -> None:
 
 
 def test_all_in_one_place_is_listed() -> None:
-    """More pairs than there is room for at first: every segment of three rods with every one of the others."""
+    """More pairs than the first array holds are listed: every segment of three rods with every one of the others."""
     bodies, motion = flatten([rod(line((0, 0, 0), (0.1, 0, 0), 60)) for _ in range(3)])
     motion.x[:] *= 1e-3
     assert len([1 for i, j in pairs_of(listed(bodies, motion)) if bodies.owner[i] != bodies.owner[j]]) == 3 * 60 * 60

@@ -1,4 +1,4 @@
-"""Where compiled code is kept."""
+"""The folder of compiled code."""
 
 import subprocess
 import sys
@@ -6,7 +6,7 @@ from pathlib import Path
 
 PROGRAM = "from worker.simulate.rod.compiled import kept_in; print(kept_in())"
 
-# Root may write everywhere, whatever a folder's rights.
+# Root may write everywhere, whatever a folder's permissions.
 READ_ONLY = "import os; os.access = lambda *_: False; "
 
 
@@ -20,17 +20,17 @@ def kept_in(before: str = "", **variables: Path) -> Path:
 
 
 def test_compiled_code_lies_in_the_users_cache_folder(tmp_path: Path) -> None:
-    """Below `cable-farm/compiled`, in a folder of the sources' own."""
+    """Compiled code lies below `cable-farm/compiled`, in a folder for its sources."""
     assert kept_in(XDG_CACHE_HOME=tmp_path).parent == tmp_path / "cable-farm" / "compiled"
 
 
 def test_a_folder_named_by_the_environment_is_used(tmp_path: Path) -> None:
-    """FARM_COMPILED, as the worker's image sets it."""
+    """The folder in FARM_COMPILED, which the worker's image sets, is used."""
     assert kept_in(XDG_CACHE_HOME=tmp_path / "cache", FARM_COMPILED=tmp_path).parent == tmp_path
 
 
 def test_a_folder_that_cannot_be_written_is_copied(tmp_path: Path) -> None:
-    """A read-only image: what is compiled there is taken over to the user's own folder."""
+    """With a read-only image, its compiled code is copied to the user's own folder."""
     kept = kept_in(XDG_CACHE_HOME=tmp_path / "cache", FARM_COMPILED=tmp_path)
     kept.mkdir()
     (kept / "some.nbi").write_text("compiled")

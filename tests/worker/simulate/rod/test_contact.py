@@ -1,4 +1,4 @@
-"""The contacts of a step: the way out of rods that start within each other."""
+"""The contacts of a step: the directions in which rods that start within each other are parted."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ MARGIN_M = 0.1 * RADIUS_M
 
 
 def normals_and_approaches(rods: list[Rod], known: Array | None = None) -> tuple[Array, Array]:
-    """(n, 3) and (n,) of all contacts at rest; `known` is the way to the first rod when last seen, if ever."""
+    """Normals (n, 3) and approaches (n,) of all contacts at rest; `known` is the last direction to the first rod."""
     bodies, motion = flatten(rods)
     bulge, reach = np.empty(len(bodies.owner)), np.empty(len(bodies.owner))
     find_bulge(bodies, motion.x, bulge)
@@ -31,13 +31,13 @@ def normals_and_approaches(rods: list[Rod], known: Array | None = None) -> tuple
 
 
 def crossed(height_m: float) -> list[Rod]:
-    """Two rods at right angles, the second one's axis so much higher."""
+    """Two rods at right angles, with the second one's axis higher by this much."""
     return [rod(line((-0.05, 0, 0), (0.05, 0, 0), 25)), rod(line((0, -0.05, height_m), (0, 0.05, height_m), 25))]
 
 
 @pytest.mark.parametrize(("height_radii", "up"), [(0.0, -1.0), (1.0, -1.0), (-1.0, 1.0)])
 def test_rods_that_start_within_each_other_are_parted_upright(height_radii: float, up: float) -> None:
-    """The higher one goes up; of two at one height, the first goes down, as if it had always been below."""
+    """The higher rod goes up; of two at one height, the first goes down, as if it had always been below."""
     normals, approaches = normals_and_approaches(crossed(height_radii * RADIUS_M))
     parted = normals[approaches > 0]
     assert len(parted) > 0
@@ -45,7 +45,7 @@ def test_rods_that_start_within_each_other_are_parted_upright(height_radii: floa
 
 
 def test_the_same_rod_twice_is_parted_one_way_all_along() -> None:
-    """No place has a side of its own: the first goes down everywhere."""
+    """With no side of its own at any place, the first rod goes down everywhere."""
     one = rod(line((-0.05, 0, 0), (0.05, 0, 0), 25))
     normals, approaches = normals_and_approaches([one, one])
     assert len(normals) >= 25
@@ -54,14 +54,14 @@ def test_the_same_rod_twice_is_parted_one_way_all_along() -> None:
 
 
 def test_rods_that_have_cut_into_each_other_go_back_to_their_sides() -> None:
-    """The first was seen above: it is pushed up, though its axis is now a radius below that of the other."""
+    """The first rod was above before: it is pushed up, although its axis is now a radius below the other's."""
     normals, approaches = normals_and_approaches(crossed(RADIUS_M), np.array([0.0, 0.0, 1.0]))
     assert normals == pytest.approx(np.tile([0.0, 0.0, 1.0], (len(normals), 1)))
     assert (approaches > 0).all()
 
 
 def test_rods_that_touch_are_pushed_along_the_way_between_their_axes() -> None:
-    """Upright for two that cross, and none needs to part."""
+    """For two rods that cross the direction is upright, and neither needs to part."""
     normals, approaches = normals_and_approaches(crossed(2 * RADIUS_M))
     assert normals == pytest.approx(np.tile([0.0, 0.0, -1.0], (len(normals), 1)))
     assert (approaches <= 0).all()

@@ -1,4 +1,4 @@
-"""How drawn cables and sticks become rods, and how they come to lie."""
+"""The conversion of drawn cables and sticks to rods, and their resting places."""
 
 import numpy as np
 import pytest
@@ -16,23 +16,23 @@ RADIUS_M = 0.0015
 
 
 def test_segments_of_a_cable_are_so_many_radii_long() -> None:
-    """A cable of 1e7 Pa bends under its weight over (1e7 r^2 / 4 rho g)^(1/3), 49 radii."""
+    """A cable of 1e7 Pa bends under its weight over (1e7 r^2 / 4 rho g)^(1/3) = 49 radii, so the default holds."""
     assert segment_m(RADIUS_M, 1e7, 1500.0, segment_radii=4.0) == pytest.approx(4 * RADIUS_M)
 
 
 def test_what_bends_more_tightly_has_shorter_segments() -> None:
-    """Half of (E r^2 / 4 rho g)^(1/3): here six radii, if E = 4 rho g r 6^3."""
+    """A segment is half of (E r^2 / 4 rho g)^(1/3): here six radii, if E = 4 rho g r 6^3."""
     modulus = 4 * 1500.0 * 9.81 * RADIUS_M * 6**3
     assert segment_m(RADIUS_M, modulus, 1500.0, segment_radii=4.0) == pytest.approx(3 * RADIUS_M)
 
 
 def test_segments_have_a_least_length() -> None:
-    """However soft a rod is."""
+    """Segments have a least length for any softness."""
     assert segment_m(RADIUS_M, 1.0, 1500.0, segment_radii=4.0) == pytest.approx(FINEST_RADII * RADIUS_M)
 
 
 def over_a_stick(kind: StickKind = StickKind.ROD, diameter_m: float = 0.008) -> Scene:
-    """Two cables, drawn, that fall across a stick: they start above it, both across it."""
+    """Two drawn cables that start above a stick and fall across it."""
     scene = make_scene(ranges={"cable": {"count": [2, 2]}, "placement": {"bend_per_m": [0.0, 0.0]}})
     bearings = (80.0, 110.0)
     cables = tuple(
@@ -50,7 +50,7 @@ def over_a_stick(kind: StickKind = StickKind.ROD, diameter_m: float = 0.008) -> 
 
 
 def test_sticks_are_stiff_straight_rods_after_the_cables() -> None:
-    """Of the drawn place, length and thickness."""
+    """A stick is a rod with its drawn place, length and thickness."""
     *cables, stick = rods_of(over_a_stick(), RodFall())
     assert len(cables) == 2
     assert stick.radius_m == pytest.approx(0.004)
@@ -61,7 +61,7 @@ def test_sticks_are_stiff_straight_rods_after_the_cables() -> None:
 
 @pytest.mark.parametrize("diameter_m", [0.003, 0.012])
 def test_cables_come_to_lie_on_a_stick(diameter_m: float) -> None:
-    """They pass over it, touching its top within a twentieth of their radius, and nothing cuts into anything."""
+    """Cables pass over the stick and touch its top within a twentieth of their radius; nothing cuts into anything."""
     scene = over_a_stick(diameter_m=diameter_m)
     shapes = drop_cables(scene, RodFall())
     assert find_fault(measure(shapes)) is None
@@ -74,14 +74,14 @@ def test_cables_come_to_lie_on_a_stick(diameter_m: float) -> None:
 
 
 def test_a_stick_stays_straight_under_cables() -> None:
-    """To a hundredth of a millimetre."""
+    """A stick is straight to a hundredth of a millimetre."""
     (stick,) = drop_cables(over_a_stick(), RodFall()).sticks_m
     share = np.linspace(0, 1, len(stick))[:, None]
     assert np.abs(stick - (stick[0] + share * (stick[-1] - stick[0]))).max() < 1e-5
 
 
 def test_a_scene_without_sticks_falls_as_it_did() -> None:
-    """It has none, and its cables are in the order of their start."""
+    """Without sticks the cables are in the order of their start."""
     shapes = drop_cables(over_a_stick().model_copy(update={"sticks": ()}), RodFall())
     assert shapes.sticks_m == ()
     assert len(shapes.stick_radii_m) == 0
@@ -89,5 +89,5 @@ def test_a_scene_without_sticks_falls_as_it_did() -> None:
 
 
 def test_the_order_of_the_start_counts_sticks_after_cables() -> None:
-    """The stick starts lowest of three."""
+    """The stick starts lowest of three and is numbered last."""
     assert drop_cables(over_a_stick(), RodFall()).start_order == (2, 0, 1)

@@ -1,4 +1,4 @@
-"""Which nodes the floor may touch, and how fast they must rise."""
+"""The nodes that the floor may touch, and the speed at which they must rise."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ STEP_S = 1e-3
 
 
 def near_floor(heights_m: Array) -> tuple[list[int], Array]:
-    """The nodes near it of a rod at rest whose nodes are at these heights, and how fast all must rise at least."""
+    """The near nodes of a rod at rest with nodes at these heights, and the least speed at which all must rise."""
     bodies, motion = flatten([rod(line((0, 0, 0), (0.004 * (len(heights_m) - 1), 0, 0), len(heights_m) - 1))])
     motion.x[2] = heights_m
     touching, rise = np.empty(len(heights_m), np.int64), np.empty(len(heights_m))
@@ -22,17 +22,17 @@ def near_floor(heights_m: Array) -> tuple[list[int], Array]:
 
 
 def test_nodes_close_to_the_floor_are_near() -> None:
-    """At rest, with the lowest point of the rod less than a share of the radius above it."""
+    """At rest, a node is near if the rod's lowest point there is within a share of the radius of the floor."""
     heights = RADIUS_M * (1 + NEAR_FLOOR_RADII * np.array([0.0, 0.5, 0.9, 1.5, 2.1, 2.7]))
     touching, rise = near_floor(heights)
     assert touching == [0, 1, 2]
-    # They may close the gap within the step.
+    # Moving nodes may close the gap within the step.
     assert rise[:3] == pytest.approx((RADIUS_M - heights[:3]) / STEP_S)
 
 
 @pytest.mark.parametrize("lift_radii", [0.1, 0.5, 1.0])
 def test_a_curve_that_dips_between_nodes_lifts_them(lift_radii: float) -> None:
-    """Both ends of the segment next to a raised node: depth / tau for what is deeper than the slop, and none other.
+    """Both ends of the segment beside a raised node rise at depth / tau, beyond the slop, and no other node does.
 
     The depth is looked for at quarters of the segment. The curve is deepest at two thirds, by lift 2 / 27 instead of
     the lift 9 / 128 at three quarters: the twentieth part more.
@@ -46,7 +46,7 @@ def test_a_curve_that_dips_between_nodes_lifts_them(lift_radii: float) -> None:
 
 
 def test_a_straight_rod_on_the_floor_is_left_as_it_is() -> None:
-    """Its curve dips nowhere."""
+    """The curve of a straight rod dips nowhere, so no node is lifted."""
     touching, rise = near_floor(np.full(6, RADIUS_M))
     assert touching == list(range(6))
     assert rise.tolist() == [0.0] * 6

@@ -1,4 +1,4 @@
-"""Which listed pairs are near in a step, and what the others remember."""
+"""The listed pairs that are near in a step, and the memory of the others."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ STEP_S = 1e-3
 
 
 def crossed(height_m: float, speed_m_s: float = 0.0) -> tuple[Bodies, Motion]:
-    """Two rods that cross at right angles, one over the other; the upper one comes down."""
+    """Two rods that cross at right angles; the upper one falls."""
     bodies, motion = flatten(
         [
             rod(line((-0.05, 0.0, 0.0), (0.05, 0.0, 0.0), 25)),
@@ -27,14 +27,14 @@ def crossed(height_m: float, speed_m_s: float = 0.0) -> tuple[Bodies, Motion]:
 
 
 def bulge_m(bodies: Bodies, motion: Motion) -> Array:
-    """Of each node."""
+    """The bulge at each node."""
     bulge = np.empty(len(bodies.owner))
     find_bulge(bodies, motion.x, bulge)
     return bulge
 
 
 def looked_at(bodies: Bodies, motion: Motion) -> tuple[Candidates, Integers, Array]:
-    """The list, the numbers of those near, and where these are closest."""
+    """The list, the numbers of the near pairs, and their closest places."""
     margin = 2 * STEP_S * float(np.abs(motion.v).max()) + 0.1 * RADIUS_M
     bulge, reach = bulge_m(bodies, motion), np.empty(len(bodies.owner))
     find_reach(bodies, motion.v, np.zeros(3), STEP_S, margin, bulge, reach)
@@ -51,7 +51,7 @@ def looked_at(bodies: Bodies, motion: Motion) -> tuple[Candidates, Integers, Arr
     [(2.05, 0.0, 1), (2.4, 0.0, 0), (2.4, 0.5, 1), (4.0, 0.5, 0), (4.0, 1.5, 1)],
 )
 def test_a_pair_is_near_if_it_may_touch_in_the_step(height_radii: float, speed_m_s: float, number: int) -> None:
-    """The middles of two crossed rods: by their distance, and by the speed at which they meet."""
+    """Whether the middles of two crossed rods are near depends on their distance and on their closing speed."""
     candidates, near, at = looked_at(*crossed(height_radii * RADIUS_M, speed_m_s))
     middle = [k for k in near if (candidates.one[k], candidates.other[k]) == (12, 38)]
     assert len(middle) == number
@@ -60,7 +60,7 @@ def test_a_pair_is_near_if_it_may_touch_in_the_step(height_radii: float, speed_m
 
 
 def test_the_others_forget_their_impulses_and_remember_their_sides() -> None:
-    """Each normal points from the lower rod's segment up to the upper one's, by what side they are on."""
+    """Each normal points from the lower rod's segment up to the upper one's, by their sides."""
     bodies, motion = crossed(2.4 * RADIUS_M)
     candidates, near, _ = looked_at(bodies, motion)
     assert len(candidates.one) > 0
@@ -70,7 +70,7 @@ def test_the_others_forget_their_impulses_and_remember_their_sides() -> None:
 
 
 def test_those_near_keep_what_they_remember() -> None:
-    """An impulse of the step before is where this step starts from."""
+    """The impulse of the step before is the start of this step's."""
     candidates, near, _ = looked_at(*crossed(2.05 * RADIUS_M))
     assert len(near) > 0
     assert (candidates.impulse[near] == 1.0).all()
@@ -93,7 +93,7 @@ def test_the_curve_leaves_its_chord_by_no_more_than_the_bulges_of_its_ends(seed:
 
 
 def arch_over_line(height_m: float) -> tuple[Bodies, Motion]:
-    """A rod bent downwards by 0.4 rad a node, the chord of its lowest segment so high over a straight one across."""
+    """A rod bent downwards by 0.4 rad per node; its lowest chord is this high over a straight one across."""
     slope = 0.4 * np.arange(-4, 5)
     edges = 0.004 * np.stack([np.cos(slope), np.zeros(9), np.sin(slope)], axis=1)
     nodes = np.concatenate([np.zeros((1, 3)), np.cumsum(edges, axis=0)])
@@ -102,7 +102,7 @@ def arch_over_line(height_m: float) -> tuple[Bodies, Motion]:
 
 
 def test_a_pair_whose_curves_touch_is_near_though_its_chords_are_apart() -> None:
-    """Chords at 2.19 radii are not near at rest; at 0.4 rad a node the curve hangs l sin(0.2) / 4 = 0.2 radii lower."""
+    """At 2.19 radii straight chords aren't near; at 0.4 rad a node the curve hangs l sin(0.2) / 4 = 0.2 radii down."""
     height = 2.19 * RADIUS_M
     bodies, motion = arch_over_line(height)
     assert curve_m(motion.x[:, :10].T, 8)[:, 2].min() < 2 * RADIUS_M
@@ -110,5 +110,5 @@ def test_a_pair_whose_curves_touch_is_near_though_its_chords_are_apart() -> None
     pairs = [(int(candidates.one[k]), int(candidates.other[k])) for k in near]
     assert (4, 22) in pairs
     assert at[:, pairs.index((4, 22))] == pytest.approx(0.5)
-    # Straight rods at this distance are not.
+    # Straight rods at this distance aren't near.
     assert len(looked_at(*crossed(height))[1]) == 0
