@@ -84,7 +84,7 @@ def main(arguments: list[str], open_renderer: OpenBlender = _open_blender) -> in
 
     Args:
         arguments: as on the command line.
-        open_renderer: opens the maker; tests of the queue give a stand-in.
+        open_renderer: the function that opens the renderer of a dataset.
 
     Returns:
         The exit code.
