@@ -84,7 +84,7 @@ def main(arguments: list[str], open_renderer: OpenRenderer = _open_blender) -> i
 
     Args:
         arguments: words of the command line.
-        open_renderer: opens the renderer of a dataset; tests of the queue give a stand-in.
+        open_renderer: the function that opens the renderer of a dataset.
 
     Returns:
         The exit code; wrong arguments end the process with 2.

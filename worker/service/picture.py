@@ -29,7 +29,7 @@ class Picture:
 
 
 class Renderer(Protocol):
-    """Makes the picture of a job. The real one holds an open Blender template; tests of the queue have a twin."""
+    """Makes the picture of a job; the one of `worker.blender` holds an open Blender template."""
 
     def make(self, job: Job, header: DatasetHeader) -> Picture:
         """Make one picture.
