@@ -42,13 +42,13 @@ class EnvironmentKind(StrEnum):
 
 
 class EnvironmentRecipe(BaseModel):
-    """How to build one.
+    """How to build an environment.
 
     Attributes:
-        name: Unique.
-        kind: Which builder makes it.
-        seed: Of all that is drawn; an odd one builds the kind's first variant, an even one its second.
-        version: Grows with every change that would make another picture of it.
+        name: Unique name.
+        kind: Kind, which decides the builder.
+        seed: Seed of everything that is drawn; an odd seed builds the kind's first variant, an even one its second.
+        version: Version of the recipe, which grows with every change that would give another picture of it.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -120,11 +120,11 @@ def environment_generator(recipe: EnvironmentRecipe) -> np.random.Generator:
 
 
 def environment_directory(folder: Path, name: str) -> Path:
-    """Where an environment lies.
+    """The folder of an environment.
 
     Args:
         folder: The folder of the baked surfaces.
-        name: Of the environment.
+        name: Name of the environment.
 
     Raises:
         AssetError: The name would lead out of the folder.
@@ -140,10 +140,10 @@ def load_environment(folder: Path, name: str) -> Environment:
 
     Args:
         folder: The folder of the baked surfaces.
-        name: Of the environment.
+        name: Name of the environment.
 
     Raises:
-        AssetError: It is not there, incomplete or damaged.
+        AssetError: The environment is missing, incomplete or damaged.
     """
     directory = environment_directory(folder, name)
     record_path = directory / RECORD_NAME

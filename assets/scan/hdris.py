@@ -26,10 +26,10 @@ BACKDROP_ABOVE = 0.02
 Blender's night has 0.04; its studio, lamps in a black room, has 0.007 and would give black pictures."""
 
 NEGATIVE_TOLERANCE = 0.05
-"""How far below 0 a value may lie, as a share of the mean luminance: lossy compression rings round bright lamps."""
+"""Largest distance of a value below 0, relative to the mean luminance: lossy compression rings round bright lamps."""
 
 ASPECT_TOLERANCE = 0.02
-"""By how much width / height may differ from 2."""
+"""Largest difference of width / height from 2, the ratio of an equirectangular panorama."""
 
 
 class Hdri(BaseModel):

@@ -17,10 +17,10 @@ SUFFIXES = frozenset({".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"})
 FORMATS = ("JPEG", "PNG", "WEBP", "TIFF")
 
 SMALLEST_EDGE = 256
-"""Pixels along the short side; less would be a blur behind any picture."""
+"""Least pixels along the short side; a smaller photograph would be a blur behind any picture."""
 
 MOST_PIXELS = 64 * 2**20
-"""In all: a photograph of 8192 x 8192. Decoding takes 10 bytes for each, for a moment."""
+"""Largest number of pixels, those of 8192 x 8192. Decoding takes 10 bytes of memory for each of them, for a moment."""
 
 
 class PlateFile(BaseModel):

@@ -32,21 +32,21 @@ from farm.errors import AssetError, RenderError
 from farm.run.worker_settings import DeviceChoice
 
 SAMPLES = 4
-"""Of each pixel; a denoiser led by the sharp colours and normals of what is seen does the rest."""
+"""Cycles samples per pixel. They suffice since a denoiser follows, which is led by sharp colours and normals."""
 
 BAND_DEG = 30.0
-"""How far above and below the horizon a panorama is rendered in full: a far picture shows 20 degrees of it."""
+"""Degrees above and below the horizon that are rendered at full resolution: a far picture shows 20 degrees of them."""
 
 COARSER = 4
-"""By how much the rest is coarser: it only lights, and a lit cable is far from a mirror."""
+"""Factor by which the resolution of the rest is smaller: it only lights, and a lit cable is far from a mirror."""
 
 FADE_DEG = 2.0
-"""Over how much of the band's edges the two are mixed."""
+"""Degrees at each edge of the full band over which it is mixed with the coarse panorama, so that no edge shows."""
 
 RENDER_SEED = 0
 
 SEAM_SHARE = 0.1
-"""How much darker one side of the seam may be than the other to count as the denoiser's doing."""
+"""Largest step at the seam, relative to its darker side, that counts as the denoiser's doing and is smoothed."""
 
 
 def render_environments(
@@ -55,11 +55,11 @@ def render_environments(
     """Render the environments that a folder lacks, one after the other.
 
     Args:
-        folder: Of the baked surfaces; they go below it.
+        folder: Folder of the baked surfaces, below which the environments are written.
         pixels: Width of the panoramas, 64 to 8192 and even.
-        names: Which; None for all.
+        names: Names of the environments to render; None for all.
         device: Device that Cycles is asked to render on.
-        threads: On the CPU; 0 takes all cores.
+        threads: Number of threads on the CPU; 0 for all cores.
 
     Yields:
         The name of each as soon as it is on disk.

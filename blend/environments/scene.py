@@ -1,4 +1,4 @@
-"""From an assembly to a Blender scene with lamps, sky and a panorama camera."""
+"""Makes a Blender scene of an assembly, with lamps, sky and a panorama camera."""
 
 import math
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""From a path or URL to the storage there."""
+"""Opens the storage at a path or URL."""
 
 import re
 from collections.abc import Callable, Mapping

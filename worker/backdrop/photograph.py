@@ -50,7 +50,7 @@ def _crop(pixels: NDArray[np.uint8], plate: Plate) -> NDArray[np.uint8]:
 
 
 def _resample(square: NDArray[np.uint8], resolution: int) -> NDArray[np.float32]:
-    """To (resolution, resolution, 3) of linear light: means of areas, or cubic between pixels."""
+    """Resample to (resolution, resolution, 3) of linear light: means of areas, or cubic between pixels."""
     light = _shrunk(square, max(1, len(square) // (2 * resolution)))
     edge = len(light)
     if edge == resolution:

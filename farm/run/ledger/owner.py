@@ -1,4 +1,4 @@
-"""Who holds a claim: a process, by machine and number. A dead process of this machine loses its claims at once."""
+"""The owner of a claim: a process, by machine and number. A dead process of this machine loses its claims at once."""
 
 import os
 from collections.abc import Mapping

@@ -12,13 +12,13 @@ CLAIM_S = float(os.environ.get(CLAIM_VARIABLE, "60"))
 """A claim that is not refreshed for this long is void, in seconds. All processes of a farm must agree on it."""
 
 RECENT_COMPLETIONS = 200
-"""The rate is taken over at most this many pictures..."""
+"""Largest number of finished pictures, the latest ones, from which the rate is estimated."""
 
 RECENT_S = 3600.0
-"""...of the last hour, so that yesterday's run does not slow today's."""
+"""Largest age of these pictures, in seconds, so that yesterday's run doesn't lower today's rate."""
 
 MAX_ABSENCES = 6
-"""So many workers in a row may end since their store lacks a dataset; then its run ends."""
+"""Largest number of workers in a row that may end since their store lacks a dataset; one more ends its run."""
 
 RETRY_OWNER = ""
 """Holds a job that waits for its next attempt; anyone may take it over."""
@@ -107,7 +107,7 @@ class Ledger(Protocol):
         ...
 
     def leader(self) -> str | None:
-        """Who queues this dataset's jobs; None if nobody does."""
+        """The owner that queues this dataset's jobs; None if there is none."""
         ...
 
     def resign(self, owner: str) -> None:

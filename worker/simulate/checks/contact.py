@@ -70,7 +70,7 @@ def search_reach_m(radii_m: NDArray[np.float64]) -> float:
 def _worth_searching(
     spans: Spans, near: tuple[Indices, Indices], radii_m: NDArray[np.float64]
 ) -> tuple[Indices, Indices]:
-    """Of pairs near in plan, those that may touch."""
+    """Those of the pairs near in plan that may touch."""
     one, other = near
     low, high = spans.boxes_m
     reach = _reach_m(radii_m, spans.cable[one], spans.cable[other])
