@@ -74,10 +74,10 @@ def write(result: str, marks: Sequence[float], pause_s: float, pictures: Sequenc
         pause_s: seconds between the last two marks that the measurement itself took.
         pictures: what `make` returned for each picture.
     """
-    spawned, begun, farm, renderer, opened = marks
+    spawned, begun, farm, blender, opened = marks
     content = {
-        "steps": {"interpreter": begun - spawned, "main": farm - begun, "child": renderer - farm},
-        "open_s": opened - renderer - pause_s,
+        "steps": {"interpreter": begun - spawned, "main": farm - begun, "child": blender - farm},
+        "open_s": opened - blender - pause_s,
         "pictures": pictures,
         "compiled": _compiled_now(),
     }
