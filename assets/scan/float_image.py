@@ -1,7 +1,7 @@
 """EXR and Radiance files of linear light, read and written by OpenImageIO."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
@@ -69,7 +69,7 @@ def read_float_image(path: Path) -> NDArray[np.float32]:
     with _quiet_standard_error():
         source = _library().ImageInput.open(os.fsencode(path))
         if source is None:
-            raise _undecodable(path, _library().geterror())
+            raise _undecodable(path, _library().geterror)
         try:
             channels = _checked_channels(path, source.spec())
             return _pixels(path, source, channels)
@@ -99,7 +99,7 @@ def write_float_image(path: Path, pixels: NDArray[np.float32]) -> NDArray[np.flo
     target = library.ImageOutput.create("exr")
     written = target.open(os.fsencode(path), spec) and target.write_image(np.ascontiguousarray(pixels))
     if not (target.close() and written):
-        raise AssetError(f"{path}: can't be written ({_one_line(target.geterror())}); {_ELSEWHERE}")
+        raise AssetError(f"{path}: can't be written ({_reason(target.geterror)}); {_ELSEWHERE}")
     try:
         # A disk that fills up with the last few bytes shows here alone.
         return read_float_image(path)
@@ -167,13 +167,16 @@ def _checked_channels(path: Path, spec: "ImageSpec") -> int:
         )
     if spec.get_int_attribute("Orientation", _USUAL_ORIENTATION) != _USUAL_ORIENTATION:
         raise AssetError(f"{path}: is stored turned or mirrored; export it the usual way up")
-    names = tuple(name.upper() for name in spec.channelnames)
+    try:
+        names = tuple(name.upper() for name in spec.channelnames)
+    except UnicodeDecodeError as error:
+        raise AssetError(f"{path}: has a channel whose name is no text; export it with R, G and B") from error
     if len(names) > LARGEST_CHANNELS:
         raise AssetError(f"{path}: has {len(names)} channels; export R, G and B alone")
     # OpenImageIO puts colours before alpha, and alpha before all else.
     channels = 3 if names[:3] == ("R", "G", "B") else 1
     if channels == 1 and len(names) != 1 and names != ("Y", "A"):
-        raise AssetError(f"{path}: has the channels {', '.join(spec.channelnames)}; export it with R, G and B")
+        raise AssetError(f"{path}: has the channels {', '.join(names)}; export it with R, G and B")
     if {str(spec.channelformat(channel)) for channel in range(channels)} - {"half", "float"}:
         raise AssetError(f"{path}: holds whole numbers; export it with half or float channels")
     return channels
@@ -182,17 +185,21 @@ def _checked_channels(path: Path, spec: "ImageSpec") -> int:
 def _pixels(path: Path, source: "ImageInput", channels: int) -> NDArray[np.float32]:
     pixels = source.read_image(0, 0, 0, channels, "float")
     if pixels is None:
-        raise _undecodable(path, source.geterror())
+        raise _undecodable(path, source.geterror)
     decoded = np.asarray(pixels, np.float32)
     return decoded if channels == 3 else np.repeat(decoded, 3, axis=2)
 
 
-def _undecodable(path: Path, reason: str) -> AssetError:
-    return AssetError(f"{path}: is truncated or damaged ({_one_line(reason)}); {_AGAIN}")
+def _undecodable(path: Path, error: Callable[[], str]) -> AssetError:
+    return AssetError(f"{path}: is truncated or damaged ({_reason(error)}); {_AGAIN}")
 
 
-def _one_line(text: str) -> str:
-    return " ".join(text.split())
+def _reason(error: Callable[[], str]) -> str:
+    """What OpenImageIO says of an error, in one line."""
+    try:
+        return " ".join(error().split())
+    except UnicodeDecodeError:
+        return "OpenImageIO's reason quotes bytes that are no text"
 
 
 @contextmanager

@@ -89,6 +89,19 @@ def test_other_channels_are_refused(tmp_path: Path, names: str) -> None:
     assert "export it with R, G and B" in refusal(tmp_path / "a.exr", data)
 
 
+def test_channel_names_that_are_no_text_are_refused(tmp_path: Path) -> None:
+    """As other channels are."""
+    data = exr_header(64, 32, channels=4).replace(b"c0\0", b"\xd2\xff\0")
+    assert "whose name is no text" in refusal(tmp_path / "a.exr", data)
+
+
+@pytest.mark.parametrize("length", [1000, -1])
+def test_truncated_files_whose_names_are_no_text_are_refused(tmp_path: Path, length: int) -> None:
+    """The library's message may quote the name."""
+    data = write_image(tmp_path / "a.exr", noise()).read_bytes()
+    refusal(tmp_path / os.fsdecode(b"\xff.exr"), data[:length])
+
+
 @pytest.mark.parametrize("kind", ["float", "half"])
 @pytest.mark.parametrize("tile", [0, 32])
 @pytest.mark.parametrize("compression", COMPRESSIONS)
