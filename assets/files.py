@@ -4,6 +4,8 @@ import hashlib
 import os
 import secrets
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
 from io import BufferedReader
 from pathlib import Path
 from typing import Annotated
@@ -31,18 +33,46 @@ def read_bounded(path: Path) -> bytes:
     Raises:
         AssetError: It can't be read, is no regular file, is empty or is larger than `LARGEST_FILE`.
     """
+    with _opened(path) as file:
+        size = os.fstat(file.fileno()).st_size
+        if size > LARGEST_FILE:
+            raise AssetError(
+                f"{path}: {size / 2**20:.0f} MiB is more than the {LARGEST_FILE // 2**20} MiB allowed; "
+                "use a smaller resolution"
+            )
+        # A file that grows meanwhile is read no further than the limit.
+        data = file.read(LARGEST_FILE)
+    return _filled(path, data)
+
+
+def read_start(path: Path, length: int) -> bytes:
+    """Read the first bytes of a file.
+
+    Args:
+        path: The file.
+        length: Bytes to read at most.
+
+    Returns:
+        As many as asked for, or all that there are.
+
+    Raises:
+        AssetError: It can't be read, is no regular file, or is empty.
+    """
+    with _opened(path) as file:
+        data = file.read(length)
+    return _filled(path, data)
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[BufferedReader]:
     try:
         with open_regular(path) as file:
-            size = os.fstat(file.fileno()).st_size
-            if size > LARGEST_FILE:
-                raise AssetError(
-                    f"{path}: {size / 2**20:.0f} MiB is more than the {LARGEST_FILE // 2**20} MiB allowed; "
-                    "use a smaller resolution"
-                )
-            # No more than it was just measured at, should it grow meanwhile.
-            data = file.read(LARGEST_FILE)
+            yield file
     except OSError as error:
         raise AssetError(f"{path}: can't be read ({error.strerror}); check the file and its permissions") from error
+
+
+def _filled(path: Path, data: bytes) -> bytes:
     if not data:
         raise AssetError(f"{path}: the file is empty; copy or download it again")
     return data

@@ -11,8 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from assets.colour import REC709_LUMINANCE
 from assets.files import Checksum, read_bounded, sha256
-from assets.scan.exr import decode_exr
-from assets.scan.radiance import decode_radiance
+from assets.scan.float_image import FLOAT_SUFFIXES, read_float_image
 from farm.errors import AssetError
 
 REGISTRY_PATH = Path(__file__).with_name("hdris.toml")
@@ -151,7 +150,7 @@ def scan_hdris(folder: Path) -> tuple[Hdri, ...]:
     """
     if not folder.is_dir():
         raise AssetError(f"{folder}: isn't a folder; give the folder that holds your .hdr or .exr files")
-    paths = sorted(path for path in folder.iterdir() if path.suffix.lower() in {".hdr", ".exr"} and path.is_file())
+    paths = sorted(path for path in folder.iterdir() if path.suffix.lower() in FLOAT_SUFFIXES and path.is_file())
     paths = [path for path in paths if not path.name.startswith(".")]
     if not paths:
         raise AssetError(f"{folder}: holds no .hdr or .exr file; put some there or leave the folder out")
@@ -177,7 +176,7 @@ def read_hdri(path: Path) -> Hdri:
             finite, negative, or all zero.
     """
     data = read_bounded(path)
-    pixels = decode_exr(path, data) if path.suffix.lower() == ".exr" else decode_radiance(path, data)
+    pixels = read_float_image(path)
     height, width = pixels.shape[:2]
     if abs(width / height - 2.0) > ASPECT_TOLERANCE:
         raise AssetError(f"{path}: {width} x {height} isn't 2:1; export it as an equirectangular panorama")

@@ -9,7 +9,7 @@ from PIL import Image
 from pydantic import BaseModel, ConfigDict, Field
 
 from assets.files import Checksum, read_bounded, sha256
-from assets.scan.exr import decode_exr
+from assets.scan.float_image import read_float_image
 from assets.scan.texture_names import TextureName, TextureRole, parse_texture_name
 from farm.errors import AssetError
 
@@ -100,7 +100,7 @@ def read_map(role: TextureRole, path: Path) -> TextureMap:
     """
     data = read_bounded(path)
     if path.suffix.lower() == ".exr":
-        height, width = decode_exr(path, data).shape[:2]
+        height, width = read_float_image(path).shape[:2]
         _check_size(path, width, height)
     else:
         width, height = _decode(path, data)

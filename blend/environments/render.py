@@ -24,7 +24,7 @@ from assets.environments import (
     missing_environments,
 )
 from assets.files import read_bounded, sha256, write_atomically
-from assets.scan.exr import decode_exr
+from assets.scan.float_image import read_float_image, write_float_image
 from assets.scan.hdris import mean_luminance
 from blend.devices import choose_device
 from blend.environments.build import build_environment
@@ -122,7 +122,7 @@ def _render(scene: Any, pixels: int, first: int, last: int) -> NDArray[np.float3
             raise RenderError(f"Blender failed to render a panorama: {' '.join(str(error).split())}") from error
         if not target.is_file():
             raise RenderError("Blender ended a render without writing a panorama; see the worker's log")
-        light = decode_exr(target, read_bounded(target))
+        light = read_float_image(target)
     if light.shape != (last - first, pixels, 3):
         raise RenderError(
             f"Blender rendered {light.shape[1]} x {light.shape[0]} pixels of a panorama; install bpy 4.5 afresh"
@@ -201,10 +201,12 @@ def write_environment(folder: Path, recipe: EnvironmentRecipe, light: NDArray[np
     """
     directory = environment_directory(folder, recipe.name)
     path = directory / PANORAMA_NAME
-    data = encode_panorama(light)
-    back = decode_exr(path, data)
+    with tempfile.TemporaryDirectory(prefix="cable-farm-") as made:
+        written = Path(made) / PANORAMA_NAME
+        back = write_float_image(written, light)
+        data = read_bounded(written)
     if back.shape != light.shape or not np.isfinite(back).all():
-        raise RenderError(f"{path}: it does not read back as it was written; install bpy 4.5 afresh")
+        raise RenderError(f"{path}: it does not read back as it was written; install OpenImageIO afresh")
     record = EnvironmentRecord(
         name=recipe.name,
         kind=recipe.kind,
@@ -220,30 +222,3 @@ def write_environment(folder: Path, recipe: EnvironmentRecipe, light: NDArray[np
         write_atomically(directory / RECORD_NAME, text.encode())
     except OSError as error:
         raise AssetError(f"{directory}: can't be written ({error.strerror}); choose another folder") from error
-
-
-def encode_panorama(light: NDArray[np.float32]) -> bytes:
-    """An EXR file of half floats, compressed with a loss that can't be seen.
-
-    Blender writes it: OpenCV's own encoder ends after the header with this compression, and says nothing.
-
-    Raises:
-        RenderError: Blender writes none.
-    """
-    rows, columns = light.shape[:2]
-    rgba = np.ones((rows, columns, 4), np.float32)
-    rgba[..., :3] = light[::-1]  # Blender's rows go up
-    image = bpy.data.images.new("panorama", columns, rows, alpha=False, float_buffer=True)
-    settings = bpy.context.scene.render.image_settings
-    settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGB", "16"
-    settings.exr_codec = "DWAA"
-    try:
-        image.pixels.foreach_set(rgba.ravel())
-        with tempfile.TemporaryDirectory(prefix="cable-farm-") as made:
-            target = Path(made) / PANORAMA_NAME
-            image.save_render(str(target), scene=bpy.context.scene)
-            if not target.is_file():
-                raise RenderError("Blender wrote no panorama; see the worker's log")
-            return read_bounded(target)
-    finally:
-        bpy.data.images.remove(image)

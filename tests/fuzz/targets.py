@@ -11,14 +11,12 @@ from functools import cache
 from io import BytesIO
 from pathlib import Path
 
-import cv2
 import numpy as np
 from PIL import Image
 
 from assets.fetch.registry import OWN_REGISTRY, read_registry
-from assets.scan.exr import check_exr
+from assets.scan.float_image import LARGEST_PIXELS, read_float_image
 from assets.scan.photographs import decode_plate
-from assets.scan.radiance import check_radiance
 from farm.dataset.completion import job_of_manifest, parse_manifest
 from farm.dataset.dataset import Dataset, Destination, create_dataset, open_dataset, parse_destination
 from farm.dataset.outputs import OUTPUTS
@@ -29,6 +27,7 @@ from farm.run.queue.wire import ENVELOPE_BYTES, checked_envelope, decode_json
 from farm.spec.job import Job, JobMessage
 from farm.spec.parse import describe, parse_quotas
 from farm.spec.quality import read_quality
+from tests.assets.scan.float_files import write_image
 from tests.stand_in import StandInRenderer, stand_in_header
 from worker.service.upload import upload
 
@@ -174,6 +173,35 @@ def _photograph(kind: str) -> bytes:
     return buffer.getvalue()
 
 
+def _float_image(suffix: str) -> Callable[[bytes], object]:
+    path = _folder() / f"fuzzed{suffix}"
+
+    def parse(data: bytes) -> None:
+        path.write_bytes(data)
+        pixels = read_float_image(path)
+        assert pixels.ndim == 3
+        assert pixels.shape[2] == 3
+        assert pixels.size <= 3 * LARGEST_PIXELS
+
+    return parse
+
+
+def _exr_files() -> tuple[bytes, ...]:
+    """One of each way in which pixels are packed."""
+    pixels = np.random.default_rng(0).random((6, 10, 3), np.float32)
+    kinds = [("zip", 0), ("none", 4), ("piz", 0), ("b44", 4), ("rle", 0), ("pxr24", 0), ("dwaa", 4)]
+    return tuple(
+        write_image(_folder() / "seed.exr", pixels, compression=compression, tile=tile).read_bytes()
+        for compression, tile in kinds
+    )
+
+
+def _radiance_files() -> tuple[bytes, ...]:
+    """With runs, and too narrow for them."""
+    pixels = np.random.default_rng(0).random((4, 10, 3), np.float32)
+    return tuple(write_image(_folder() / "seed.hdr", pixels[:, :width]).read_bytes() for width in (6, 10))
+
+
 def _registry_seed() -> bytes:
     """The farm's own registry up to its first asset."""
     return b"[[asset]]".join(OWN_REGISTRY.read_bytes().split(b"[[asset]]")[:2])
@@ -183,7 +211,6 @@ def targets() -> dict[str, Target]:
     """All targets by name."""
     dataset = _dataset()
     message = json.dumps(dataset.message(JOB).encode()).encode()
-    exr = cv2.imencode(".exr", np.zeros((4, 8, 3), np.float32))[1].tobytes()
     return {
         "job message": Target(_one_line(_message), (message,)),
         "envelope": Target(_one_line(_envelope), (_good_envelope(),)),
@@ -195,10 +222,8 @@ def targets() -> dict[str, Target]:
         "quotas": Target(_quotas, (b"far=2\nfar_aligned=3",)),
         "quality": Target(lambda data: read_quality(_text(data)), (b"draft", b"0.02")),
         "broker address": Target(_address, (b"rediss://:word@there:1/0?ssl_ca_certs=/a.pem", b"redis+socket:///a")),
-        "EXR structure": Target(lambda data: check_exr(Path("x.exr"), data), (exr,)),
+        "EXR": Target(_float_image(".exr"), _exr_files()),
         "photograph": Target(lambda data: decode_plate(Path("x"), data), (_photograph("JPEG"), _photograph("WEBP"))),
         "registry": Target(_one_line(_registry), (_registry_seed(),)),
-        "Radiance structure": Target(
-            lambda data: check_radiance(Path("x.hdr"), data), (b"#?RADIANCE\n\n-Y 4 +X 6\n" + bytes(96),)
-        ),
+        "Radiance": Target(_float_image(".hdr"), _radiance_files()),
     }

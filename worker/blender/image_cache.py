@@ -11,14 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assets.files import read_bounded
+from assets.scan.float_image import FLOAT_SUFFIXES, read_float_image
 from assets.scan.photographs import decode_plate
 from farm.errors import AssetError
-from worker.blender.pixels import rgb_of
 from worker.colour import Texels
 
 Pixels = NDArray[np.uint8] | NDArray[np.float32]
-
-_FLOAT_SUFFIXES = frozenset({".exr", ".hdr"})
 
 _IN_USE = 6
 """Images from files that one picture needs at most. The last six used stay, however large."""
@@ -78,14 +76,12 @@ class ImageCache:
         """An HDRI as (H, W, 3) linear light, the top row first; don't write to it.
 
         Raises:
-            AssetError: if Blender can't read it.
+            AssetError: if it can't be decoded.
         """
 
         def read() -> tuple[NDArray[np.float32], int]:
-            image = _load(path)
-            rgb = rgb_of(image)
-            bpy.data.images.remove(image)
-            return rgb, rgb.nbytes
+            pixels = read_float_image(path)
+            return pixels, pixels.nbytes
 
         light: NDArray[np.float32] = self._hold((str(path), "radiance"), read)
         return light
@@ -117,7 +113,7 @@ class ImageCache:
         Raises:
             AssetError: if it can't be read.
         """
-        if file.path.suffix.lower() in _FLOAT_SUFFIXES:
+        if file.path.suffix.lower() in FLOAT_SUFFIXES:
             return None
         texels: Texels | None = self._hold((str(file.path), file, reduced), lambda: _decode(file, reduced=reduced))
         return texels
@@ -131,7 +127,7 @@ class ImageCache:
 
         def read() -> tuple[Any, int]:
             image = _load(file.path)
-            if file.path.suffix.lower() not in _FLOAT_SUFFIXES:
+            if file.path.suffix.lower() not in FLOAT_SUFFIXES:
                 image.colorspace_settings.name = "sRGB" if file.colour else "Non-Color"
             if file.invert or file.flip_green:
                 pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)

@@ -9,14 +9,14 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from assets.scan.float_image import read_float_image
 from blend import names
-from farm.errors import RenderError
+from farm.errors import AssetError, RenderError
 from farm.scene.camera import Development
 from farm.spec.rendering import CyclesSettings, Denoiser, Pattern, PictureSettings
 from worker.backdrop.matte import Matte, lay_over
 from worker.blender.build_scene import BuiltScene
 from worker.blender.eevee import light_with_a_spot
-from worker.blender.pixels import rgb_of
 from worker.camera.develop import develop
 from worker.camera.distortion import Distortion
 from worker.camera.illuminant import NEUTRAL, illuminant
@@ -181,22 +181,15 @@ def _render_light(scene: Any, matte: Matte | None, folder: Path) -> NDArray[np.f
     finally:
         scene.render.film_transparent = False
         settings.file_format, settings.color_mode, settings.color_depth, settings.compression = "PNG", "RGB", "8", 0
-    light = _pixels(target)
+    try:
+        light = read_float_image(target)
+    except AssetError as error:
+        raise RenderError(_NOTHING_WRITTEN) from error
     if matte is None:
         return light
     if light.shape[:2] != matte.covered.shape:
         raise RenderError(_NOTHING_WRITTEN)
     return lay_over(light, matte)
-
-
-def _pixels(path: Path) -> NDArray[np.float32]:
-    image = bpy.data.images.load(str(path))
-    try:
-        if not image.size[0]:
-            raise RenderError(_NOTHING_WRITTEN)
-        return rgb_of(image)
-    finally:
-        bpy.data.images.remove(image)
 
 
 def _view(scene: Any, light: NDArray[np.float32], folder: Path) -> NDArray[np.uint8]:

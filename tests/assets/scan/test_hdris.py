@@ -1,7 +1,6 @@
 import importlib.util
 from pathlib import Path
 
-import cv2
 import numpy as np
 import numpy.typing as npt
 import pytest
@@ -17,6 +16,7 @@ from assets.scan.hdris import (
     world_directory,
 )
 from farm.errors import AssetError
+from tests.assets.scan.float_files import write_image
 
 needs_bpy = pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="bpy isn't installed")
 
@@ -24,8 +24,7 @@ needs_bpy = pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="
 def panorama(path: Path, pixels: npt.NDArray[np.float32] | None = None) -> Path:
     """Write a panorama, by default bright noise of 64 by 32 pixels."""
     shown = np.random.default_rng(0).random((32, 64, 3), np.float32) + 0.2 if pixels is None else pixels
-    cv2.imwrite(str(path), shown.astype(np.float32))
-    return path
+    return write_image(path, shown)
 
 
 @needs_bpy

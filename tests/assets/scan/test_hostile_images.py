@@ -8,8 +8,6 @@ import sys
 import zlib
 from pathlib import Path
 
-import cv2
-import numpy as np
 import pytest
 
 from assets.files import open_regular, read_bounded
@@ -18,6 +16,7 @@ from assets.scan.texture_names import TextureRole
 from assets.scan.textures import read_map, scan_textures
 from farm.errors import AssetError
 from farm.spec.header import FileRef
+from tests.assets.scan.float_files import exr_header
 from worker.blender.asset_files import checked
 
 SIZES = [(100_000, 100_000), (16_384, 16_384)]
@@ -34,15 +33,6 @@ def png(width: int, height: int) -> bytes:
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", pixels) + chunk(b"IEND", b"")
 
 
-def exr(folder: Path, width: int, height: int) -> bytes:
-    """An EXR whose header claims a size."""
-    path = folder / "small.exr"
-    cv2.imwrite(str(path), np.zeros((64, 128, 3), np.float32))
-    data = path.read_bytes().replace(struct.pack("<4i", 0, 0, 127, 63), struct.pack("<4i", 0, 0, width - 1, height - 1))
-    path.unlink()
-    return data
-
-
 def radiance(width: int, height: int) -> bytes:
     """A black Radiance file that holds what it claims, in runs: 16,384 pixels in a kilobyte."""
     runs = bytes([255, 1]) * (width // 127) + bytes([128 + width % 127, 1])
@@ -55,7 +45,7 @@ def radiance(width: int, height: int) -> bytes:
 def test_a_texture_that_claims_too_many_pixels_is_refused(tmp_path: Path, suffix: str, size: tuple[int, int]) -> None:
     """A texture is refused by the size in its header, and nothing of that size is allocated."""
     path = tmp_path / f"oak_color{suffix}"
-    path.write_bytes(png(*size) if suffix == ".png" else exr(tmp_path, *size))
+    path.write_bytes(png(*size) if suffix == ".png" else exr_header(*size))
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     with pytest.raises(AssetError, match="pixels"):
         scan_textures(tmp_path)

@@ -1,6 +1,5 @@
 from pathlib import Path
 
-import cv2
 import numpy as np
 import pytest
 from PIL import Image
@@ -9,6 +8,7 @@ from assets.files import sha256
 from assets.scan.texture_names import TextureRole
 from assets.scan.textures import read_map, scan_textures
 from farm.errors import AssetError
+from tests.assets.scan.float_files import write_image
 
 
 def picture(path: Path, size: tuple[int, int] = (32, 32)) -> Path:
@@ -44,7 +44,7 @@ def test_usual_formats_are_read(tmp_path: Path, suffix: str) -> None:
 def test_exr_maps_are_read(tmp_path: Path) -> None:
     """A height map in an EXR file is read."""
     picture(tmp_path / "oak_color.png")
-    cv2.imwrite(str(tmp_path / "oak_disp.exr"), np.full((32, 48), 0.5, np.float32))
+    write_image(tmp_path / "oak_disp.exr", np.full((32, 48, 1), 0.5, np.float32))
     found = scan_textures(tmp_path)[0].find(TextureRole.HEIGHT)
     assert found is not None
     assert (found.width, found.height) == (48, 32)

@@ -17,8 +17,7 @@ from assets.environments import (
     load_environment,
     missing_environments,
 )
-from assets.files import read_bounded
-from assets.scan.exr import decode_exr
+from assets.scan.float_image import read_float_image
 from assets.scan.hdris import mean_luminance, read_hdri
 from blend.environments import render as environments
 from blend.environments.assembly import Assembly
@@ -120,8 +119,7 @@ def test_a_panorama_can_light_a_scene(rendered: Path) -> None:
 def test_a_panorama_is_no_even_grey(rendered: Path) -> None:
     """A panorama has dark corners, bright lamps, and colours."""
     for name in ("storeroom_2", "yard_2"):
-        path = load_environment(rendered, name).path
-        light = decode_exr(path, read_bounded(path))
+        light = read_float_image(load_environment(rendered, name).path)
         assert light.shape == (PIXELS // 2, PIXELS, 3)
         luminance = light.mean(axis=2)
         assert np.percentile(luminance, 99) > 8 * np.percentile(luminance, 5)
@@ -216,7 +214,7 @@ def test_a_panorama_reads_back_as_written(tmp_path: Path) -> None:
     write_environment(tmp_path, ENVIRONMENTS["factory_1"], light)
     found = load_environment(tmp_path, "factory_1")
     assert found.record.kind is EnvironmentKind.FACTORY
-    back = decode_exr(found.path, read_bounded(found.path))
+    back = read_float_image(found.path)
     assert back == pytest.approx(light, rel=0.02, abs=0.005)
 
 

@@ -6,17 +6,18 @@ import cv2
 import numpy as np
 import pytest
 
+from tests.assets.scan.float_files import write_image
+
 pytestmark = pytest.mark.blender
 
 
 def test_pixels_for_a_picture_become_an_image() -> None:
     """Blender counts rows from below and levels from 0 to 1."""
     from worker.blender.image_cache import ImageCache  # noqa: PLC0415
-    from worker.blender.pixels import rgb_of  # noqa: PLC0415
 
     levels = np.arange(24, dtype=np.uint8).reshape(2, 4, 3)
     image = ImageCache().for_picture("levels", levels, colour=False)
-    assert np.allclose(rgb_of(image), levels / 255, atol=1e-6)
+    assert np.allclose(np.reshape(image.pixels, (2, 4, 4))[::-1, :, :3], levels / 255, atol=1e-6)
 
 
 def test_images_of_a_picture_go_with_it() -> None:
@@ -29,6 +30,19 @@ def test_images_of_a_picture_go_with_it() -> None:
     name = cache.for_picture("passing", np.zeros((2, 2), np.uint8), colour=True).name
     cache.begin_picture()
     assert name not in bpy.data.images
+
+
+def test_the_light_of_a_panorama_is_read_once(tmp_path: Path) -> None:
+    """The next picture gets the same array, though the file is gone."""
+    from worker.blender.image_cache import ImageCache  # noqa: PLC0415
+
+    light = np.random.default_rng(0).random((16, 32, 3), np.float32)
+    path = write_image(tmp_path / "hall.exr", light)
+    cache = ImageCache()
+    first = cache.radiance(path)
+    path.unlink()
+    assert np.array_equal(first, light)
+    assert cache.radiance(path) is first
 
 
 def test_glossiness_in_grey_becomes_roughness_all_over(tmp_path: Path) -> None:
