@@ -6,58 +6,17 @@ from typing import cast
 import redis
 
 from farm.run.ledger.port import CLAIM_S, RECENT_COMPLETIONS, RETRY_OWNER, Activity, images_per_hour
+from farm.run.lua import read_script
 from farm.run.queue.broker import as_broker_error
 from farm.spec.job import queue_key
 
 KEEP_S = 30 * 24 * 3600
-"""What nobody has written to for so long is forgotten, so that a shared Redis does not fill up."""
+"""Seconds after the last write until Redis forgets a dataset's keys, so that a shared Redis does not fill up."""
 
-_LONGEST_HOLD_S = max(3600.0, 2 * CLAIM_S)
-"""No claim is held for longer, so one that seems to be is of a clock that was set back since: it is void."""
+_LONGEST_CLAIM_S = max(3600.0, 2 * CLAIM_S)
+"""Longest time in seconds for which a claim is made. A claim that lapses later is void: the clock was set back."""
 
-# A claim is a member of a sorted set, scored with the time at which it lapses, and its owner in a hash beside it.
-# Scripts run whole: no other client sees a claim between its check and its change.
-_NOW = "local t = redis.call('TIME') local now = t[1] + t[2] / 1e6 "
-_OWNER = (
-    "local owner = false "
-    "local lapses = redis.call('ZSCORE', KEYS[1], ARGV[1]) "
-    f"if lapses and tonumber(lapses) > now and tonumber(lapses) < now + {_LONGEST_HOLD_S} then "
-    "owner = redis.call('HGET', KEYS[2], ARGV[1]) end "
-)
-_HOLD = (
-    "local function hold(who, seconds) "
-    "redis.call('ZADD', KEYS[1], string.format('%.6f', now + seconds), ARGV[1]) "
-    "redis.call('HSET', KEYS[2], ARGV[1], who) "
-    f"for _, key in ipairs(KEYS) do redis.call('EXPIRE', key, {KEEP_S}) end end "
-)
-_CLAIM = (
-    _NOW + _OWNER + _HOLD + f"if owner and owner ~= ARGV[2] and owner ~= '{RETRY_OWNER}' then return false end "
-    "local start = redis.call('HINCRBY', KEYS[3], ARGV[1], 1) hold(ARGV[2], ARGV[3]) return start"
-)
-# A lapsed claim that nobody has taken is still its owner's.
-_MINE = "if redis.call('HGET', KEYS[2], ARGV[1]) ~= ARGV[2] then return 0 end "
-_REFRESH = _NOW + _HOLD + _MINE + "hold(ARGV[2], ARGV[3]) return 1"
-_POSTPONE = (
-    _NOW + _HOLD + _MINE + f"hold('{RETRY_OWNER}', ARGV[3]) redis.call('HINCRBY', KEYS[3], ARGV[1], -1) return 1"
-)
-_RELEASE = (
-    _MINE + "redis.call('ZREM', KEYS[1], ARGV[1]) redis.call('HDEL', KEYS[2], ARGV[1]) "
-    "if ARGV[3] == '1' then redis.call('HINCRBY', KEYS[3], ARGV[1], -1) end return 1"
-)
-# Keys 4 to 8: troubles, logs, absences, finished, last.
-_FINISH = (
-    _NOW + _MINE + "redis.call('ZREM', KEYS[1], ARGV[1]) "
-    "for place = 2, 5 do redis.call('HDEL', KEYS[place], ARGV[1]) end "
-    "redis.call('DEL', KEYS[6]) "
-    "redis.call('LPUSH', KEYS[7], string.format('%.3f', now)) "
-    f"redis.call('LTRIM', KEYS[7], 0, {RECENT_COMPLETIONS - 1}) redis.call('EXPIRE', KEYS[7], {KEEP_S}) "
-    f"redis.call('SET', KEYS[8], ARGV[3], 'EX', {KEEP_S}) return 1"
-)
-_LEAD = (
-    "local leader = redis.call('GET', KEYS[1]) if leader and leader ~= ARGV[1] then return 0 end "
-    "redis.call('SET', KEYS[1], ARGV[1], 'PX', ARGV[2]) return 1"
-)
-_RESIGN = "if redis.call('GET', KEYS[1]) == ARGV[1] then redis.call('DEL', KEYS[1]) end return 1"
+_PACKAGE = "farm.run.ledger"
 
 
 class RedisLedger:
@@ -72,13 +31,13 @@ class RedisLedger:
     def __init__(self, client: "redis.Redis", dataset: str, spec_sha256: str) -> None:
         self._client = client
         self._prefix = f"farm:{queue_key(dataset, spec_sha256)}"
-        self._claim = client.register_script(_CLAIM)
-        self._refresh = client.register_script(_REFRESH)
-        self._postpone = client.register_script(_POSTPONE)
-        self._release = client.register_script(_RELEASE)
-        self._finish = client.register_script(_FINISH)
-        self._lead = client.register_script(_LEAD)
-        self._resign = client.register_script(_RESIGN)
+        self._claim = client.register_script(read_script(_PACKAGE, "claim"))
+        self._refresh = client.register_script(read_script(_PACKAGE, "refresh"))
+        self._postpone = client.register_script(read_script(_PACKAGE, "postpone"))
+        self._release = client.register_script(read_script(_PACKAGE, "release"))
+        self._finish = client.register_script(read_script(_PACKAGE, "finish"))
+        self._lead = client.register_script(read_script(_PACKAGE, "lead"))
+        self._resign = client.register_script(read_script(_PACKAGE, "resign"))
 
     def _key(self, name: str) -> str:
         return f"{self._prefix}:{name}"
@@ -94,12 +53,13 @@ class RedisLedger:
     def claim(self, job_id: str, owner: str, ttl_s: float = CLAIM_S) -> int | None:
         """See `Ledger.claim`."""
         with as_broker_error():
-            return cast(int | None, self._claim(keys=self._claim_keys, args=[job_id, owner, ttl_s]))
+            arguments: list[str | float] = [job_id, owner, ttl_s, RETRY_OWNER, _LONGEST_CLAIM_S, KEEP_S]
+            return cast(int | None, self._claim(keys=self._claim_keys, args=arguments))
 
     def refresh(self, job_id: str, owner: str, ttl_s: float = CLAIM_S) -> bool:
         """See `Ledger.refresh`."""
         with as_broker_error():
-            return bool(self._refresh(keys=self._claim_keys, args=[job_id, owner, ttl_s]))
+            return bool(self._refresh(keys=self._claim_keys, args=[job_id, owner, ttl_s, KEEP_S]))
 
     def release(self, job_id: str, owner: str) -> None:
         """See `Ledger.release`."""
@@ -130,13 +90,13 @@ class RedisLedger:
     def postpone(self, job_id: str, owner: str, delay_s: float) -> None:
         """See `Ledger.postpone`."""
         with as_broker_error():
-            self._postpone(keys=self._claim_keys, args=[job_id, owner, delay_s])
+            self._postpone(keys=self._claim_keys, args=[job_id, owner, delay_s, RETRY_OWNER, KEEP_S])
 
     def claims(self) -> Mapping[str, str]:
         """See `Ledger.claims`."""
         with as_broker_error():
             now = self._now()
-            until = f"({now + _LONGEST_HOLD_S:.6f}"
+            until = f"({now + _LONGEST_CLAIM_S:.6f}"
             live = cast(list[str], self._client.zrangebyscore(self._key("claims"), f"({now:.6f}", until))
             if not live:
                 return {}
@@ -146,8 +106,9 @@ class RedisLedger:
     def finish(self, job_id: str, owner: str, picture: str) -> bool:
         """See `Ledger.finish`."""
         more = [self._key(name) for name in ("troubles", "logs", "absences", "finished", "last")]
+        arguments: list[str | float] = [job_id, owner, picture, RECENT_COMPLETIONS, KEEP_S]
         with as_broker_error():
-            return bool(self._finish(keys=[*self._claim_keys, *more], args=[job_id, owner, picture]))
+            return bool(self._finish(keys=[*self._claim_keys, *more], args=arguments))
 
     def absences(self) -> int:
         """See `Ledger.absences`."""

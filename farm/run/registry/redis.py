@@ -6,6 +6,7 @@ from typing import cast
 import redis
 from pydantic import ValidationError
 
+from farm.run.lua import read_script
 from farm.run.queue.broker import as_broker_error
 from farm.run.registry.port import SEEN_S, Run, WorkerReport
 
@@ -14,27 +15,9 @@ _WORKERS = "farm:workers"
 _SEEN = "farm:workers:seen"
 _RUNS_SEEN = "farm:runs:seen"
 _KEEP_S = 30 * 24 * 3600
+"""Seconds after which a run that nobody puts up again is forgotten, so that a shared Redis does not fill up."""
 
-_PRUNE = (
-    "for _, old in ipairs(redis.call('ZRANGEBYSCORE', KEYS[2], '-inf', '(' .. (now - ARGV[3]))) do "
-    "redis.call('HDEL', KEYS[1], old) redis.call('ZREM', KEYS[2], old) end "
-)
-_NOW = "local t = redis.call('TIME') local now = tonumber(t[1]) "
-
-# A notice that nobody renews goes with the next that is put up.
-_PUT = (
-    _NOW + "local new = redis.call('HEXISTS', KEYS[1], ARGV[1]) == 0 "
-    "if new or ARGV[4] == '1' then redis.call('HSET', KEYS[1], ARGV[1], ARGV[2]) end "
-    "redis.call('ZADD', KEYS[2], now, ARGV[1]) " + _PRUNE + "if new then return 1 end return 0"
-)
-
-# A report that nobody renews goes with the next one of another worker.
-_REPORT = (
-    _NOW
-    + "redis.call('HSET', KEYS[1], ARGV[1], ARGV[2]) redis.call('ZADD', KEYS[2], now, ARGV[1]) "
-    + _PRUNE
-    + "return 1"
-)
+_PACKAGE = "farm.run.registry"
 
 
 class RedisRegistry:
@@ -46,8 +29,8 @@ class RedisRegistry:
 
     def __init__(self, client: "redis.Redis") -> None:
         self._client = client
-        self._report = client.register_script(_REPORT)
-        self._put = client.register_script(_PUT)
+        self._report = client.register_script(read_script(_PACKAGE, "report"))
+        self._put = client.register_script(read_script(_PACKAGE, "put"))
 
     def register(self, run: Run) -> Run:
         """See `RunRegistry.register`."""

@@ -1,0 +1,15 @@
+"""Lua scripts that Redis runs whole, each in a file beside the module that registers it."""
+
+from functools import cache
+from importlib.resources import files
+
+
+@cache
+def read_script(package: str, name: str) -> str:
+    """The text of a script; it is read once in a process.
+
+    Args:
+        package: dotted name of the package that holds the file.
+        name: the file's name without `.lua`. Comments at its top say what its keys, arguments and results are.
+    """
+    return files(package).joinpath(f"{name}.lua").read_text("utf-8")
