@@ -1,4 +1,4 @@
-"""Environments of our own, panoramas of rooms and yards rendered once on each machine: which, and where they lie."""
+"""The farm's own environments: panoramas of rooms and yards, each rendered once on each machine."""
 
 import zlib
 from collections.abc import Mapping
@@ -18,15 +18,16 @@ PANORAMA_NAME = "panorama.exr"
 
 SMALLEST_WIDTH, LARGEST_WIDTH = 64, 8192
 DEFAULT_WIDTH = 4096
-"""Pixels around the horizon: a far picture, 40 degrees wide, shows 455 of them."""
+"""Pixels around the horizon. A far picture is 40 degrees wide and shows 455 of them."""
 
 TARGET_LUMINANCE = 0.3
-"""Mean over the sphere to which a panorama is scaled; Blender's own HDRIs of the day have 0.5 to 0.94.
+"""Mean luminance over the sphere to which a panorama is scaled, scene-linear. Blender's HDRIs of the day have 0.5 to
+0.94.
 
-At 0.4 far pictures of the published style came out brighter than any published one."""
+At 0.4, far pictures of the published style are brighter than any published one."""
 
 BRIGHTEST = 50.0
-"""Light above this is clipped: lamps, and the sun's reflections."""
+"""Scene-linear value above which light is clipped. Only lamps and reflections of the sun are brighter."""
 
 
 class EnvironmentKind(StrEnum):
@@ -104,17 +105,17 @@ ENVIRONMENTS: Mapping[str, EnvironmentRecipe] = MappingProxyType(
         for seed in (1, 2)
     }
 )
-"""All of them, by name."""
+"""All recipes, by name."""
 
 
 _STREAM = 1
-"""Part of every recipe's seed; another number makes other rooms of all of them."""
+"""Part of every recipe's seed. Another number makes another room of every recipe."""
 
 
 def environment_generator(recipe: EnvironmentRecipe) -> np.random.Generator:
-    """The random generator that a recipe is built with: it follows from its kind and seed alone.
+    """The random generator that a recipe is built with. It depends on the recipe's kind and seed alone.
 
-    A version of it keeps the room that the one before had, but for what was changed.
+    So a new version keeps the room of the version before, apart from what was changed.
     """
     return np.random.default_rng([zlib.crc32(recipe.kind.encode()), recipe.seed, _STREAM])
 
@@ -165,7 +166,7 @@ def read_record(path: Path) -> EnvironmentRecord:
     """Read an `environment.json`.
 
     Raises:
-        AssetError: It can't be read or says what it must not.
+        AssetError: It can't be read, or isn't a valid record.
     """
     try:
         return EnvironmentRecord.model_validate_json(read_bounded(path))
@@ -177,7 +178,7 @@ def read_record(path: Path) -> EnvironmentRecord:
 
 
 def chosen_environments(names: tuple[str, ...] | None) -> tuple[EnvironmentRecipe, ...]:
-    """The recipes of some names, all of them for None, in the registry's order.
+    """The recipes with these names, or all recipes for None, in the registry's order.
 
     Raises:
         AssetError: A name is unknown.
@@ -197,8 +198,8 @@ def missing_environments(
 
     Args:
         folder: The folder of the baked surfaces.
-        pixels: Width that they must have; None if any will do.
-        names: Which to look for; None for all.
+        pixels: Width in pixels that the panoramas must have; None to accept any.
+        names: Names to look for; None for all.
 
     Raises:
         AssetError: A name is unknown.

@@ -34,7 +34,7 @@ LARGEST_CHANNELS = 16
 LARGEST_HEADER = 2**18
 """Bytes of an EXR header above which a file is refused: parsing time grows with the square of a header's length.
 
-Real ones have about 1 KB, or 130 KB with a preview."""
+Headers of panoramas have about 1 KB."""
 
 DWAA_LEVEL = 45
 """Strength of the lossy compression that `write_float_image` asks for, which nobody sees. It is OpenEXR's default."""

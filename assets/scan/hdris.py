@@ -17,12 +17,12 @@ from farm.errors import AssetError
 REGISTRY_PATH = Path(__file__).with_name("hdris.toml")
 
 DARK_BELOW = 0.25
-"""Mean luminance below which surroundings count as dark. In scene-linear units, where a white sheet in full
-light is about 1; seen from a point, weighted by solid angle. Blender's night has 0.17, its sunset 0.49."""
+"""Mean luminance over the sphere below which surroundings count as dark, scene-linear: a white sheet in full light has
+about 1. Blender's night has 0.17, its sunset 0.49."""
 
 BACKDROP_ABOVE = 0.02
-"""Luminance of the horizon, as `horizon_luminance` has it, above which surroundings can be seen behind cables.
-Blender's night has 0.04; its studio, lamps in a black room, has 0.007 and would give black pictures."""
+"""Result of `horizon_luminance` above which surroundings can stand behind cables, scene-linear. Blender's night has
+0.04; its studio, a black room with lamps, has 0.007 and would give black pictures."""
 
 NEGATIVE_TOLERANCE = 0.05
 """Largest distance of a value below 0, relative to the mean luminance: lossy compression rings round bright lamps."""
@@ -39,8 +39,8 @@ class Hdri(BaseModel):
         path: The file.
         sha256: Its checksum.
         dark: Whether its mean luminance is below `DARK_BELOW`.
-        backdrop: Whether it can be seen behind cables: its horizon is brighter than `BACKDROP_ABOVE`.
-        mean_luminance: Mean over the sphere, scene-linear.
+        backdrop: Whether it can stand behind cables: its horizon is brighter than `BACKDROP_ABOVE`.
+        mean_luminance: Mean luminance over the sphere, scene-linear.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -65,8 +65,8 @@ class RegistryEntry(BaseModel):
         source: Page of the original.
         source_certain: False where Blender's own note says "probably".
         dark: Whether its mean luminance is below `DARK_BELOW`.
-        backdrop: Whether it can be seen behind cables: its horizon is brighter than `BACKDROP_ABOVE`.
-        mean_luminance: Mean over the sphere, scene-linear.
+        backdrop: Whether it can stand behind cables: its horizon is brighter than `BACKDROP_ABOVE`.
+        mean_luminance: Mean luminance over the sphere, scene-linear.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")

@@ -16,7 +16,7 @@ from farm.errors import AssetError
 SUFFIXES = frozenset({".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp", ".bmp", ".exr"})
 FORMATS = ("JPEG", "PNG", "TIFF", "WEBP", "BMP")
 SMALLEST_EDGE, LARGEST_EDGE = 16, 16384
-"""Pixels along an edge. Pillow besides refuses more than about 179 million pixels in all."""
+"""Pixels along an edge that are accepted. Pillow also refuses images of more than about 179 million pixels."""
 
 ENDINGS = "'_color', '_normal', '_rough', '_metal', '_ao' or '_height'"
 

@@ -97,7 +97,7 @@ def render_panorama(recipe: EnvironmentRecipe, pixels: int, device: DeviceChoice
     whole = _render(scene, pixels // COARSER, 0, pixels // COARSER // 2)
     light = cv2.resize(whole, (pixels, rows), interpolation=cv2.INTER_LINEAR).astype(np.float32, copy=False)
     band = _render(scene, pixels, above, rows - above)
-    # Near its edges it gives way to the coarse one little by little.
+    # Near its edges the band gives way to the coarse render little by little.
     inside = np.arange(len(band)) + 0.5
     share = np.clip(np.minimum(inside, len(band) - inside) / (FADE_DEG / 180 * rows), 0.0, 1.0).astype(np.float32)
     part = light[above : rows - above]
@@ -193,7 +193,7 @@ def normalised(light: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def write_environment(folder: Path, recipe: EnvironmentRecipe, light: NDArray[np.float32]) -> None:
-    """Write a panorama and, last, its record: without that it counts as not rendered.
+    """Write a panorama, and its record last: without a record it counts as not rendered.
 
     Raises:
         AssetError: The folder can't be written.

@@ -1,1 +1,1 @@
-"""The ledger: who works on what, what failed and how fast it goes. Hints only: the dataset's folder is the truth."""
+"""The ledger: who works on what, what failed, how fast it goes. These are hints; the dataset's folder is the truth."""

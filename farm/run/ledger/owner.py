@@ -14,7 +14,7 @@ def this_process() -> str:
 
 
 def is_gone(owner: str) -> bool:
-    """Whether the owner is a process of this machine that has ended. Of others nothing can be said: False."""
+    """Whether the owner is a process of this machine that has ended. It is False for processes of other machines."""
     machine, _, number = owner.rpartition(":")
     if machine != machine_name() or not number.isdecimal():
         return False
@@ -29,7 +29,7 @@ def _lives(process_id: int) -> bool:
     except PermissionError:
         return True
     try:
-        # A zombie answers signals though it has ended; its state follows the name in brackets.
+        # A zombie answers signals although it has ended. Its state follows the name in brackets.
         state = Path(f"/proc/{process_id}/stat").read_text().rpartition(")")[2].split()[0]
     except OSError:
         return True
@@ -37,7 +37,7 @@ def _lives(process_id: int) -> bool:
 
 
 def live_claims(ledger: Ledger) -> Mapping[str, str]:
-    """The claims but for those of ended processes, which are released on the way; jobs that wait for a retry count."""
+    """The claims of living processes and of jobs that wait for a retry; claims of ended processes are released."""
     living = {}
     for job_id, owner in ledger.claims().items():
         if is_gone(owner):

@@ -9,7 +9,7 @@ from farm.model import Model
 CLAIM_VARIABLE = "FARM_CLAIM_S"
 
 CLAIM_S = float(os.environ.get(CLAIM_VARIABLE, "60"))
-"""A claim that is not refreshed for this long is void, in seconds. All processes of a farm must agree on it."""
+"""Seconds after which a claim that is not refreshed is void. All processes of a farm must have the same value."""
 
 RECENT_COMPLETIONS = 200
 """Largest number of finished pictures, the latest ones, from which the rate is estimated."""
@@ -21,15 +21,15 @@ MAX_ABSENCES = 6
 """Largest number of workers in a row that may end since their store lacks a dataset; one more ends its run."""
 
 RETRY_OWNER = ""
-"""Holds a job that waits for its next attempt; anyone may take it over."""
+"""Owner's name of a job that waits for its next attempt. Any worker may take the job over."""
 
 
 class Activity(Model):
     """How the work goes.
 
     Attributes:
-        images_per_hour: over the recent completions; None before the first two.
-        last_picture: path of the newest picture below the dataset's folder.
+        images_per_hour: rate over the recent completions; None before the first two.
+        last_picture: path of the newest picture below the dataset's folder; None before the first.
     """
 
     images_per_hour: float | None
@@ -48,11 +48,11 @@ class Ledger(Protocol):
         ...
 
     def refresh(self, job_id: str, owner: str, ttl_s: float = CLAIM_S) -> bool:
-        """Hold a claim for another `ttl_s` seconds, even a lapsed one that nobody took; False if it is another's."""
+        """Hold a claim for `ttl_s` more seconds, even a lapsed one that nobody took; False if it is another owner's."""
         ...
 
     def release(self, job_id: str, owner: str) -> None:
-        """Give a claim up, if it is the owner's or was the last to be; a clock that is set back does not revive it."""
+        """Give a claim up if it is the owner's, even a lapsed one: a clock that is set back must not revive it."""
         ...
 
     def give_back(self, job_id: str, owner: str) -> None:
@@ -60,9 +60,9 @@ class Ledger(Protocol):
         ...
 
     def postpone(self, job_id: str, owner: str, delay_s: float) -> None:
-        """Turn the owner's claim into one that anyone may take over, and that lapses after `delay_s` seconds.
+        """Turn the owner's claim into one that any worker may take over, and that lapses after `delay_s` seconds.
 
-        Its start is not counted: how it ended is known, and counted as a trouble.
+        The start is no longer counted: its end is known, and `count_trouble` has counted it.
         """
         ...
 
@@ -74,36 +74,36 @@ class Ledger(Protocol):
         """Note a finished job and its picture, forget its starts and troubles, and release its claim.
 
         Returns:
-            False if the claim is no longer the owner's: then nothing is noted, as another will.
+            False if the claim is no longer the owner's: then nothing is noted, as its new owner will note it.
         """
         ...
 
     def count_trouble(self, job_id: str) -> int:
-        """Count a failure that may pass; returns how many there were."""
+        """Count a failure that may pass; returns the job's failures so far."""
         ...
 
     def count_absence(self) -> int:
-        """Count a worker whose store lacks the dataset; returns how many since a job was last done, or forgiven."""
+        """Count a worker whose store lacks the dataset; returns the count since a job was last finished or forgiven."""
         ...
 
     def absences(self) -> int:
-        """What `count_absence` has counted."""
+        """The count that `count_absence` keeps."""
         ...
 
     def keep_log(self, job_id: str, text: str) -> None:
-        """Keep what a job printed before its process ended, for whoever gives it up."""
+        """Keep what a job printed before its process ended, for the report on the job if it is given up."""
         ...
 
     def log_of(self, job_id: str) -> str:
-        """What `keep_log` kept last; empty if nothing."""
+        """The text that `keep_log` kept last for a job; empty if there is none."""
         ...
 
     def forgive(self, job_ids: Iterable[str]) -> None:
-        """Forget all that was counted of some jobs, and the absences."""
+        """Forget the starts, troubles and logs of some jobs, and the absences."""
         ...
 
     def lead(self, owner: str, ttl_s: float) -> bool:
-        """Become, or stay for another `ttl_s` seconds, the one who queues this dataset's jobs; False if another is."""
+        """Become the owner that queues this dataset's jobs, or stay it for `ttl_s` seconds; False if another is."""
         ...
 
     def leader(self) -> str | None:
@@ -111,11 +111,11 @@ class Ledger(Protocol):
         ...
 
     def resign(self, owner: str) -> None:
-        """Stop being the one who queues, if it is the owner."""
+        """Stop queueing this dataset's jobs, if the owner does."""
         ...
 
     def add_figures(self, figures: Mapping[str, float]) -> None:
-        """Add to the running totals that metrics show, by name."""
+        """Add to the running totals, by name, that metrics show."""
         ...
 
     def figures(self) -> Mapping[str, float]:

@@ -1,4 +1,4 @@
-"""The broker's address, and a direct line to it."""
+"""The broker's address, and a Redis client for it."""
 
 import os
 import time
@@ -16,18 +16,18 @@ from farm.errors import BrokerError
 DEFAULT_BROKER_URL = "redis://localhost:6379/0"
 BROKER_VARIABLE = "FARM_BROKER_URL"
 BROKER_FILE_VARIABLE = "FARM_BROKER_URL_FILE"
-"""Names a file that holds the address, as container secrets come."""
+"""Variable that names a file with the address: containers get their secrets as files."""
 
 _CONNECT_S = 2.0
 _ANSWER_S = 10.0
 _KINDS = ("redis", "rediss", "redis+socket")
 
 _TLS_OPTIONS = frozenset({"ssl_ca_certs", "ssl_certfile", "ssl_keyfile"})
-"""What an address may say of TLS, besides the one value of `ssl_cert_reqs`."""
+"""Options of TLS that an address may have, besides `ssl_cert_reqs`, which has one value."""
 
 
 def broker_url(given: str | None) -> str:
-    """The address given, else that of the environment, else that in the file which the environment names, else ours.
+    """The given address, or that of the environment, of the file that the environment names, or `DEFAULT_BROKER_URL`.
 
     Celery takes `rediss://` without options for TLS with any certificate, so the check is always spelt out here.
 
@@ -78,9 +78,9 @@ def _with_certificate_check(url: str, kind: str) -> str:
 
 
 def masked(url: str) -> str:
-    """The address without what may be a password, for messages: all before the last `@`, and the query.
+    """The address for messages: without the part before the last `@` and without the query, which may hold passwords.
 
-    It is not parsed, as a password may hold any sign, and an address that can't be parsed must not be shown whole.
+    It is not parsed: a password may hold any sign, and an address that can't be parsed must not be shown whole.
     """
     kind, separator, rest = url.partition("://")
     if not separator:
@@ -91,7 +91,7 @@ def masked(url: str) -> str:
 
 
 def connect(url: str) -> "redis.Redis":
-    """A client of a Redis that has answered. Whether it does is told within seconds, as people wait for it.
+    """A client of a Redis that has answered. A Redis that is not there is reported within seconds, as people wait.
 
     Raises:
         BrokerError: if Redis is not there or refuses.
@@ -109,7 +109,7 @@ def connect(url: str) -> "redis.Redis":
             decode_responses=True,
             socket_connect_timeout=_CONNECT_S,
             socket_timeout=_ANSWER_S,
-            # Once more, as a connection may have been lost since it was last used; who calls knows how to wait.
+            # One retry, as a connection may have been lost since its last use. Callers know how long to wait.
             retry=Retry(NoBackoff(), 1),
         )
     except ValueError:
@@ -126,7 +126,7 @@ def connect(url: str) -> "redis.Redis":
 
 @contextmanager
 def as_broker_error() -> Iterator[None]:
-    """Tell what a client raises inside `with` as the farm's own error.
+    """Turn what a client raises inside `with` into the farm's own error.
 
     Raises:
         BrokerError: if Redis refuses, or went away.
@@ -141,7 +141,7 @@ def wait_for(url: str, patience_s: float) -> None:
     """Wait until a Redis answers.
 
     Raises:
-        BrokerError: if it does not within `patience_s` seconds; it is asked once at least.
+        BrokerError: if it does not answer within `patience_s` seconds; it is asked at least once.
     """
     give_up_s = time.monotonic() + patience_s
     while True:

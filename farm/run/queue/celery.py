@@ -16,7 +16,7 @@ from farm.spec.job import Job, JobMessage
 _PAGE = 500
 _BATCH = 500
 _PRIORITY_MARK = "\x06\x16"
-"""Between a queue's name and its priority in the name of its list; kombu's own, as the list without it is of step 0."""
+"""What kombu puts between a queue's name and its priority in the name of a list. The list of step 0 has neither."""
 
 
 class CeleryQueue:
@@ -32,7 +32,7 @@ class CeleryQueue:
         self._client = client
 
     def submit(self, run: Run, messages: Iterable[JobMessage]) -> int:
-        """See `JobQueue.submit`. A batch goes to Redis in one go; one that is cut off counts as not queued."""
+        """See `JobQueue.submit`. A batch goes to Redis whole; a batch that is cut off counts as not queued."""
         count = 0
         try:
             with self._app.producer_pool.acquire(block=True) as producer, producer.batch(max_size=_BATCH):

@@ -8,14 +8,14 @@ from farm.spec.job import Job, JobMessage
 
 
 class JobQueue(Protocol):
-    """Jobs that wait for a worker, those of each run apart. Every method may raise BrokerError."""
+    """Jobs that wait for a worker, in a queue for each run. Every method may raise BrokerError."""
 
     def submit(self, run: Run, messages: Iterable[JobMessage]) -> int:
-        """Queue the messages, taking them one by one; returns how many."""
+        """Queue the messages, taking them one by one; returns their number."""
         ...
 
     def length(self, run: Run) -> int:
-        """Messages of a run that wait."""
+        """The number of a run's messages that wait."""
         ...
 
     def queued(self, run: Run) -> Iterable[Job]:
@@ -23,5 +23,5 @@ class JobQueue(Protocol):
         ...
 
     def clear(self, run: Run) -> int:
-        """Remove all messages of a run; returns how many."""
+        """Remove all messages of a run; returns their number."""
         ...

@@ -11,13 +11,13 @@ from farm.run.worker_settings import HARD_LIMIT_S, MEMORY_PER_CHILD_KIB, TASKS_P
 TASK_NAME = "farm.render_image"
 
 QUEUE = "farm"
-"""Every worker listens here. Jobs wait in queues of their runs, which a worker joins as they come up on the board."""
+"""The queue that every worker listens to. Each run has a queue of its own, which workers join as it is registered."""
 
 SOFT_LIMIT_S = 25 * 60
-"""Seconds after which a job that can be told to stop is told, under the longest hard limit."""
+"""Seconds after which a job is asked to stop, if it can be asked: less than the longest hard limit."""
 
 VISIBILITY_S = 2 * 3600
-"""Redis gives an unacknowledged message to another worker after this long: well over the hard limit."""
+"""Seconds after which Redis gives an unacknowledged message to another worker: well over the hard limit."""
 
 
 def queue_name(run_key: str) -> str:
@@ -58,7 +58,7 @@ def make_app(broker_url: str) -> Any:
         task_default_priority=Priority.NORMAL.step,
         worker_max_tasks_per_child=TASKS_PER_CHILD,
         worker_max_memory_per_child=MEMORY_PER_CHILD_KIB,
-        # What Flower shows.
+        # Flower shows these events.
         worker_send_task_events=True,
         # An event for each submitted job would double what a submission costs.
         task_send_sent_event=False,

@@ -23,13 +23,13 @@ from farm.errors import MessageError
 from farm.run.queue.settings import TASK_NAME
 
 BODY_BYTES = 64 * 1024
-"""A farm's message has about 300."""
+"""Bytes of a message's body above which it is dropped. A farm's message has about 300."""
 
 ENVELOPE_BYTES = 2 * BODY_BYTES
-"""With the headers, and the body in base64."""
+"""Bytes of a whole message, with its headers and its body in base64, above which it is dropped."""
 
 NESTING = 16
-"""Brackets within brackets; a farm's message has 4."""
+"""Depth of nested brackets above which a message is dropped. A farm's message has 4."""
 
 _RESTORED_BYTES = 8 * ENVELOPE_BYTES  # beside its message it holds the queue's name, and escapes may have been added
 
@@ -39,11 +39,11 @@ log = logging.getLogger(__name__)
 
 
 def decode_json(data: str | bytes | bytearray | memoryview, limit: int = BODY_BYTES) -> Any:
-    """Parse JSON that may come from anybody; its size and nesting are looked at first.
+    """Parse JSON that may come from anybody; its size and nesting are checked first.
 
     Args:
-        data: as received.
-        limit: bytes above which it is not parsed.
+        data: the text as received.
+        limit: bytes above which the text is not parsed.
 
     Raises:
         MessageError: if it is too large or too deep, holds a key twice or a number that is none, or is no JSON.
@@ -79,13 +79,13 @@ def _no_number(name: str) -> None:
 
 
 _Id = Annotated[str, Field(pattern=r"^[!-~]{1,250}$")]
-"""Without spaces and line breaks: it is shown in logs."""
+"""An id without spaces and line breaks, as logs show it."""
 
 _Shown = Annotated[str, Field(max_length=250, pattern=r"^[ -~]*$")]
 
 
 class _Part(BaseModel):
-    """A part of an envelope; Celery adds much that no farm needs, which is left out of what goes on."""
+    """A part of an envelope. Celery adds much that no farm needs; only the known parts are handed on."""
 
     model_config = ConfigDict(extra="ignore", strict=True, allow_inf_nan=False)
 
@@ -145,7 +145,7 @@ def checked_envelope(message: object) -> dict[str, Any]:
         message: the envelope, parsed.
 
     Returns:
-        The same with known parts alone.
+        The envelope with its known parts alone.
 
     Raises:
         MessageError: if it is not a plain call of the farm's task.
@@ -261,7 +261,7 @@ def keep_only_task(app: Any) -> None:
     """Take Celery's built-in tasks (`celery.group`, `celery.chord`, ...) away, so that no message can call them.
 
     Args:
-        app: with the farm's task registered.
+        app: the Celery application, with the farm's task registered.
     """
     app.finalize()
     for name in set(app.tasks) - {TASK_NAME}:

@@ -1,4 +1,4 @@
-"""What is on the board, and what every board offers."""
+"""What the run registry holds, and what every registry offers."""
 
 from collections.abc import Mapping
 from enum import IntEnum, StrEnum
@@ -10,7 +10,7 @@ from farm.model import Model, Sha256
 from farm.spec.job import DatasetName, queue_key
 
 SEEN_S = 30.0
-"""A worker that has not reported for so long is gone, in seconds."""
+"""Seconds after which a worker that has not reported is gone. Workers report every second."""
 
 
 class RunState(StrEnum):
@@ -22,7 +22,7 @@ class RunState(StrEnum):
 
 
 class Priority(StrEnum):
-    """Workers take from a run of higher priority as long as it has jobs; runs of one priority take turns."""
+    """Workers take from the run of the highest priority as long as it has jobs; runs of one priority take turns."""
 
     HIGH = "high"
     NORMAL = "normal"
@@ -67,14 +67,15 @@ class WorkerState(StrEnum):
 
 
 class WorkerReport(Model):
-    """What a worker tells of itself every second.
+    """What a worker reports of itself every second.
 
     Attributes:
         name: `NAME@HOST`, as Flower shows it.
-        reason: why it is held back; empty otherwise.
-        jobs: what it works on.
-        done: jobs it has finished since it started.
-        rss_bytes: memory of its renderers.
+        state: what the worker does.
+        reason: why the worker is held back; empty otherwise.
+        jobs: ids of the jobs that it works on.
+        done: number of jobs that it has finished since it started.
+        rss_bytes: resident memory of its renderers in bytes.
     """
 
     name: Annotated[str, Field(max_length=300)]
@@ -89,11 +90,11 @@ class RunRegistry(Protocol):
     """Every method may raise BrokerError."""
 
     def register(self, run: Run) -> Run:
-        """Put a run up unless it is there; returns the one that is."""
+        """Put a run up unless one with its key is there; returns the one that is there."""
         ...
 
     def replace(self, run: Run) -> None:
-        """Put a run up in place of its former notice."""
+        """Put a run up in place of the one with its key."""
         ...
 
     def remove(self, key: str) -> None:

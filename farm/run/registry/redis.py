@@ -1,4 +1,4 @@
-"""The board in Redis. What is not written by this version of the farm is passed over."""
+"""The run registry in Redis. Entries that this version of the farm can't read are passed over."""
 
 from collections.abc import Mapping
 from typing import cast
