@@ -9,7 +9,8 @@ import fsspec
 import pytest
 import redis
 
-from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.local.redis_server import find_redis_server, private_redis
 from farm.run.queue.broker import connect
 from farm.spec.header import DatasetHeader

@@ -10,7 +10,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from farm.dataset.completion import Completion
-from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.local.processes import stop
 from farm.run.coordinator import Coordinator
 from farm.run.handle import open_handle

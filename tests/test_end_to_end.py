@@ -12,7 +12,8 @@ import cv2
 import numpy as np
 import pytest
 
-from farm.dataset.dataset import open_dataset, parse_destination
+from farm.dataset.dataset import open_dataset
+from farm.dataset.destination import parse_destination
 from farm.dataset.outputs import OUTPUTS
 from farm.dataset.paths import file_path
 from farm.dataset.verify import verify

@@ -14,7 +14,8 @@ from benchmarks.pictures.report import coverage_table, figures_table, promises_t
 from benchmarks.pictures.survey import Distribution, MeasuredPicture, distribution, groups, summarize, survey
 from benchmarks.terminal import bench_console
 from farm.dataset.contact_sheet import make_contact_sheet
-from farm.dataset.dataset import Dataset, open_dataset, parse_destination
+from farm.dataset.dataset import Dataset, open_dataset
+from farm.dataset.destination import parse_destination
 from farm.errors import SpecError, VerificationError
 from farm.spec.category import Category
 

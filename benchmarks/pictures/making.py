@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.farm.play import run_to_end
-from farm.dataset.dataset import Dataset, open_dataset, parse_destination
+from farm.dataset.dataset import Dataset, open_dataset
+from farm.dataset.destination import parse_destination
 
 STYLES = ("published", "wide")
 """Styles that are measured unless the command line says otherwise."""

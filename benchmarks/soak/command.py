@@ -10,7 +10,8 @@ from benchmarks.soak.growth import Sample
 from benchmarks.soak.report import soak_table, write_json, write_plot
 from benchmarks.terminal import bench_console
 from farm.cli.installed_assets import InstalledAssets
-from farm.dataset.dataset import Destination, create_dataset
+from farm.dataset.dataset import create_dataset
+from farm.dataset.destination import Destination
 from farm.dataset.verify import verify
 from farm.errors import VerificationError
 from farm.local.redis_server import PrivateRedis

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from benchmarks.pictures.making import STYLES, NamedDataset, make
 from benchmarks.training.examples import Examples, examples_of, photographs_in
-from farm.dataset.dataset import open_dataset, parse_destination
+from farm.dataset.dataset import open_dataset
+from farm.dataset.destination import parse_destination
 from farm.errors import SpecError
 
 PHOTOGRAPHS = "photographs"

@@ -14,7 +14,8 @@ from benchmarks.whole.plan import Plan
 from benchmarks.whole.report import Findings, tables, write_json
 from benchmarks.whole.slow import Comparison
 from benchmarks.whole.standard import make_standard, start_up_s
-from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.errors import SpecError
 from farm.spec.job import Job
 

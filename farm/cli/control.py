@@ -6,7 +6,8 @@ import typer
 
 from farm.cli.connection import handle_of
 from farm.cli.options import Broker, DatasetPlace
-from farm.dataset.dataset import open_dataset, parse_destination
+from farm.dataset.dataset import open_dataset
+from farm.dataset.destination import parse_destination
 from farm.errors import ConflictError
 from farm.run.progress import RunHandle
 from farm.run.registry.port import Priority, RunState

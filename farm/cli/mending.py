@@ -7,7 +7,8 @@ import typer
 
 from farm.cli.connection import handle_if_reachable, handle_of
 from farm.cli.options import Broker, DatasetPlace
-from farm.dataset.dataset import Dataset, open_dataset, parse_destination
+from farm.dataset.dataset import Dataset, open_dataset
+from farm.dataset.destination import parse_destination
 from farm.dataset.paths import manifest_path
 from farm.dataset.quarantine import Quarantine
 from farm.dataset.verify import damaged_jobs

@@ -11,7 +11,8 @@ import redis
 import typer
 
 from farm.cli.options import Broker
-from farm.dataset.dataset import Dataset, Destination, open_dataset, parse_destination
+from farm.dataset.dataset import Dataset, open_dataset
+from farm.dataset.destination import Destination, parse_destination
 from farm.errors import ConflictError, DestinationError, MachineError, SpecError
 from farm.run.handle import open_handle
 from farm.run.progress import RunHandle

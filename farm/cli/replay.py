@@ -9,7 +9,8 @@ from farm.cli.baking import bake_for
 from farm.cli.display import console
 from farm.cli.options import Assets, DatasetPlace, Device, Logs, log_folder
 from farm.cli.worker_program import ask_worker, require_blender
-from farm.dataset.dataset import open_dataset, parse_destination
+from farm.dataset.dataset import open_dataset
+from farm.dataset.destination import parse_destination
 from farm.errors import DestinationError, SpecError
 from farm.run.worker_settings import DeviceChoice, RendererSettings
 from farm.spec.job import Job

@@ -7,7 +7,8 @@ import typer
 
 from farm.cli.options import DatasetPlace
 from farm.dataset.contact_sheet import make_contact_sheet
-from farm.dataset.dataset import open_dataset, parse_destination
+from farm.dataset.dataset import open_dataset
+from farm.dataset.destination import parse_destination
 from farm.dataset.index import write_index
 from farm.dataset.paths import INDEX_FILE, REPORT_FILE
 from farm.dataset.report import write_report

@@ -18,7 +18,8 @@ from farm.cli.options import (
     takes_dataset_options,
 )
 from farm.cli.worker_program import ask_worker, check_device, require_blender
-from farm.dataset.dataset import find_dataset, open_dataset, parse_destination
+from farm.dataset.dataset import find_dataset, open_dataset
+from farm.dataset.destination import parse_destination
 from farm.dataset.paths import REPORT_FILE
 from farm.dataset.report import write_overview
 from farm.errors import IncompleteError

@@ -6,7 +6,8 @@ from farm.cli.connection import handle_if_reachable, handle_of
 from farm.cli.display import ProgressDisplay, console, duration, table
 from farm.cli.options import AsJson, Broker, DatasetPlace
 from farm.dataset.completion import Completion
-from farm.dataset.dataset import Dataset, open_dataset, parse_destination
+from farm.dataset.dataset import Dataset, open_dataset
+from farm.dataset.destination import parse_destination
 from farm.dataset.quarantine import Quarantine
 from farm.dataset.report import write_overview
 from farm.errors import IncompleteError

@@ -10,7 +10,8 @@ from farm.cli.installed_assets import InstalledAssets
 from farm.cli.options import Broker, DatasetOptions, Logs, Out, log_folder, takes_dataset_options
 from farm.cli.status import watch_to_the_end
 from farm.cli.worker_program import ask_worker, blender_is_installed
-from farm.dataset.dataset import create_dataset, parse_destination
+from farm.dataset.dataset import create_dataset
+from farm.dataset.destination import parse_destination
 from farm.run.coordinator import Coordinator
 from farm.run.queue.broker import broker_url, connect
 from farm.run.registry.port import Priority

@@ -7,7 +7,8 @@ from rich.progress import Progress
 
 from farm.cli.display import console
 from farm.cli.options import AsJson, DatasetPlace
-from farm.dataset.dataset import open_dataset, parse_destination
+from farm.dataset.dataset import open_dataset
+from farm.dataset.destination import parse_destination
 from farm.dataset.verify import Verdict
 from farm.dataset.verify import verify as verify_dataset
 from farm.errors import IncompleteError, VerificationError

@@ -4,7 +4,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from farm.dataset.dataset import Destination, create_dataset
+from farm.dataset.dataset import create_dataset
+from farm.dataset.destination import Destination
 from farm.local.redis_server import PrivateRedis
 from farm.local.workers import WORKER_COMMAND, LocalWorkers
 from farm.machine import memory_bytes, usable_cores

@@ -10,7 +10,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.dataset.verify import verify
 from farm.errors import VerificationError
 from farm.local.processes import stop

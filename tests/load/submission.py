@@ -8,7 +8,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from farm.dataset.dataset import open_dataset, parse_destination
+from farm.dataset.dataset import open_dataset
+from farm.dataset.destination import parse_destination
 from farm.errors import VerificationError
 from farm.local.redis_server import PrivateRedis
 from farm.run.feeder import WINDOW

@@ -14,7 +14,8 @@ from benchmarks.pictures.command import run
 from benchmarks.pictures.making import STYLES, NamedDataset, make, parse_named
 from benchmarks.pictures.options import add_pictures, styles_of
 from benchmarks.pictures.survey import distribution, groups, summarize, survey
-from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.dataset.outputs import IMAGE
 from farm.dataset.paths import file_path
 from farm.errors import DatasetMissingError, FarmError, SpecError, VerificationError

@@ -17,7 +17,8 @@ from benchmarks.training.options import add_training, training_plan_of
 from benchmarks.training.outcome import Lesson
 from benchmarks.training.plan import PHOTOGRAPHS, Plan
 from benchmarks.training.plot import overlay
-from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.errors import MachineError, SpecError
 from tests.stand_in import StandInRenderer, stand_in_header
 from worker.service.upload import upload

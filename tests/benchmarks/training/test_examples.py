@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from benchmarks.training.augmentation import as_input, augment
 from benchmarks.training.examples import EDGE_PX, examples_of, photographs_in
-from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.errors import SpecError, VerificationError
 from tests.stand_in import StandInRenderer, stand_in_header
 from worker.service.upload import upload

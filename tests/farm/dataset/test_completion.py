@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from farm.dataset.completion import STALE_TEMPORARY_S, Completion, is_done, job_of_manifest
-from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.dataset.outputs import IMAGE, MASK, OUTPUTS, Output
 from farm.dataset.paths import file_path, manifest_path
 from farm.spec.header import DatasetHeader

@@ -4,14 +4,9 @@ from collections.abc import Callable
 
 import pytest
 
-from farm.dataset.dataset import (
-    Destination,
-    create_dataset,
-    first_difference,
-    open_dataset,
-    open_for_message,
-    parse_destination,
-)
+from farm.dataset.dataset import create_dataset, open_dataset, open_for_message
+from farm.dataset.destination import Destination, parse_destination
+from farm.dataset.header_file import first_difference
 from farm.dataset.paths import HEADER_FILE
 from farm.errors import ConflictError, DestinationError, MessageError
 from farm.spec.header import DatasetHeader

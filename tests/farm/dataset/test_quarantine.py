@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 import pytest
 
-from farm.dataset.dataset import Dataset, Destination, create_dataset, open_dataset
+from farm.dataset.dataset import Dataset, create_dataset, open_dataset
+from farm.dataset.destination import Destination
 from farm.dataset.paths import quarantine_path
 from farm.dataset.quarantine import LOG_LENGTH, Quarantine, QuarantineRecord, is_in_quarantine, put_in_quarantine
 from farm.dataset.verify import verify

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.dataset.formats import PNG
 from farm.dataset.manifest import Manifest, file_record
 from farm.dataset.outputs import IMAGE, INSTANCES, MASK, Output

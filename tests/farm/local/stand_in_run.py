@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 from farm.cli import end_on_signals
-from farm.dataset.dataset import parse_destination
+from farm.dataset.destination import parse_destination
 from farm.local.run import LocalRun, run_locally
 from farm.run.worker_settings import RendererSettings
 from tests.stand_in import stand_in_header

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from farm.dataset.dataset import Dataset, Destination, open_dataset
+from farm.dataset.dataset import Dataset, open_dataset
+from farm.dataset.destination import Destination
 from farm.dataset.outputs import OUTPUTS
 from farm.dataset.paths import file_path
 from farm.dataset.verify import verify

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 import farm.run.coordinator
-from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.dataset.quarantine import Quarantine, put_in_quarantine
 from farm.dataset.verify import verify
 from farm.errors import (

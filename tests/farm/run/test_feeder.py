@@ -2,7 +2,8 @@
 
 import pytest
 
-from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.run.feeder import Feeder
 from farm.run.ledger.owner import this_process
 from farm.spec.job_set import JobSet

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from farm.dataset.dataset import Destination, create_dataset, open_dataset
+from farm.dataset.dataset import create_dataset, open_dataset
+from farm.dataset.destination import Destination
 from farm.dataset.paths import HEADER_FILE
 from farm.errors import SpecError
 from farm.spec.header import DatasetHeader

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from farm.dataset.dataset import parse_destination
+from farm.dataset.destination import parse_destination
 from farm.errors import DestinationError, FarmError
 from farm.storage import open_storage
 

@@ -14,7 +14,8 @@ import pytest
 import redis
 
 from farm.dataset.completion import is_done
-from farm.dataset.dataset import Dataset, Destination, create_dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.local.redis_server import private_redis
 from farm.local.workers import LocalWorkers
 from farm.run.queue.broker import connect

@@ -1,0 +1,55 @@
+"""The place of a dataset: a store, and the dataset's name in it."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from pydantic import TypeAdapter, ValidationError
+
+from farm.errors import DestinationError
+from farm.spec.job import DatasetName
+from farm.storage import refuse_credentials
+
+_NAME: TypeAdapter[str] = TypeAdapter(DatasetName)
+
+
+@dataclass(frozen=True, slots=True)
+class Destination:
+    """Where a dataset goes: the store (a folder or URL) and the dataset's own folder in it."""
+
+    store: str
+    name: str
+
+    @property
+    def location(self) -> str:
+        """The dataset's folder."""
+        return f"{self.store.rstrip('/')}/{self.name}"
+
+
+def parse_destination(out: str) -> Destination:
+    """Split a place, a path or URL, into the store and the dataset's name.
+
+    Raises:
+        DestinationError: if a URL names no folder in a bucket or holds credentials, or the last part can't be the name
+            of a dataset.
+    """
+    if "://" in out:
+        refuse_credentials(out)
+        kind, _, rest = out.partition("://")
+        store, _, name = rest.rstrip("/").rpartition("/")
+        if not store.strip("/"):
+            raise DestinationError(f"{out}: names no folder for the dataset; write {kind}://BUCKET/FOLDER")
+        store = f"{kind}://{store}"
+    else:
+        try:
+            path = Path(out).expanduser().resolve()
+        except (ValueError, RuntimeError, OSError) as error:
+            # A NUL byte, an unknown user's home, a ring of links.
+            raise DestinationError(f"{out!a}: no path: {error}") from error
+        store, name = str(path.parent), path.name
+    try:
+        return Destination(store=store, name=_NAME.validate_python(name))
+    except ValidationError as error:
+        raise DestinationError(
+            f"{out}: '{name}' can't name a dataset; use up to 100 letters, digits, '.', '_' and '-', and begin with a "
+            "letter or digit"
+        ) from error
