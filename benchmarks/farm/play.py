@@ -9,9 +9,10 @@ from pathlib import Path
 from benchmarks.farm.memory import memory_mib
 from benchmarks.farm.rates import Finished, Throughput
 from benchmarks.farm.splits import Split
-from farm.dataset.completion import job_of_manifest, parse_manifest
+from farm.dataset.completion import job_of_manifest
 from farm.dataset.dataset import Dataset, open_dataset
 from farm.dataset.destination import parse_destination
+from farm.dataset.manifest import parse_manifest
 from farm.dataset.verify import verify
 from farm.errors import VerificationError, error_of
 from farm.local.processes import stop

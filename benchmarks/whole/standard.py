@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from benchmarks.render.stage_set import SettledScene
 from benchmarks.whole.rows import STAGES, Row, Shot, Way
-from farm.dataset.completion import parse_manifest
 from farm.dataset.dataset import Dataset
+from farm.dataset.manifest import parse_manifest
 from farm.dataset.outputs import IMAGE
 from farm.dataset.paths import file_path, manifest_path
 from farm.dataset.verify import verify

@@ -4,10 +4,9 @@ import hashlib
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import ValidationError
 
 from farm.dataset.dataset import Dataset
-from farm.dataset.manifest import Manifest
+from farm.dataset.manifest import parse_manifest
 from farm.dataset.outputs import Output, outputs_of
 from farm.dataset.paths import QUARANTINE_FOLDER, file_path, manifest_folder, manifest_path, output_folder
 from farm.errors import DestinationError, MessageError
@@ -25,24 +24,6 @@ def _seen_type(files: int) -> np.dtype[np.void]:
     return np.dtype(
         [("bytes", np.int64), ("modified_s", np.float64), ("fits", np.bool_), ("sizes", np.int64, (files,))]
     )
-
-
-def parse_manifest(content: bytes, dataset: Dataset, job: Job) -> Manifest | None:
-    """Read a manifest; None if it is damaged, or is not that of this job of this dataset."""
-    try:
-        manifest = Manifest.model_validate_json(content)
-    except ValidationError:
-        return None
-    header = dataset.header
-    belongs = (
-        manifest.job_id == job.id
-        and manifest.dataset == dataset.name
-        and manifest.spec_sha256 == header.spec_sha256
-        and manifest.seed == header.spec.seed
-        and {folder: record.path for folder, record in manifest.files.items()}
-        == {output.folder: file_path(job, output) for output in outputs_of(header.spec)}
-    )
-    return manifest if belongs else None
 
 
 def is_done(dataset: Dataset, job: Job) -> bool:

@@ -5,9 +5,9 @@ from contextlib import suppress
 
 from pydantic import NonNegativeInt, SerializerFunctionWrapHandler, model_serializer
 
-from farm.dataset.completion import Completion, parse_manifest
+from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset
-from farm.dataset.manifest import Manifest
+from farm.dataset.manifest import Manifest, parse_manifest
 from farm.dataset.outputs import outputs_of
 from farm.dataset.paths import INDEX_FILE, manifest_path
 from farm.model import Model, Sha256

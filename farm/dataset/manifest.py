@@ -4,11 +4,14 @@ import hashlib
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, ValidationError
 
+from farm.dataset.dataset import Dataset
+from farm.dataset.outputs import outputs_of
+from farm.dataset.paths import file_path
 from farm.model import Model, Sha256
 from farm.scene.scene import Scene
-from farm.spec.job import DatasetName
+from farm.spec.job import DatasetName, Job
 from farm.spec.rendering import PictureSettings
 
 Seconds = Annotated[float, Field(ge=0)]
@@ -111,3 +114,21 @@ class Manifest(Model):
     timings_s: Mapping[str, Seconds]
     versions: Mapping[str, str]
     files: Mapping[str, FileRecord]
+
+
+def parse_manifest(content: bytes, dataset: Dataset, job: Job) -> Manifest | None:
+    """Read a manifest; None if it is damaged, or is not that of this job of this dataset."""
+    try:
+        manifest = Manifest.model_validate_json(content)
+    except ValidationError:
+        return None
+    header = dataset.header
+    belongs = (
+        manifest.job_id == job.id
+        and manifest.dataset == dataset.name
+        and manifest.spec_sha256 == header.spec_sha256
+        and manifest.seed == header.spec.seed
+        and {folder: record.path for folder, record in manifest.files.items()}
+        == {output.folder: file_path(job, output) for output in outputs_of(header.spec)}
+    )
+    return manifest if belongs else None

@@ -8,9 +8,9 @@ from concurrent.futures import ThreadPoolExecutor
 from enum import StrEnum
 from typing import Any
 
-from farm.dataset.completion import STALE_TEMPORARY_S, parse_manifest
+from farm.dataset.completion import STALE_TEMPORARY_S
 from farm.dataset.dataset import Dataset
-from farm.dataset.manifest import FileRecord
+from farm.dataset.manifest import FileRecord, parse_manifest
 from farm.dataset.outputs import find_faults, outputs_of
 from farm.dataset.paths import HEADER_FILE, INDEX_FILE, REPORT_FILE, file_path, manifest_path, quarantine_path
 from farm.dataset.quarantine import Quarantine

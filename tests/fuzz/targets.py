@@ -17,9 +17,10 @@ from PIL import Image
 from assets.fetch.registry import OWN_REGISTRY, read_registry
 from assets.scan.float_image import LARGEST_PIXELS, read_float_image
 from assets.scan.photographs import decode_plate
-from farm.dataset.completion import job_of_manifest, parse_manifest
+from farm.dataset.completion import job_of_manifest
 from farm.dataset.dataset import Dataset, create_dataset, open_dataset
 from farm.dataset.destination import Destination, parse_destination
+from farm.dataset.manifest import parse_manifest
 from farm.dataset.outputs import OUTPUTS
 from farm.dataset.paths import HEADER_FILE, file_path, manifest_path
 from farm.errors import FarmError

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from worker.cable.piece import Piece
+from worker.camera.lens import blur_px_per_m
 from worker.camera.view import View
 from worker.label.coverage import covered_share
 from worker.label.silhouette import silhouettes
@@ -61,7 +62,7 @@ def covered_by(pieces: Sequence[Piece], view: View, lens_radius_m: float, sides:
         (H, W), 0 to 1.
     """
     highest = max(piece.top_m for piece in pieces)
-    places = list(_on_disc(min(_MOST_RINGS, round(lens_radius_m * _blur_px_per_m(view, highest) / _RING_PX))))
+    places = list(_on_disc(min(_MOST_RINGS, round(lens_radius_m * blur_px_per_m(view, highest) / _RING_PX))))
     covered = np.zeros((view.resolution, view.resolution), np.float32)
     for x, y in places:
         through = replace(view, pinhole_m=(lens_radius_m * x, lens_radius_m * y))
@@ -69,20 +70,6 @@ def covered_by(pieces: Sequence[Piece], view: View, lens_radius_m: float, sides:
             covered[rows] += covered_share(quads, rows.stop - rows.start, view.resolution)
     covered /= np.float32(len(places))
     return covered
-
-
-def _blur_px_per_m(view: View, highest_m: float) -> float:
-    """Pixels by which a point that is most out of focus moves for each metre on the lens.
-
-    Args:
-        view: the camera.
-        highest_m: height of the highest point above the floor.
-    """
-    floor_m = view.depths_m(view.floor_corners_m())
-    # Along a line of sight depth falls as height rises. A cable that reaches up to the camera has no picture.
-    nearest_m = max(floor_m.min() * (1.0 - highest_m / view.position_m[2]), 1e-6)
-    blur = max(view.focus_m / nearest_m - 1.0, 1.0 - view.focus_m / floor_m.max())
-    return float(blur * view.focal_length_px / view.focus_m)
 
 
 def _on_disc(rings: int) -> Iterator[tuple[float, float]]:

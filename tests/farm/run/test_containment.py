@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
 from assets.surfaces.baked import load_surface
-from farm.dataset.completion import is_done, parse_manifest
+from farm.dataset.completion import is_done
 from farm.dataset.dataset import Dataset
 from farm.dataset.destination import parse_destination
+from farm.dataset.manifest import parse_manifest
 from farm.dataset.outputs import IMAGE, MASK, OUTPUTS, Output
 from farm.dataset.paths import file_path, manifest_path
 from farm.errors import AssetError, DestinationError, MessageError
