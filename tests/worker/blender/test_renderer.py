@@ -123,16 +123,6 @@ def test_the_floor_is_hidden_from_the_camera_in_far_pictures_alone(
     assert not bpy.data.objects["floor"].hide_render
 
 
-def test_only_shown_cables_are_simulated_as_cloth(baked: Path) -> None:
-    """The joined mesh of the fall has the vertices of the drawn cables and no more."""
-    header = small_header(simulator="cloth")
-    renderer = open_renderer(header, on_cpu(baked))
-    made = renderer.make(Job(category=Category.FAR, index=0), header)
-    radius_m = made.scene.cables[0].diameter_m / 2
-    nodes = round(0.4 / (5 * radius_m)) + 1
-    assert len(bpy.data.objects["fall_cables"].data.vertices) == nodes * len(made.scene.cables)
-
-
 def test_the_wind_moves_the_cables(baked: Path) -> None:
     """The masks of the same cables in the strongest wind and in none differ."""
     calm = small_header(ranges={"wind": {"strength": [0.0, 0.0]}})

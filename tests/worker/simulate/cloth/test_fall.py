@@ -1,6 +1,7 @@
 """Blender's cloth lets the cables of a scene fall, in whatever template is open."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -13,6 +14,7 @@ from blend.contract import open_template  # noqa: E402
 from farm.scene.scene import Scene  # noqa: E402
 from farm.spec.simulation import Fall, Simulator  # noqa: E402
 from tests.worker.scenes import make_scene  # noqa: E402
+from worker.simulate.cloth import fall as cloth  # noqa: E402
 from worker.simulate.simulate import simulate  # noqa: E402
 
 pytestmark = pytest.mark.blender
@@ -66,3 +68,18 @@ def test_what_an_artist_changed_in_a_scene_of_the_fall_changes_no_fall() -> None
         if each.field is not None:
             each.field.strength = 50.0
     assert fallen(2) == untouched
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_only_the_cables_of_the_scene_are_simulated(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The mesh that falls has the vertices of the drawn cables and no more."""
+    counted = []
+    step_until_rest = cloth._step_until_rest
+
+    def count_vertices(scene: Any, cables: Any, *rest: Any) -> Any:
+        counted.append(len(cables.data.vertices))
+        return step_until_rest(scene, cables, *rest)
+
+    monkeypatch.setattr(cloth, "_step_until_rest", count_vertices)
+    fallen(count)
+    assert counted == [count * (round(0.06 / (5 * 0.001)) + 1)]
