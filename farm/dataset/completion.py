@@ -1,4 +1,4 @@
-"""Which jobs are done, told by the dataset's folder alone: the manifest is there and fits, and so do the files."""
+"""Finds the done jobs from the dataset's folder alone: a job is done if its manifest and files are there and fit."""
 
 import hashlib
 
@@ -20,14 +20,14 @@ STALE_TEMPORARY_S = 3600.0
 
 
 def _seen_type(files: int) -> np.dtype[np.void]:
-    """What is remembered of a manifest: its own size and time, whether it fits its job, its files' sizes."""
+    """Make the type of a remembered manifest: its own size and time, whether it fits its job, its files' sizes."""
     return np.dtype(
         [("bytes", np.int64), ("modified_s", np.float64), ("fits", np.bool_), ("sizes", np.int64, (files,))]
     )
 
 
 def is_done(dataset: Dataset, job: Job) -> bool:
-    """Whether one job is done, its files' checksums included: what a worker asks before it starts.
+    """Whether one job is done, judged by its manifest and its files' checksums. A worker checks this before it starts.
 
     Raises:
         DestinationError: if the folder can't be read.
@@ -43,7 +43,7 @@ def is_done(dataset: Dataset, job: Job) -> bool:
 
 
 def job_of_manifest(path: str) -> Job | None:
-    """The job whose manifest would have this path."""
+    """Return the job whose manifest would have this path; None if there is no such job."""
     stem = path.rpartition("/")[2].removesuffix(".json")
     try:
         job = Job.from_id(stem)
@@ -56,7 +56,7 @@ class Completion:
     """The done jobs of one dataset.
 
     A look lists the manifests and reads those that are new. An audit lists the pictures too, and compares them with
-    what the manifests tell. What is remembered is some 60 bytes a job.
+    what the manifests tell. It remembers some 60 bytes a job.
     """
 
     def __init__(self, dataset: Dataset) -> None:
@@ -81,7 +81,7 @@ class Completion:
         return self.done
 
     def _look_at(self, category: Category) -> NDArray[np.bool_]:
-        """Which jobs have a manifest that fits; those whose manifest is new are taken for undamaged."""
+        """Find the jobs of a category whose manifest fits. A new manifest clears its job's mark of damage."""
         seen, damaged = self._seen[category], self._damaged[category]
         there = np.zeros(len(seen), np.bool_)
         for path, stored in self._dataset.storage.files(manifest_folder(category)).items():

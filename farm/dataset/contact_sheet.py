@@ -16,7 +16,7 @@ _JPEG_QUALITY = 88
 
 
 def make_contact_sheet(dataset: Dataset, *, columns: int, edge_px: int) -> bytes:
-    """A JPEG of the first `columns` pictures of each category that has a quota, each `edge_px` wide.
+    """Make a JPEG of the first `columns` pictures of each category that has a quota, each `edge_px` wide.
 
     Raises:
         IncompleteError: if a picture is not there yet.

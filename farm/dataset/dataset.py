@@ -20,7 +20,7 @@ class Dataset:
     header: DatasetHeader
 
     def message(self, job: Job) -> JobMessage:
-        """What asks a worker for one of the dataset's images."""
+        """Make the message that asks a worker for one of the dataset's images."""
         return JobMessage(dataset=self.name, spec_sha256=self.header.spec_sha256, job_id=job.id)
 
     def asks_for(self, job: Job) -> bool:
@@ -68,7 +68,7 @@ def open_for_message(store: str, message: JobMessage) -> Dataset:
 
 
 def find_dataset(destination: Destination, header: DatasetHeader) -> Dataset | None:
-    """The dataset with this description that is in the place already; None if the place is free. Writes nothing.
+    """Find the dataset with this description in its place; None if the place is free. Writes nothing.
 
     Raises:
         ConflictError: if the place holds another dataset, or anything else.

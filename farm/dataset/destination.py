@@ -14,7 +14,7 @@ _NAME: TypeAdapter[str] = TypeAdapter(DatasetName)
 
 @dataclass(frozen=True, slots=True)
 class Destination:
-    """Where a dataset goes: the store (a folder or URL) and the dataset's own folder in it."""
+    """The place of a dataset: the store (a folder or URL), and the name of the dataset's own folder in it."""
 
     store: str
     name: str

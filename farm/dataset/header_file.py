@@ -42,7 +42,7 @@ def _parse_header(content: bytes) -> DatasetHeader:
 
 
 def first_difference(present: object, asked: object, where: str = "") -> str:
-    """The first key in which two JSON values differ, as `key is 1, asked 2`; empty if they are equal."""
+    """Find the first key in which two JSON values differ, as `key is 1, asked 2`; empty if they are equal."""
     if isinstance(present, Mapping) and isinstance(asked, Mapping):
         for key in [*present, *(key for key in asked if key not in present)]:
             if key == "farm_version":

@@ -1,4 +1,4 @@
-"""Gathers what the manifests tell: the done images in order, and `index.jsonl`, one line for each."""
+"""The index of a dataset: its done images in order, and the file `index.jsonl` with one line for each."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
@@ -55,7 +55,7 @@ class IndexEntry(Model):
 
 
 def done_manifests(dataset: Dataset) -> Iterator[tuple[Job, Manifest]]:
-    """The done images, by category in order and then by index.
+    """Yield the done images with their manifests, by category in order and then by index.
 
     Raises:
         DestinationError: if the folder can't be read.
@@ -70,7 +70,7 @@ def done_manifests(dataset: Dataset) -> Iterator[tuple[Job, Manifest]]:
 
 
 def index_entry(dataset: Dataset, job: Job, manifest: Manifest) -> IndexEntry:
-    """The line of one image of a dataset."""
+    """Make the index entry of one image of a dataset."""
     scene = manifest.scene
     records = {output.role: manifest.files[output.folder] for output in outputs_of(dataset.header.spec)}
     return IndexEntry(

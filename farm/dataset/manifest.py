@@ -1,4 +1,4 @@
-"""The manifest: what stands beside every picture, written last. A job is done when it is there and agrees."""
+"""The manifest: the record of one picture, written after its files. A job is done when it is there and fits."""
 
 import hashlib
 from collections.abc import Mapping
@@ -26,7 +26,7 @@ class FileRecord(Model):
 
 
 def file_record(path: str, content: bytes) -> FileRecord:
-    """The record of a file with this content."""
+    """Make the record of a file with this content."""
     return FileRecord(path=path, bytes=len(content), sha256=hashlib.sha256(content).hexdigest())
 
 
@@ -38,7 +38,7 @@ class RejectedAttempt(Model):
 
 
 class SettleFigures(Model):
-    """What was measured on the settled cables, on the smooth centrelines that are rendered.
+    """Measurements of the settled cables, taken on the smooth centrelines that are rendered.
 
     Attributes:
         fall_s: how long the cables fell and settled, in true time.
@@ -76,7 +76,7 @@ class SettleFigures(Model):
 
 
 class RenderSettings(Model):
-    """How the picture was rendered, as acted on, not as asked for.
+    """The settings that the picture was rendered with, which may differ from those that were asked for.
 
     Attributes:
         samples: most samples that a pixel takes.

@@ -17,7 +17,7 @@ from farm.spec.dataset_spec import DatasetSpec
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
-    """What two outputs of one picture must agree in.
+    """A check of one output of a picture against another output of the same picture.
 
     Attributes:
         other: role of the output to compare with.
@@ -30,7 +30,7 @@ class Agreement:
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """One row: a kind of file that a picture has. What its content is, the format says.
+    """A row of the table: a kind of file that every picture has. The format defines the type of its content.
 
     Attributes:
         role: the output's name in code and, with that of its checksum, in the index.
@@ -97,7 +97,7 @@ OUTPUTS = (IMAGE, MASK, INSTANCES)
 
 
 def outputs_of(spec: DatasetSpec) -> tuple[Output, ...]:
-    """The outputs that each picture of a dataset has, in the table's order."""
+    """List the outputs that each picture of a dataset has, in the table's order."""
     del spec  # no description can leave one out
     return OUTPUTS
 

@@ -20,7 +20,7 @@ _UNREADABLE = "its record in the quarantine folder can't be read"
 
 
 class QuarantineRecord(Model):
-    """Why a job is given up until a person puts it back.
+    """The record of a job that is given up until a person puts it back: the reason, and the means to examine it.
 
     Attributes:
         attempts: how often it was begun, as far as is known.
@@ -80,7 +80,7 @@ class Quarantine:
         self._known: dict[str, tuple[StoredFile, str]] = {}
 
     def look(self) -> Mapping[str, str]:
-        """The given-up jobs: id to reason, in order.
+        """List the given-up jobs: id to reason, in order.
 
         Raises:
             DestinationError: if the folder can't be read.
@@ -120,7 +120,7 @@ class Quarantine:
 
 
 def job_of_record(path: str) -> Job | None:
-    """The job whose record would have this path."""
+    """Return the job whose record would have this path; None if there is no such job."""
     try:
         job = Job.from_id(path.rpartition("/")[2].removesuffix(".json"))
     except MessageError:

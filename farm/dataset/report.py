@@ -20,7 +20,7 @@ _UNKNOWN = "-"
 
 @dataclass(slots=True)
 class _Section:
-    """What the page tells of one category; only the first pictures are kept."""
+    """The page's section on one category; only the first pictures are kept."""
 
     quota: int
     done: int = 0

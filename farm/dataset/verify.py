@@ -23,7 +23,7 @@ _AT_A_TIME = 1000
 
 
 class Fault(StrEnum):
-    """What can be wrong with a file."""
+    """The faults that a file can have."""
 
     MISSING = "missing"
     EXTRA = "extra"
@@ -40,7 +40,7 @@ class Finding(Model):
 
 
 class Verdict(Model):
-    """What a check of a whole dataset found.
+    """The outcome of the check of a whole dataset.
 
     Attributes:
         images: jobs whose manifest and files are all as they should be.
@@ -56,7 +56,7 @@ class Verdict(Model):
 
     @property
     def clean(self) -> bool:
-        """Whether everything but what is given up is there, and nothing else."""
+        """Whether nothing is missing, damaged or extra; jobs that are given up don't count as missing."""
         return not self.findings
 
 
@@ -92,7 +92,7 @@ def verify(dataset: Dataset, on_checked: Callable[[int], None] = lambda _: None)
 
 
 def damaged_jobs(dataset: Dataset) -> Iterator[Job]:
-    """The jobs whose manifest is there but wrong, or one of whose files is not as it tells.
+    """Yield the jobs whose manifest is wrong, or disagrees with one of the job's files.
 
     Raises:
         DestinationError: if the folder or a file in it can't be read.
@@ -103,7 +103,7 @@ def damaged_jobs(dataset: Dataset) -> Iterator[Job]:
 
 
 def _check_all(dataset: Dataset) -> Iterator[tuple[Job, list[Finding]]]:
-    """Each job with its findings, some jobs at a time, so that a large dataset does not fill the memory."""
+    """Yield each job with its findings; check some jobs at a time, so that a large dataset does not fill the memory."""
     jobs = dataset.header.spec.jobs()
     with ThreadPoolExecutor(_THREADS) as threads:
         while some := list(itertools.islice(jobs, _AT_A_TIME)):
@@ -115,7 +115,7 @@ def _is_missing(job: Job, findings: list[Finding]) -> bool:
 
 
 def _check_job_twice(dataset: Dataset, job: Job) -> Iterator[Finding]:
-    """Look again at what seems wrong: a worker may have been replacing the files one by one."""
+    """Check a job, and again if anything seems wrong: a worker may have been replacing the files one by one."""
     if list(_check_job(dataset, job)):
         yield from _check_job(dataset, job)
 
@@ -148,7 +148,7 @@ def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
 
 
 def _read_file(dataset: Dataset, record: FileRecord) -> bytes | Finding:
-    """The file's bytes if they are those of its record, else what is wrong."""
+    """Return the file's bytes if they agree with its record, else the finding that says what is wrong."""
     # Read rather than looked up in a listing, which would be older than the manifest where the dataset grows.
     try:
         content = dataset.storage.read(record.path)
