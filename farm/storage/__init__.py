@@ -1,8 +1,8 @@
-"""Where a dataset's files lie: a local folder, or any filesystem that fsspec knows by its URL.
+"""Storage of a dataset's files: a local folder, or any filesystem that fsspec knows by its URL.
 
 A reader never sees half a file. A local folder gets a temporary file beside the target, which is flushed, read back
 and moved into place; an object store gets each object in one put, or in parts that count only once all are there, and
-is asked what it holds afterwards. What a killed writer leaves behind has a name that starts with `TEMPORARY_PREFIX`,
+is asked what it holds afterwards. A killed writer's leftover has a name that starts with `TEMPORARY_PREFIX`,
 or is no object at all, and counts for nothing.
 """
 

@@ -17,9 +17,9 @@ from farm.storage.services import service_of
 
 @lru_cache(maxsize=16)
 def connect(url: str) -> tuple[Any, str]:
-    """The filesystem of a URL, and the URL's path in it, without a slash at its end. Use it at once, don't keep it.
+    """Make the filesystem of a URL, and return it with the URL's path in it. Use it at once, don't keep it.
 
-    Listings are not cached: other processes write there too.
+    The path has no slash at its end. Listings are not cached: other processes write there too.
 
     Raises:
         ImportError: if the filesystem needs a package that is not installed.

@@ -1,4 +1,4 @@
-"""What goes wrong at an object store, told as the farm's own errors.
+"""Translates the failures of object stores into the farm's own errors.
 
 Every filesystem of fsspec has its own exceptions: s3fs turns a server's answers into those of the operating system,
 but lets through what its HTTP client and botocore raise when there is no answer.
@@ -16,10 +16,10 @@ _USER_IN_URL = re.compile(r"//[^/\s@]*@")
 
 @contextmanager
 def as_destination_error(action: str, place: str) -> Iterator[None]:
-    """Tell any failure inside `with` as the farm's, without credentials.
+    """Turn any failure inside `with` into the farm's own error, without credentials in its text.
 
     Args:
-        action: the verb of what is tried, as in "can't read".
+        action: verb of the failed action, as in "can't read".
         place: URL of the object or folder.
 
     Raises:

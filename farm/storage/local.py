@@ -33,7 +33,7 @@ class LocalStorage:
         return str(self._root)
 
     def read(self, path: str) -> bytes:
-        """The content of a file; see `Storage.read`."""
+        """Read a file; see `Storage.read`."""
         with _as_destination_error("read", str(self._root / path)):
             return (self._root / path).read_bytes()
 
@@ -67,7 +67,7 @@ class LocalStorage:
             raise DestinationError(f"{temporary}: reads back other than written; check the disk")
 
     def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
-        """Every file below the folder; see `Storage.files`."""
+        """List every file below the folder; see `Storage.files`."""
         found: dict[str, StoredFile] = {}
         folder = self._root / under
         with _as_destination_error("list", str(folder)), suppress(FileNotFoundError):

@@ -13,11 +13,12 @@ from farm.storage.port import Storage
 from farm.storage.services import SERVICES, service_of
 
 _USER = re.compile(r"(?!arn:)[^/:@]*:(?!\d+/)[^@]*@")
-"""A name, a colon and a password before an @; the password may hold slashes. A port is none, nor is Amazon's `arn:`."""
+"""Pattern of a name, a colon and a password before an @; the password may hold slashes. A port doesn't count as a
+password, nor `arn:` as the start of a name: it begins the addresses of Amazon's resources."""
 
 
 def open_storage(location: str) -> Storage:
-    """The storage at a folder's path or URL; nothing is read or written yet.
+    """Open the storage at a folder's path or URL; nothing is read or written yet.
 
     Raises:
         MachineError: if the URL's filesystem needs a package that is not installed.
@@ -32,7 +33,7 @@ def _open_folder(location: str) -> Storage:
 
 
 def _open_objects(location: str) -> Storage:
-    """What fsspec knows by the URL's scheme."""
+    """Open the storage at a URL whose scheme fsspec knows."""
     refuse_credentials(location)
     protocol = location.partition("://")[0]
     with as_destination_error("open", location):
@@ -47,10 +48,10 @@ def _open_objects(location: str) -> Storage:
 
 
 _PLAIN_PATH = ""
-"""Stands for the scheme of a path, which has none."""
+"""Key of `_STORES` for a path, which has no scheme."""
 
 _STORES: Mapping[str, Callable[[str], Storage]] = MappingProxyType({_PLAIN_PATH: _open_folder, "file": _open_folder})
-"""What opens a location, by its URL's scheme; fsspec opens those that are not here."""
+"""Functions that open a storage, by its URL's scheme; `_open_objects` opens those of all other schemes."""
 
 
 def refuse_credentials(location: str) -> None:

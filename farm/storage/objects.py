@@ -17,7 +17,7 @@ class ObjectStorage:
     """A folder of any fsspec filesystem, such as a bucket. May be kept across a fork."""
 
     def __init__(self, url: str) -> None:
-        """Nothing is read or written yet.
+        """Connect to the filesystem of a URL; nothing is read or written yet.
 
         Raises:
             ImportError: if the URL's filesystem needs a package that is not installed.
@@ -41,7 +41,7 @@ class ObjectStorage:
         return f"{self._root}/{path}" if path else self._root
 
     def read(self, path: str) -> bytes:
-        """The content of an object; see `Storage.read`."""
+        """Read an object; see `Storage.read`."""
         with as_destination_error("read", f"{self._location}/{path}"):
             return bytes(self._filesystem.cat_file(self._full(path), **self._service.get_options))
 
@@ -66,7 +66,7 @@ class ObjectStorage:
         return str(info.get("ETag")).strip('"') == checksum or self.read(path) == content
 
     def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
-        """Every object below the folder; see `Storage.files`."""
+        """List every object below the folder; see `Storage.files`."""
         folder = self._full(under)
         depth = None if deep else 1
         listing: Mapping[str, Mapping[str, Any]] = {}

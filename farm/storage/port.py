@@ -1,4 +1,4 @@
-"""What the farm asks of a storage, whatever is behind it."""
+"""The interface of every storage."""
 
 from dataclasses import dataclass
 from pathlib import PurePosixPath
@@ -9,7 +9,7 @@ TEMPORARY_PREFIX = ".tmp-"
 
 @dataclass(frozen=True, slots=True)
 class StoredFile:
-    """What a listing tells about a file; `modified_s` counts seconds of the Unix epoch, 0 where unknown."""
+    """A file in a listing, with its last change. `modified_s` counts seconds of the Unix epoch, 0 where unknown."""
 
     bytes: int
     modified_s: float
@@ -24,7 +24,7 @@ class Storage(Protocol):
         ...
 
     def read(self, path: str) -> bytes:
-        """The content of a file.
+        """Read a whole file.
 
         Raises:
             FileNotFoundError: if there is none.
@@ -42,7 +42,7 @@ class Storage(Protocol):
         ...
 
     def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
-        """Every file below the folder, by path; none if the folder does not exist.
+        """List every file below the folder, by path; none if the folder does not exist.
 
         Args:
             under: a folder in it, to list that alone; the paths stay relative to the whole.

@@ -1,4 +1,4 @@
-"""Object stores of which the farm knows more than that fsspec opens them.
+"""Object stores for which the farm has settings of its own.
 
 A store that fsspec opens needs no row here: it then gets the options that suit all, and messages that name no variable.
 """
@@ -15,7 +15,7 @@ _NO_OPTIONS: Options = MappingProxyType({})
 
 @dataclass(frozen=True, slots=True)
 class Service:
-    """What is known of a kind of object store.
+    """A kind of object store, with the settings that the farm has for it.
 
     Attributes:
         title: the name that messages give it.
@@ -70,11 +70,11 @@ _S3 = Service(
 )
 
 SERVICES: Mapping[str, Service] = MappingProxyType({"s3": _S3, "s3a": _S3})
-"""What is known of object stores, by their URLs' scheme."""
+"""Object stores for which the farm has settings, by the scheme of their URLs."""
 
 _UNKNOWN = Service()
 
 
 def service_of(url: str) -> Service:
-    """What is known of the store at a URL; nothing of most."""
+    """Look up the settings for the store at a URL; a store of another scheme gets empty ones."""
     return SERVICES.get(url.partition("://")[0], _UNKNOWN)
