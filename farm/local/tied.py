@@ -30,7 +30,7 @@ def die_with_parent(parent: int) -> None:
 
 
 def tied(command: list[str]) -> list[str]:
-    """The command that runs `command` as a child tied to the calling process."""
+    """Build the command that runs `command` as a child tied to the calling process."""
     return [sys.executable, "-P", "-m", "farm.local.tied", str(os.getpid()), *command]
 
 

@@ -98,7 +98,7 @@ class LocalWorkers:
         self._running = []
 
     def log_of(self, name: str) -> Path:
-        """The file that takes all that a worker prints."""
+        """Name the file that takes all that a worker prints."""
         return self._settings.logs / f"{name}.log"
 
     def supervise(self) -> None:
