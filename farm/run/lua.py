@@ -6,7 +6,7 @@ from importlib.resources import files
 
 @cache
 def read_script(package: str, name: str) -> str:
-    """The text of a script; it is read once in a process.
+    """Read the text of a script, once in a process.
 
     Args:
         package: dotted name of the package that holds the file.

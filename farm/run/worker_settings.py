@@ -1,4 +1,4 @@
-"""How a worker and its renderer run: checked here, then handed to the worker's program as JSON in one argument.
+"""The settings of a worker and its renderer: checked here, then handed to the worker's program as JSON in one argument.
 
 They go by an argument rather than by standard input: `farm worker` becomes the program and leaves its terminal to it, a
 worker that died is started again with the same words, and the commands for one picture read the dataset's header from
@@ -29,7 +29,7 @@ HARD_LIMIT_S = 30 * 60
 
 
 class DeviceChoice(StrEnum):
-    """Where Cycles is asked to render; `auto` takes a GPU if there is one, else the CPU."""
+    """The device that Cycles is asked to render on; `auto` takes a GPU if there is one, else the CPU."""
 
     AUTO = "auto"
     CPU = "cpu"
@@ -43,7 +43,7 @@ class _Argument(Model):
     """Settings that cross from one program to another as an argument."""
 
     def as_argument(self) -> str:
-        """The settings as JSON, in ASCII: a path may hold bytes that are no UTF-8."""
+        """Write the settings as JSON, in ASCII: a path may hold bytes that are no UTF-8."""
         return json.dumps(self.model_dump(), default=str)
 
     @classmethod
@@ -63,10 +63,10 @@ class _Argument(Model):
 
 
 class RendererSettings(_Argument):
-    """What a renderer on this machine is opened with. It decides how fast pictures are made, not what they show.
+    """Settings of a renderer on this machine. They decide how fast pictures are made, not what they show.
 
     Attributes:
-        device: where Cycles renders.
+        device: device that Cycles renders on.
         threads: threads of the renderer on the CPU; 0 takes all cores.
         assets: folder of the baked surfaces; None for the user's own.
     """
@@ -77,7 +77,7 @@ class RendererSettings(_Argument):
 
 
 class WorkerSettings(_Argument):
-    """What one worker needs to know, but for the broker's address.
+    """Settings of one worker, without the broker's address.
 
     Attributes:
         store: folder or URL below which the datasets lie.
@@ -104,5 +104,5 @@ class WorkerSettings(_Argument):
     min_free_mib: Annotated[int, Field(ge=0)] = MIN_FREE_MIB
 
     def serve_arguments(self) -> list[str]:
-        """Arguments with which the worker's program takes jobs under these settings."""
+        """Build the arguments with which the worker's program takes jobs under these settings."""
         return ["serve", self.as_argument()]

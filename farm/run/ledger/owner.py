@@ -9,7 +9,7 @@ from farm.run.ledger.port import Ledger
 
 
 def this_process() -> str:
-    """The owner's name of the calling process."""
+    """Name the calling process as an owner of claims."""
     return f"{machine_name()}:{os.getpid()}"
 
 
@@ -37,7 +37,7 @@ def _lives(process_id: int) -> bool:
 
 
 def live_claims(ledger: Ledger) -> Mapping[str, str]:
-    """The claims of living processes and of jobs that wait for a retry; claims of ended processes are released."""
+    """Release the claims of ended processes; return those of living ones and of jobs that wait for a retry."""
     living = {}
     for job_id, owner in ledger.claims().items():
         if is_gone(owner):

@@ -1,4 +1,4 @@
-"""What every ledger offers. Losing one loses nothing that the folder and a new submission don't restore."""
+"""The interface of every ledger. The folder and a new submission restore all that the loss of a ledger loses."""
 
 import os
 from collections.abc import Callable, Iterable, Mapping
@@ -25,7 +25,7 @@ RETRY_OWNER = ""
 
 
 class Activity(Model):
-    """How the work goes.
+    """The progress of the work at present.
 
     Attributes:
         images_per_hour: rate over the recent completions; None before the first two.
@@ -67,7 +67,7 @@ class Ledger(Protocol):
         ...
 
     def claims(self) -> Mapping[str, str]:
-        """The live claims: job id to owner."""
+        """List the live claims: job id to owner."""
         ...
 
     def finish(self, job_id: str, owner: str, picture: str) -> bool:
@@ -87,7 +87,7 @@ class Ledger(Protocol):
         ...
 
     def absences(self) -> int:
-        """The count that `count_absence` keeps."""
+        """Return the count that `count_absence` keeps."""
         ...
 
     def keep_log(self, job_id: str, text: str) -> None:
@@ -95,7 +95,7 @@ class Ledger(Protocol):
         ...
 
     def log_of(self, job_id: str) -> str:
-        """The text that `keep_log` kept last for a job; empty if there is none."""
+        """Return the text that `keep_log` kept last for a job; empty if there is none."""
         ...
 
     def forgive(self, job_ids: Iterable[str]) -> None:
@@ -107,7 +107,7 @@ class Ledger(Protocol):
         ...
 
     def leader(self) -> str | None:
-        """The owner that queues this dataset's jobs; None if there is none."""
+        """Return the owner that queues this dataset's jobs; None if there is none."""
         ...
 
     def resign(self, owner: str) -> None:
@@ -119,11 +119,11 @@ class Ledger(Protocol):
         ...
 
     def figures(self) -> Mapping[str, float]:
-        """The running totals, by name."""
+        """Return the running totals, by name."""
         ...
 
     def activity(self) -> Activity:
-        """How the work goes."""
+        """Return the rate over the recent completions and the newest picture."""
         ...
 
 
@@ -132,7 +132,7 @@ LedgerFactory = Callable[[str, str], Ledger]
 
 
 def images_per_hour(finished_s: list[float], now_s: float) -> float | None:
-    """The rate over recent completions.
+    """Compute the rate over recent completions, in images an hour.
 
     Args:
         finished_s: when pictures were finished, in seconds of the Unix epoch, in any order.

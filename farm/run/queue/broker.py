@@ -27,7 +27,7 @@ _TLS_OPTIONS = frozenset({"ssl_ca_certs", "ssl_certfile", "ssl_keyfile"})
 
 
 def broker_url(given: str | None) -> str:
-    """The given address, or that of the environment, of the file that the environment names, or `DEFAULT_BROKER_URL`.
+    """Choose the given address, else that of the environment, of the file that it names, or `DEFAULT_BROKER_URL`.
 
     Celery takes `rediss://` without options for TLS with any certificate, so the check is always spelt out here.
 
@@ -78,7 +78,7 @@ def _with_certificate_check(url: str, kind: str) -> str:
 
 
 def masked(url: str) -> str:
-    """The address for messages: without the part before the last `@` and without the query, which may hold passwords.
+    """Mask an address for messages: leave out the part before the last `@` and the query, which may hold passwords.
 
     It is not parsed: a password may hold any sign, and an address that can't be parsed must not be shown whole.
     """
@@ -91,7 +91,7 @@ def masked(url: str) -> str:
 
 
 def connect(url: str) -> "redis.Redis":
-    """A client of a Redis that has answered. A Redis that is not there is reported within seconds, as people wait.
+    """Make a client of a Redis once it has answered. One that is not there is reported within seconds, as people wait.
 
     Raises:
         BrokerError: if Redis is not there or refuses.

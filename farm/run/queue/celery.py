@@ -16,7 +16,8 @@ from farm.spec.job import Job, JobMessage
 _PAGE = 500
 _BATCH = 500
 _PRIORITY_MARK = "\x06\x16"
-"""What kombu puts between a queue's name and its priority in the name of a list. The list of step 0 has neither."""
+"""Separator that kombu puts between a queue's name and a priority step in the name of a Redis list. The name for step 0
+is the queue's name alone."""
 
 
 class CeleryQueue:

@@ -1,4 +1,4 @@
-"""What the coordinator needs of a queue."""
+"""The interface of every job queue, as the coordinator uses it."""
 
 from collections.abc import Iterable
 from typing import Protocol
@@ -15,11 +15,11 @@ class JobQueue(Protocol):
         ...
 
     def length(self, run: Run) -> int:
-        """The number of a run's messages that wait."""
+        """Count a run's messages that wait."""
         ...
 
     def queued(self, run: Run) -> Iterable[Job]:
-        """The jobs of a run that wait. One that enters or leaves meanwhile may be missed, or seen twice."""
+        """Yield the jobs of a run that wait. One that enters or leaves meanwhile may be missed, or seen twice."""
         ...
 
     def clear(self, run: Run) -> int:

@@ -21,12 +21,12 @@ VISIBILITY_S = 2 * 3600
 
 
 def queue_name(run_key: str) -> str:
-    """The queue of a run's jobs."""
+    """Name the queue of a run's jobs."""
     return f"{QUEUE}.{run_key}"
 
 
 def make_app(broker_url: str) -> Any:
-    """A Celery application that sends and takes the farm's one task; nothing is connected yet."""
+    """Make a Celery application that sends and takes the farm's one task; nothing is connected yet."""
     app = Celery("farm", broker=broker_url, set_as_current=False)
     app.conf.update(
         accept_content=["json"],

@@ -139,7 +139,7 @@ assert TASK_NAME == "farm.render_image"  # noqa: S101  # a Literal can't be made
 
 
 def checked_envelope(message: object) -> dict[str, Any]:
-    """What Celery may see of a message from a job queue.
+    """Check a message from a job queue, and keep the parts that Celery may see.
 
     Args:
         message: the envelope, parsed.
@@ -174,7 +174,7 @@ def _check_eta(eta: str | None) -> None:
 
 
 def _check_call(body: object) -> None:
-    """A body is (arguments, named arguments, what to call afterwards); a farm's has the middle one alone."""
+    """Check a body (arguments, named arguments, later calls): a farm's call has one named argument and nothing else."""
     match body:
         case [[], {"message": _, **others}, dict() as embedded] if not others and not any(embedded.values()):
             return
@@ -217,7 +217,7 @@ class _GuardedTransport(kombu.transport.redis.Transport):
 
 
 def _checked_control(message: object) -> dict[str, Any]:
-    """A command or event of Celery's; what is in its body Celery looks at itself."""
+    """Check a command or event of Celery's, and keep its known parts. Celery itself interprets its body."""
     try:
         control = _Control.model_validate(message)
         _Properties.model_validate(control.properties)
@@ -228,7 +228,7 @@ def _checked_control(message: object) -> dict[str, Any]:
 
 
 def _parse(text: str) -> Any:
-    """What the transport parses: a message off a queue, or, as a list with its way, one that is put back.
+    """Parse a text for the transport: a message off a queue, or a list of one that is put back and its address.
 
     Raises:
         Empty: if it is refused; for the transport this means that nothing has come.

@@ -1,4 +1,4 @@
-"""What the run registry holds, and what every registry offers."""
+"""The interface of every run registry, and the runs and workers' reports that it holds."""
 
 from collections.abc import Mapping
 from enum import IntEnum, StrEnum
@@ -14,7 +14,7 @@ SEEN_S = 30.0
 
 
 class RunState(StrEnum):
-    """What a person wants of a run."""
+    """The state of a run, as a person has set it."""
 
     ACTIVE = "active"
     PAUSED = "paused"
@@ -58,7 +58,7 @@ class Run(Model):
 
 
 class WorkerState(StrEnum):
-    """What a worker does."""
+    """The state of a worker."""
 
     IDLE = "idle"
     WORKING = "working"
@@ -67,11 +67,11 @@ class WorkerState(StrEnum):
 
 
 class WorkerReport(Model):
-    """What a worker reports of itself every second.
+    """The report that a worker makes on itself every second.
 
     Attributes:
         name: `NAME@HOST`, as Flower shows it.
-        state: what the worker does.
+        state: state of the worker.
         reason: why the worker is held back; empty otherwise.
         jobs: ids of the jobs that it works on.
         done: number of jobs that it has finished since it started.
@@ -87,7 +87,7 @@ class WorkerReport(Model):
 
 
 class RunRegistry(Protocol):
-    """Every method may raise BrokerError."""
+    """The registry of a farm's runs and workers. Every method may raise BrokerError."""
 
     def register(self, run: Run) -> Run:
         """Put a run up unless one with its key is there; returns the one that is there."""
@@ -102,7 +102,7 @@ class RunRegistry(Protocol):
         ...
 
     def runs(self) -> Mapping[str, Run]:
-        """The runs, by key."""
+        """Return the runs, by key."""
         ...
 
     def report(self, report: WorkerReport) -> None:
@@ -114,5 +114,5 @@ class RunRegistry(Protocol):
         ...
 
     def workers(self) -> tuple[WorkerReport, ...]:
-        """The reports of the workers seen within `SEEN_S`, by name."""
+        """Return the reports of the workers seen within `SEEN_S`, by name."""
         ...
