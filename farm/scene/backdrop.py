@@ -1,4 +1,4 @@
-"""What the picture shows behind the cables: the HDRI that also lights them, or a photograph."""
+"""The backdrop behind the cables: the HDRI that also lights them, or a photograph."""
 
 from typing import Annotated
 

@@ -38,7 +38,7 @@ class Sheath(StrEnum):
 
 
 class StripeKind(StrEnum):
-    """How a second colour runs along a cable."""
+    """The course of stripes of a second colour along a cable."""
 
     STRAIGHT = "straight"
     SPIRAL = "spiral"

@@ -7,7 +7,7 @@ from pydantic import Field
 from farm.model import Model
 
 FLOOR_REACH_M = 0.6
-"""Distance from the middle of the template's floor to its nearest edge: what no camera may look beyond."""
+"""Distance from the middle of the template's floor to its nearest edge, in metres: no camera may look beyond it."""
 
 
 class JointFill(Model):

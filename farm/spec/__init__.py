@@ -1,1 +1,1 @@
-"""What a dataset is to be: its description, its quotas, its jobs, and its header."""
+"""The specification of a dataset: its description, its quotas, its jobs, and its header."""

@@ -5,21 +5,21 @@ from enum import StrEnum
 
 
 class Background(StrEnum):
-    """What is seen behind the cables."""
+    """The kind of background behind the cables."""
 
     FLOOR = "floor"
     HDRI = "hdri"
 
 
 class Light(StrEnum):
-    """What lights the scene: one lamp in a grey world, or the HDRI alone."""
+    """The kind of light in the scene: one lamp in a grey world, or the HDRI alone."""
 
     CONCENTRATED = "concentrated"
     DISTRIBUTED = "distributed"
 
 
 class Disposition(StrEnum):
-    """How the cables lie to each other before they fall."""
+    """The arrangement of the cables before they fall."""
 
     FREE = "free"
     ALIGNED = "aligned"
@@ -27,12 +27,12 @@ class Disposition(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class CategoryTraits:
-    """What a category fixes of a scene, and its part in a dataset.
+    """Traits of a category: the kinds of scene that it has, and its share of a dataset.
 
     Attributes:
-        background: what is seen behind the cables.
-        light: what lights the scene.
-        disposition: how the cables lie before they fall.
+        background: kind of background behind the cables.
+        light: kind of light in the scene.
+        disposition: arrangement of the cables before they fall.
         weight: share of a total number of images, in tenths of the published 25,000; 0 for a category that the
             publication has not, which gets images by a quota of its own alone.
         code: the integer that stands for the category in every seed of its jobs. It never changes and is never used
@@ -58,7 +58,7 @@ class Category(StrEnum):
 
     @property
     def traits(self) -> CategoryTraits:
-        """What this category fixes of a scene."""
+        """The category's traits."""
         return _TRAITS[self]
 
     @property

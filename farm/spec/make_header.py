@@ -113,7 +113,7 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
 
 
 def _rendering(spec: DatasetSpec) -> Mapping[Category, ChosenSettings]:
-    """The settings of every category, but for those that make no picture and can't be rendered so well."""
+    """Choose the settings of each category. One without a quota is left out if it can't be rendered at the quality."""
     chosen: dict[Category, ChosenSettings] = {}
     for category, quota in spec.quotas.items():
         try:

@@ -25,7 +25,7 @@ _FOLDERS = ("textures", "hdris", "backgrounds")
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """What a user asks for.
+    """A dataset as a user asks for it.
 
     Attributes:
         spec: description of the dataset.

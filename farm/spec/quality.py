@@ -1,4 +1,4 @@
-"""Quality as an error budget: which settings render a category's pictures within it, at the least time.
+"""Quality as an error budget, and the choice of the fastest settings that keep a category's pictures within it.
 
 An error is NVIDIA's FLIP (Andersson et al. 2020, "FLIP: A difference evaluator for alternating images"), the mean over
 a picture of how much a viewer would see it differ from one without noise when flipping between the two: 0 is none, 1
@@ -21,7 +21,7 @@ CALIBRATION = Path(__file__).with_name("calibration.json")
 
 
 class Preset(StrEnum):
-    """How much time a picture may take for how little noise."""
+    """The named qualities: each trades the time that a picture takes against its noise."""
 
     DRAFT = "draft"
     STANDARD = "standard"
@@ -45,7 +45,7 @@ Quality = Annotated[Preset | float, BeforeValidator(_check_quality)]
 
 
 class Budget(Model):
-    """What a picture must keep to.
+    """The limits that settings must keep to for a picture to have a quality.
 
     Attributes:
         flip: the greatest mean FLIP.
@@ -60,7 +60,7 @@ class Budget(Model):
 
 
 class CalibratedSettings(Model):
-    """Settings, and what they were measured to cost and to miss over a category's calibration scenes.
+    """Settings, with their time and error as measured over a category's calibration scenes.
 
     Attributes:
         settings: what is set.
@@ -76,7 +76,7 @@ class CalibratedSettings(Model):
 
 
 class Calibration(Model):
-    """What comes with the farm: per category, settings of which none is both faster and better than another.
+    """The measured settings of each category. None of a category's settings is both faster and better than another.
 
     Attributes:
         version: version of this format.
@@ -125,11 +125,11 @@ REFERENCE = PictureSettings(
     detail=CableDetail(sides=40, points_per_segment=10),
     economy=Economy(cables_in_view=False, texture_window=False, upper_world=False, backdrop=False),
 )
-"""Nothing left out, and Blender's own limits of paths: what errors are measured against."""
+"""Settings of the pictures that errors are measured against: nothing is left out, and paths have Blender's limits."""
 
 
 def read_quality(text: str) -> str | float:
-    """A preset's name or a number, as given by a flag; the spec checks which of them there are."""
+    """Read a flag's value: a number, else a preset's name. The spec checks either."""
     try:
         return float(text)
     except ValueError:
@@ -137,7 +137,7 @@ def read_quality(text: str) -> str | float:
 
 
 def budget_of(quality: Quality, category: Category) -> Budget:
-    """What a quality, other than `REFERENCE`, asks of a category: a textured floor under an HDRI is the noisiest."""
+    """Make the budget of a quality other than `REFERENCE`; presets grant more to floors under an HDRI, the noisiest."""
     traits = category.traits
     hdri_floor = traits.background is Background.FLOOR and traits.light is Light.DISTRIBUTED
     if quality is Preset.DRAFT:
@@ -154,19 +154,19 @@ def _keeps_to(row: CalibratedSettings, budget: Budget) -> bool:
 
 
 def cheapest(rows: tuple[CalibratedSettings, ...], budget: Budget) -> CalibratedSettings | None:
-    """The fastest of `rows` within a budget, if any is."""
+    """Find the fastest of `rows` within a budget; None if no row is."""
     within = [row for row in rows if _keeps_to(row, budget)]
     return min(within, key=lambda row: row.seconds, default=None)
 
 
 @lru_cache(maxsize=1)
 def calibration() -> Calibration:
-    """The calibration that comes with the farm."""
+    """Read the calibration that comes with the farm, once in a process."""
     return Calibration.model_validate_json(CALIBRATION.read_bytes())
 
 
 def settings_for(quality: Quality, category: Category) -> ChosenSettings:
-    """The settings that a quality means for a category.
+    """Choose the settings that a quality means for a category.
 
     Raises:
         ValueError: if the category has no calibrated settings, or none of them keeps to the budget; the text says what

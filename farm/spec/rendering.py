@@ -28,7 +28,7 @@ class Guides(StrEnum):
 
 
 class Prefilter(StrEnum):
-    """How the denoiser denoises its guides first."""
+    """The denoising of the guides before the denoiser uses them."""
 
     NONE = "none"
     FAST = "fast"
@@ -78,7 +78,7 @@ class CyclesSettings(Model):
 
 
 class CableDetail(Model):
-    """How finely the tube of a cable is modelled; the mask is that of the same tube.
+    """Fineness of the tube that models a cable; the mask shows the same tube.
 
     Attributes:
         sides: number of corners of the tube's cross-section.

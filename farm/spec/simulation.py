@@ -1,7 +1,7 @@
-"""How the cables fall: which simulator, at which settings. More accuracy costs time; the defaults pass every gate.
+"""The simulation of the cables' fall: its simulator and settings. Accuracy costs time; the defaults pass every gate.
 
 A simulator is a member of `Simulator`, a model of its settings, and a field of `Fall` that bears the simulator's name.
-What lets the cables fall is the folder of `worker/simulate` that bears this name, too.
+The simulator's code is the folder of `worker/simulate` with the same name.
 """
 
 from enum import StrEnum
@@ -15,17 +15,17 @@ from farm.model import Model
 
 
 class Simulator(StrEnum):
-    """What lets the cables fall: the farm's own rod solver, or Blender's cloth in one joined mesh."""
+    """The simulator of the cables' fall: the farm's own rod solver, or Blender's cloth in one joined mesh."""
 
     ROD = "rod"
     CLOTH = "cloth"
 
 
 WITHDRAWN = MappingProxyType({"cloth-published": "nothing warrants that it repeats; ask for 'rod' or 'cloth'"})
-"""Simulators that the farm no longer offers: why, and what to ask for instead."""
+"""Simulators that the farm no longer offers, each with the reason and the simulators to ask for instead."""
 
 WITHDRAWN_FAULT = "withdrawn_simulator"
-"""Type of the validation error that such a name raises."""
+"""Type of the validation error that a withdrawn simulator's name raises."""
 
 
 def _refuse_withdrawn(value: object) -> object:
@@ -82,6 +82,6 @@ class Fall(Model):
     cloth: ClothFall = ClothFall()
 
     def settings_of(self, simulator: Simulator) -> Model:
-        """The settings of one simulator."""
+        """Return the settings of one simulator."""
         settings: Model = getattr(self, simulator.value)
         return settings

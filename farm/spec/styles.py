@@ -15,7 +15,7 @@ from farm.spec.ranges.placement import PlacementRanges
 
 
 class Style(StrEnum):
-    """What pictures are to look like: as the published ones, or as varied as photographs are."""
+    """The style of pictures: like the published ones, or as varied as photographs."""
 
     PUBLISHED = "published"
     WIDE = "wide"
@@ -67,17 +67,17 @@ WIDE = Ranges(
     ),
     development=DevelopmentRanges(share=1.0, contrast=(0.75, 2.05)),
 )
-"""What photographs of cables show: thick and thin ones, two colours, bundles, gloss, ends, clutter, a real camera."""
+"""Ranges of the wide style: thick and thin cables, two colours, bundles, gloss, ends, clutter, a real camera."""
 
 RANGES_OF: Mapping[Style, Ranges] = MappingProxyType({Style.PUBLISHED: Ranges(), Style.WIDE: WIDE})
 """Every range of each style."""
 
 
 def merge_ranges(style: Style, overrides: Mapping[str, object]) -> dict[str, object]:
-    """The ranges of a style with some of them overridden, as plain values; nothing is validated yet.
+    """Override some ranges of a style; return all as plain values, of which none is validated yet.
 
     Args:
-        style: whose ranges hold where none is given.
+        style: style whose ranges hold where none is given.
         overrides: tables of ranges, nested as in `Ranges`.
     """
     return merge_tables(RANGES_OF[style].model_dump(mode="json"), overrides)

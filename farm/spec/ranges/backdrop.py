@@ -1,4 +1,4 @@
-"""The ranges of what the picture shows behind the cables: an HDRI, or a photograph."""
+"""The ranges of the backdrop behind the cables: an HDRI, or a photograph."""
 
 from typing import Annotated
 
