@@ -1,4 +1,4 @@
-"""What a .blend file holds, as plain values: two builds of the template agree in this, though not in bytes."""
+"""The content of a .blend file, as plain values: two builds of the template agree in this, though not in bytes."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -11,7 +11,7 @@ _MAX_DEPTH = 5
 
 
 def describe_content() -> Mapping[str, object]:
-    """The open file's data, by collection and name: every stored property that is a number, a text or a reference."""
+    """Describe the open file by collection and name: every stored property that is a number, a text or a reference."""
     return {name: {block.name: _describe(block, 0) for block in getattr(bpy.data, name)} for name in _COLLECTIONS}
 
 
@@ -46,7 +46,7 @@ def _value(definition: Any, value: Any, depth: int) -> object:
 
 
 def _reference(value: Any, depth: int) -> object:
-    """Another data block by its name; what is part of this one by its content."""
+    """Describe another data block by its name, and a part of this one by its content."""
     if isinstance(value, bpy.types.ID) and not isinstance(value, bpy.types.NodeTree):
         return value.name
     return _describe(value, depth + 1) if depth < _MAX_DEPTH else None

@@ -1,4 +1,4 @@
-"""What the farm must find in a template, and the check of it.
+"""The contract of a template: the objects, nodes and links that the farm relies on, and the check for them.
 
 All of it belongs to the picture; a simulator brings what it needs itself.
 """
@@ -64,7 +64,7 @@ def open_template(path: Path) -> None:
 
 
 def find_missing() -> Iterator[str]:
-    """What the open file lacks of the contract, one phrase each; nothing if it holds all."""
+    """Yield each thing that the open file lacks of the contract, as a phrase; nothing if it holds all."""
     if names.PICTURE_SCENE not in bpy.data.scenes:
         yield f"the scene '{names.PICTURE_SCENE}'"
     for object_name, kind, subkind in _OBJECTS:
@@ -98,7 +98,7 @@ def _missing_node(collection: str, owner_name: str, node: str, kind: str) -> Ite
 
 
 def _missing_links() -> Iterator[str]:
-    """What must belong together for the worker's settings to act."""
+    """Yield each missing link that the worker's settings need: to the camera, the world, a material or a UV map."""
     picture = bpy.data.scenes.get(names.PICTURE_SCENE)
     if picture is None:
         return
@@ -117,7 +117,7 @@ def _missing_links() -> Iterator[str]:
 
 
 def _misplaced() -> Iterator[str]:
-    """What stands elsewhere than the masks and the fall take for granted."""
+    """Yield each placement of floor and camera that the masks and the fall rely on and that the file lacks."""
     floor = bpy.data.objects.get(names.FLOOR)
     if floor is not None and not _is_unmoved(floor):
         yield f"'{names.FLOOR}' unmoved, unturned and unscaled at the origin, with no parent or constraint"

@@ -1,4 +1,4 @@
-"""Which device Cycles renders on: the CPU, or a GPU through OptiX, CUDA, HIP or oneAPI."""
+"""The device that Cycles renders on: the CPU, or a GPU through OptiX, CUDA, HIP or oneAPI."""
 
 from typing import Any
 

@@ -36,7 +36,7 @@ _FIELD_SEED = 1
 
 @dataclass(frozen=True, slots=True)
 class FallObjects:
-    """What is in the scene of a fall: objects of Blender's.
+    """Blender's objects in the scene of a fall.
 
     Attributes:
         floor: the rigid floor, with a Collision modifier.
@@ -50,7 +50,7 @@ class FallObjects:
 
 
 def add_fall(scene: Any) -> FallObjects:
-    """Fill an empty scene with what a fall needs; gravity is that of the earth, in units."""
+    """Fill an empty scene with the objects of a fall; gravity is that of the earth, in units."""
     scene.gravity = (0.0, 0.0, -GRAVITY_M_S2)
     scene.frame_start, scene.frame_end = 1, 250
     return FallObjects(floor=add_floor(scene), cables=add_cables(scene), wind=add_wind(scene))

@@ -75,7 +75,7 @@ def add_mesh(scene: Any, name: str, arrays: MeshArrays, materials: Sequence[Any]
 
 
 def starts_of(sizes: Indices) -> NDArray[np.int64]:
-    """The first corner of each polygon, (F,), from the number of corners that each has, (F,)."""
+    """Compute the first corner of each polygon, (F,), from the number of corners that each has, (F,)."""
     starts: NDArray[np.int64] = np.cumsum(sizes) - sizes
     return starts
 

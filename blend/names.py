@@ -1,9 +1,9 @@
-"""Names of what the farm looks for in a template. An artist may change everything else."""
+"""Names of the things that the farm looks for in a template. An artist may change everything else."""
 
 from typing import Final
 
 PICTURE_SCENE: Final = "picture"
-"""What is rendered, in metres."""
+"""The scene that is rendered, in metres."""
 
 CABLE: Final = "cable"
 """The cable that every rendered cable is a copy of, and its material."""

@@ -1,7 +1,7 @@
-"""What a template must not bring: code, and files beside itself.
+"""The check that a template holds no code and needs no files beside itself.
 
-It is opened with its scripts left off, so none of this would act; but who made it should know that, and a picture must
-not depend on files that the dataset's header has no checksum of.
+A template is opened with its scripts left off, so none of this would act; but its author should know that, and a
+picture must not depend on files that the dataset's header has no checksum of.
 """
 
 from collections.abc import Iterator
@@ -11,7 +11,7 @@ import bpy
 
 
 def find_unsafe() -> Iterator[str]:
-    """What the open file holds of code and outside files, one phrase each; nothing if it is only a scene."""
+    """Yield each piece of code and each outside file of the open file, as a phrase; nothing if it is only a scene."""
     for text in bpy.data.texts:
         if text.use_module:
             yield f"the text '{text.name}' that is to run at the start"
@@ -30,7 +30,7 @@ def find_unsafe() -> Iterator[str]:
 
 
 def _blocks() -> Iterator[Any]:
-    """Every data block of the file, the node trees within materials and the like included."""
+    """Yield every data block of the file, the node trees within materials and the like included."""
     for definition in bpy.data.bl_rna.properties:
         if definition.type != "COLLECTION":
             continue

@@ -243,7 +243,7 @@ class Assembly:
         self.parts.setdefault(material, []).append(part)
 
     def _local(self, points: Points, own: Points, material: str) -> Points:
-        """Positions at which a material's pattern is read.
+        """Compute the positions at which a material's pattern is read.
 
         They run along the solid's longest axis, or for a material in `COURSED` along the level courses of its wall.
         """

@@ -64,7 +64,7 @@ def desk_lamp(a: Assembly, rng: np.random.Generator) -> None:
 
 
 def rows(xs: tuple[float, float, int], ys: tuple[float, float, int]) -> list[tuple[float, float]]:
-    """Places x, y of lamps in a grid; `xs` and `ys` each hold the first place, the last one and the count."""
+    """List the places x, y of lamps in a grid; `xs` and `ys` each hold the first place, the last one and the count."""
     return [(float(x), float(y)) for x in np.linspace(*xs) for y in np.linspace(*ys)]
 
 

@@ -12,13 +12,13 @@ T = TypeVar("T")
 
 
 def srgb(code: str) -> Colour:
-    """A colour such as "d08030" (sRGB, hexadecimal) in linear light, 0 to 1."""
+    """Convert a colour such as "d08030" (sRGB, hexadecimal) to linear light, 0 to 1."""
     red, green, blue = (light_of_srgb(int(code[place : place + 2], 16) / 255.0) for place in (0, 2, 4))
     return red, green, blue
 
 
 def palette(codes: str) -> tuple[Colour, ...]:
-    """The colours of hexadecimal codes that blanks separate."""
+    """Read the colours of hexadecimal codes that blanks separate."""
     return tuple(srgb(code) for code in codes.split())
 
 
@@ -41,12 +41,12 @@ YELLOW, RED, ORANGE, BLUE, GREEN = srgb("e0b010"), srgb("b81c1c"), srgb("e0701c"
 
 
 def pick(rng: np.random.Generator, choices: Sequence[T]) -> T:
-    """One of several choices, each equally likely."""
+    """Pick one of several choices, each equally likely."""
     return choices[int(rng.integers(len(choices)))]
 
 
 def vary(rng: np.random.Generator, colour: Colour, spread: float = 0.12) -> Colour:
-    """A colour made brighter or darker by up to the share `spread`, and shifted in hue by a third of that."""
+    """Make a colour brighter or darker by up to the share `spread`, and shift its hue by a third of that."""
     brightness = rng.uniform(1 - spread, 1 + spread)
     red, green, blue = (float(value * brightness * rng.uniform(1 - spread / 3, 1 + spread / 3)) for value in colour)
     return red, green, blue

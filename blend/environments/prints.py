@@ -55,13 +55,13 @@ class PrintKind(Enum):
 
 
 def cell(kind: PrintKind, number: int) -> Print:
-    """The rectangle of a picture in the atlas, 1.5 texels inside its edges, so that no neighbour shows at them."""
+    """Compute a picture's rectangle in the atlas, 1.5 texels inside its edges, so that no neighbour shows at them."""
     left, top, margin = (number % CELLS) / CELLS, 1.0 - kind.value / CELLS, 1.5 / (CELL_PX * CELLS)
     return left + margin, top - 1 / CELLS + margin, left + 1 / CELLS - margin, top - margin
 
 
 def any_of(rng: np.random.Generator, kind: PrintKind) -> Print:
-    """The rectangle of a random picture of a kind."""
+    """Pick a random picture of a kind, and compute its rectangle."""
     return cell(kind, int(rng.integers(CELLS)))
 
 

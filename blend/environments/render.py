@@ -154,7 +154,7 @@ def configure(scene: Any, device: str, threads: int) -> None:
 
 
 def without_seam(light: NDArray[np.float32]) -> NDArray[np.float32]:
-    """A panorama whose first and last columns meet: the denoiser, which does not know that, shades them apart.
+    """Make the first and last columns of a panorama meet: the denoiser, which does not know that, shades them apart.
 
     Their small difference, smoothed along the seam, is shared out over a few columns on both sides.
     """
@@ -173,7 +173,7 @@ def without_seam(light: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def normalised(light: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Light scaled to a mean luminance of `TARGET_LUMINANCE`, from 0 to `BRIGHTEST`.
+    """Scale light to a mean luminance of `TARGET_LUMINANCE`, from 0 to `BRIGHTEST`.
 
     Raises:
         RenderError: It holds what is not finite, or is black.

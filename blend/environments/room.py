@@ -113,7 +113,7 @@ class Room:
     openings: dict[Wall, tuple[Opening, ...]] = field(default_factory=dict)
 
     def length(self, wall: Wall) -> float:
-        """Length of a wall, metres."""
+        """Compute the length of a wall, metres."""
         return self.east - self.west if wall in {Wall.NORTH, Wall.SOUTH} else self.north - self.south
 
     @contextmanager

@@ -20,17 +20,17 @@ from blend.mesh import MeshArrays, add_mesh, starts_of
 
 @dataclass(frozen=True, slots=True)
 class Light:
-    """What lights a place apart from its lamps.
+    """The light of a place apart from its lamps, and the position of the camera in it.
 
     Attributes:
-        camera_m: where the camera stands, x, y, z.
+        camera_m: position of the camera, x, y, z.
         ambient: light from all around where nothing is near, which stands for many bounces.
         sky: radiance of the sky at the horizon, as seen through windows.
         overcast: 0 blue sky to 1 grey.
-        daylight: radiance of what comes in by windows.
+        daylight: radiance of the light that comes in by windows.
         sun: irradiance of the sun; 0 for none.
-        sun_bearing_deg, sun_height_deg: where it stands.
-        reach_m: how near a wall must be to keep the ambient light away.
+        sun_bearing_deg, sun_height_deg: bearing and height of the sun.
+        reach_m: distance within which a wall keeps the ambient light away.
         town: buildings and trees stand on the horizon.
     """
 
@@ -66,7 +66,7 @@ def stage(assembly: Assembly, light: Light, rng: np.random.Generator) -> Any:
 
 
 def _arrays(parts: list[Part]) -> MeshArrays:
-    """All parts of a material as one mesh."""
+    """Join all parts of a material into one mesh."""
     polygons = list(_polygons(parts))
     sizes = np.concatenate([np.full(len(faces), faces.shape[1]) for faces, _ in polygons])
     return MeshArrays(
@@ -126,7 +126,7 @@ def _shine(scene: Any, light: Light) -> None:
 
 
 def _world(light: Light, rng: np.random.Generator) -> Any:
-    """What is seen is the sky; what lights beyond the lamps is even."""
+    """Make the world: diffuse rays get the even ambient light, and all others the sky."""
     world: Any = bpy.data.worlds.new("surroundings")
     world.use_nodes = True
     tree = world.node_tree

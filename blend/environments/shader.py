@@ -49,7 +49,7 @@ class Shader:
             self.surface.inputs[name.replace("_", " ").title().replace("Ior", "IOR")].default_value = value
 
     def noise(self, scale: float, stretch: tuple[float, float, float] = (1, 1, 1), detail: float = 3.0) -> Any:
-        """Noise from 0 to 1 along the solid's own axes.
+        """Make noise from 0 to 1 along the solid's own axes.
 
         Args:
             scale: waves per metre.
@@ -106,14 +106,14 @@ class Shader:
         self.link(node.outputs[0], self.surface.inputs["Normal"])
 
     def uv(self, scale: float) -> Any:
-        """The UV map in tiles; `scale` is tiles per metre (1 for pictures from the atlas)."""
+        """Scale the UV map to tiles; `scale` is tiles per metre (1 for pictures from the atlas)."""
         node = self.node("ShaderNodeMapping")
         node.inputs["Scale"].default_value = (scale, scale, scale)
         self.link(self.node("ShaderNodeUVMap", uv_map="uv").outputs[0], node.inputs["Vector"])
         return node.outputs[0]
 
     def image(self, image: Any, scale: float = 1.0) -> Any:
-        """The colour of an image at the UV map, `scale` tiles per metre."""
+        """Read the colour of an image at the UV map, `scale` tiles per metre."""
         node = self.node("ShaderNodeTexImage", image=image)
         self.link(self.uv(scale), node.inputs["Vector"])
         return node.outputs["Color"]

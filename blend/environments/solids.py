@@ -86,7 +86,7 @@ CHAMFERED = _box_template(chamfered=True)
 
 
 def turned(x: float, y: float, z: float, turn: float = 0.0, lean: float = 0.0) -> Points:
-    """A matrix (4, 4): lean about x, then turn about the vertical, then move to x, y, z; degrees and metres."""
+    """Make a matrix (4, 4): lean about x, then turn about the vertical, then move to x, y, z; degrees and metres."""
     c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
     cl, sl = math.cos(math.radians(lean)), math.sin(math.radians(lean))
     return np.array(
@@ -143,7 +143,7 @@ def swept(points: Points, radius: float, sides: int = 7) -> Solid:
 
 
 def hanging(start: Sequence[float], end: Sequence[float], sag: float, count: int = 9) -> Points:
-    """Points (count, 3) of a cable that sags by `sag` metres in the middle between two ends."""
+    """Compute points (count, 3) of a cable that sags by `sag` metres in the middle between two ends."""
     share = np.linspace(0.0, 1.0, count)[:, None]
     points: Points = np.array(start) * (1 - share) + np.array(end) * share
     points[:, 2] -= 4 * sag * (share * (1 - share))[:, 0]
