@@ -10,12 +10,12 @@ REC709_LUMINANCE: Final = np.array([0.2126, 0.7152, 0.0722])
 
 
 def light_of_srgb(value: float) -> float:
-    """The linear light of an sRGB value, both 0 to 1."""
+    """Compute the linear light of an sRGB value, both 0 to 1."""
     return value / 12.92 if value <= 0.04045 else float(((value + 0.055) / 1.055) ** 2.4)
 
 
 def srgb_of_light(light: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """The sRGB values of linear light, both 0 to 1, of any shape."""
+    """Compute the sRGB values of linear light, both 0 to 1, of any shape."""
     values: npt.NDArray[np.float64] = np.where(
         light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055
     )

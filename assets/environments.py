@@ -31,7 +31,7 @@ BRIGHTEST = 50.0
 
 
 class EnvironmentKind(StrEnum):
-    """What a panorama shows."""
+    """The kind of place that a panorama shows."""
 
     WORKSHOP = "workshop"
     LABORATORY = "laboratory"
@@ -43,7 +43,7 @@ class EnvironmentKind(StrEnum):
 
 
 class EnvironmentRecipe(BaseModel):
-    """How to build an environment.
+    """A recipe from which an environment is built.
 
     Attributes:
         name: Unique name.
@@ -61,11 +61,11 @@ class EnvironmentRecipe(BaseModel):
 
 
 class EnvironmentRecord(BaseModel):
-    """What `environment.json` says about a rendered environment.
+    """The content of `environment.json`, the record of a rendered environment.
 
     Attributes:
         name: The recipe's name, also the folder's.
-        kind: What it shows.
+        kind: Kind of place that it shows.
         version: Version of the recipe that built it.
         pixels: Width of the panorama; it is half as high.
         sha256: Checksum of the panorama's file.
@@ -113,7 +113,7 @@ _STREAM = 1
 
 
 def environment_generator(recipe: EnvironmentRecipe) -> np.random.Generator:
-    """The random generator that a recipe is built with. It depends on the recipe's kind and seed alone.
+    """Make the random generator that a recipe is built with. It depends on the recipe's kind and seed alone.
 
     So a new version keeps the room of the version before, apart from what was changed.
     """
@@ -121,7 +121,7 @@ def environment_generator(recipe: EnvironmentRecipe) -> np.random.Generator:
 
 
 def environment_directory(folder: Path, name: str) -> Path:
-    """The folder of an environment.
+    """Build the path of an environment's folder.
 
     Args:
         folder: The folder of the baked surfaces.
@@ -178,7 +178,7 @@ def read_record(path: Path) -> EnvironmentRecord:
 
 
 def chosen_environments(names: tuple[str, ...] | None) -> tuple[EnvironmentRecipe, ...]:
-    """The recipes with these names, or all recipes for None, in the registry's order.
+    """Find the recipes with these names, or all recipes for None, in the registry's order.
 
     Raises:
         AssetError: A name is unknown.
@@ -194,7 +194,7 @@ def chosen_environments(names: tuple[str, ...] | None) -> tuple[EnvironmentRecip
 def missing_environments(
     folder: Path, pixels: int | None, names: tuple[str, ...] | None = None
 ) -> tuple[EnvironmentRecipe, ...]:
-    """The recipes that a folder lacks: absent, damaged, or of another version or size.
+    """Find the recipes that a folder lacks: absent, damaged, or of another version or size.
 
     Args:
         folder: The folder of the baked surfaces.

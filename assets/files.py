@@ -94,7 +94,7 @@ def open_regular(path: Path) -> BufferedReader:
 
 
 def sha256(data: bytes) -> str:
-    """SHA-256 of some bytes, 64 hexadecimal digits."""
+    """Compute the SHA-256 of some bytes, 64 hexadecimal digits."""
     return hashlib.sha256(data).hexdigest()
 
 

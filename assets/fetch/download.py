@@ -25,7 +25,7 @@ _PASSING = frozenset({408, 425, 429, 500, 502, 503, 504})
 
 @dataclass(frozen=True, slots=True)
 class Patience:
-    """How long to wait for a server.
+    """Limits on the wait for a server.
 
     Attributes:
         silence_s: Longest wait for a connection or for the next piece of the file, seconds.
@@ -39,7 +39,7 @@ class Patience:
     slowest: float = 2.0**14
 
     def limit_s(self, size: int) -> float:
-        """Longest time that a file of `size` bytes may take, seconds."""
+        """Compute the longest time that a file of `size` bytes may take, seconds."""
         return 60.0 + size / self.slowest
 
 
@@ -108,12 +108,12 @@ def _try(url: str, target: Path, size: int, checksum: str, patience: Patience) -
 
 
 def _shown(said: object) -> str:
-    """A server's words for an error message, at most 200 characters, without control characters for the terminal."""
+    """Fit a server's words for an error message: at most 200 characters, with a ? for each that isn't printable."""
     return "".join(sign if sign.isprintable() else "?" for sign in str(said))[:200]
 
 
 def _phrase(status: int) -> str:
-    """The standard phrase of an HTTP status; the server's own could hold anything."""
+    """Look up the standard phrase of an HTTP status; the server's own could hold anything."""
     return HTTPStatus(status).phrase if status in set(HTTPStatus) else "with no known status"
 
 
@@ -156,7 +156,7 @@ def _copy(url: str, response: HTTPResponse, file: FileIO, target: Path, size: in
 
 
 def no_room(target: Path, error: OSError) -> AssetError:
-    """The error for a file that can't be written.
+    """Make the error for a file that can't be written.
 
     Args:
         target: Path of the file; the message names its folder.
@@ -193,7 +193,7 @@ class _SafeRedirects(urllib.request.HTTPRedirectHandler):
 
 
 def _opener(url: str) -> urllib.request.OpenerDirector:
-    """An opener of http and https addresses alone; urllib's own also opens local files and FTP."""
+    """Make an opener of http and https addresses alone; urllib's own also opens local files and FTP."""
     opener = urllib.request.OpenerDirector()
     for handler in (
         urllib.request.ProxyHandler(),

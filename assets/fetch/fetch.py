@@ -24,7 +24,7 @@ _PREFIX = ".fetching-"
 
 
 class Outcome(StrEnum):
-    """What `Fetcher.fetch` did with an asset."""
+    """The outcome of `Fetcher.fetch` for an asset."""
 
     FETCHED = "fetched"
     PRESENT = "there already"
@@ -163,7 +163,7 @@ def is_whole(path: Path, entry: AssetFile) -> bool:
 
 @contextmanager
 def _temporary_folder(within: Path) -> Iterator[Path]:
-    """A temporary folder inside `within`, removed with its content at the end.
+    """Make a temporary folder inside `within`; remove it with its content at the end.
 
     It lies on the same file system as `within`, so an atomic rename can move a file from one to the other.
     """

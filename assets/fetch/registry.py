@@ -155,7 +155,7 @@ class Asset(_Entry):
 
 
 def role_of(entry: AssetFile) -> TextureRole | None:
-    """The map of a texture that a file holds, told by its name; None if the name tells none."""
+    """Tell from a file's name which map of a texture it holds; None if the name tells none."""
     return parse_texture_name(PurePosixPath(entry.file).stem).role
 
 
@@ -186,7 +186,7 @@ class Registry(_Entry):
         return self
 
     def find(self, names: list[str]) -> tuple[Asset, ...]:
-        """The assets with these names, in the registry's order; every asset if `names` is empty.
+        """Find the assets with these names, in the registry's order; every asset if `names` is empty.
 
         Raises:
             AssetError: No asset has one of the names.
@@ -227,7 +227,7 @@ def read_registry(path: Path) -> Registry:
 
 @cache
 def own_registry() -> Registry:
-    """The registry that comes with the farm.
+    """Read the registry that comes with the farm.
 
     Raises:
         AssetError: The registry is missing or wrong, so the installation is damaged.

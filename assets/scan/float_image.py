@@ -109,7 +109,7 @@ def write_float_image(path: Path, pixels: NDArray[np.float32]) -> NDArray[np.flo
 
 @cache
 def _library() -> Any:
-    """OpenImageIO, with the limits and readers that this module relies on."""
+    """Load OpenImageIO, with the limits and readers that this module relies on."""
     import OpenImageIO  # noqa: PLC0415  # it takes 26 MB and 0.08 s, and most processes read no such file
 
     # A file that the reader of its suffix refuses is not given to the readers of twenty other formats.
@@ -120,7 +120,7 @@ def _library() -> Any:
 
 
 def _check_start(path: Path, start: bytes) -> None:
-    """Check what OpenImageIO would find out too late, from the first bytes of a file."""
+    """Check the first bytes of a file for faults that OpenImageIO would find out too late."""
     suffix = path.suffix.lower()
     if suffix == ".exr":
         _check_exr_header(path, start)
@@ -151,7 +151,7 @@ def _check_exr_header(path: Path, start: bytes) -> None:
 
 
 def _checked_channels(path: Path, spec: "ImageSpec") -> int:
-    """Check what the header announces, before memory is taken for it.
+    """Check the size and the channels that a header announces, before memory is taken for it.
 
     Returns:
         How many channels to read: 3 or 1.
@@ -195,7 +195,7 @@ def _undecodable(path: Path, error: Callable[[], str]) -> AssetError:
 
 
 def _reason(error: Callable[[], str]) -> str:
-    """What OpenImageIO says of an error, in one line."""
+    """Put OpenImageIO's message about an error in one line."""
     try:
         return " ".join(error().split())
     except UnicodeDecodeError:

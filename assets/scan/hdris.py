@@ -54,14 +54,14 @@ class Hdri(BaseModel):
 
 
 class RegistryEntry(BaseModel):
-    """What `hdris.toml` says about one of Blender's HDRIs.
+    """An entry of `hdris.toml`: one of Blender's HDRIs.
 
     Attributes:
         name: Short name.
         file: File name in Blender's folder.
         sha256: Its checksum.
         licence: SPDX identifier.
-        author: Who made it.
+        author: Name of its author.
         source: Page of the original.
         source_certain: False where Blender's own note says "probably".
         dark: Whether its mean luminance is below `DARK_BELOW`.
@@ -91,7 +91,7 @@ class _Registry(BaseModel):
 
 @cache
 def registry() -> tuple[RegistryEntry, ...]:
-    """The HDRIs that come with Blender, from `hdris.toml`.
+    """Read the list of the HDRIs that come with Blender, from `hdris.toml`.
 
     Returns:
         The entries in the file's order.
@@ -106,7 +106,7 @@ def registry() -> tuple[RegistryEntry, ...]:
 
 
 def world_directory() -> Path:
-    """The folder of Blender's HDRIs within the installed bpy package, found without importing it.
+    """Find the folder of Blender's HDRIs within the installed bpy package, without importing it.
 
     Returns:
         The folder.
@@ -124,7 +124,7 @@ def world_directory() -> Path:
 
 
 def builtin_hdris() -> tuple[Hdri, ...]:
-    """Blender's own HDRIs, each checked against the registry's checksum (which stands for a full decode).
+    """Find Blender's own HDRIs, each checked against the registry's checksum (which stands for a full decode).
 
     Returns:
         All of them, in the registry's order.
@@ -199,7 +199,7 @@ def read_hdri(path: Path) -> Hdri:
 
 
 def horizon_luminance(pixels: npt.NDArray[np.float32]) -> float:
-    """Geometric mean of the luminance within 30 degrees of the horizon: what a picture's background looks like.
+    """Compute the geometric mean of the luminance within 30 degrees of the horizon, which backgrounds show.
 
     The arithmetic mean would be that of a few lamps.
 
@@ -215,7 +215,7 @@ def horizon_luminance(pixels: npt.NDArray[np.float32]) -> float:
 
 
 def mean_luminance(pixels: npt.NDArray[np.float32]) -> float:
-    """Mean luminance of a panorama over the sphere.
+    """Compute the mean luminance of a panorama over the sphere.
 
     Args:
         pixels: Equirectangular, shape (height, width, 3), linear, channels red green blue.

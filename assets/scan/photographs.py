@@ -83,7 +83,7 @@ def read_plate(path: Path) -> PlateFile:
 
 
 def decode_plate(path: Path, data: bytes) -> npt.NDArray[np.uint8]:
-    """The pixels of a photograph, turned as its EXIF note says; of several images in a file, the first.
+    """Decode the pixels of a photograph, turned as its EXIF note says; of several images in a file, the first.
 
     Args:
         path: What to call it in errors.

@@ -1,4 +1,4 @@
-"""What the file names of texture libraries say: which texture, which map, which convention."""
+"""The meaning of texture libraries' file names: the texture, the map, and the map's convention."""
 
 import re
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ class TextureRole(StrEnum):
 
 @dataclass(frozen=True)
 class TextureName:
-    """What a file's name says.
+    """The meaning of a file's name.
 
     Attributes:
         texture: Name of the texture that the map belongs to, in lower case, parts joined by '_'; may be empty.
@@ -56,7 +56,7 @@ _MEANINGS: dict[str, tuple[TextureRole | None, bool, bool]] = {
     **dict.fromkeys(_GLOSS, (TextureRole.ROUGHNESS, False, True)),
     **dict.fromkeys(_UNUSED, (None, False, False)),
 }
-"""Ending, its parts run together, to role, DirectX, gloss."""
+"""Meaning of each ending, its parts run together: the role, whether it is DirectX's, whether it is a gloss map."""
 
 _QUALIFIERS = {"gl", "ogl", "opengl", "dx", "directx"}
 _NOISE = re.compile(r"\d{1,2}k|\d{3,5}(x\d{3,5})?(px)?|jpg|jpeg|png|tif|tiff|exr|webp|bmp|\d{1,2}bit")

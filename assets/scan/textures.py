@@ -59,7 +59,7 @@ class TextureSet(BaseModel):
     invert_roughness: bool = False
 
     def find(self, role: TextureRole) -> TextureMap | None:
-        """The map of a role, or None if the set has none."""
+        """Find the map of a role, or None if the set has none."""
         return next((found for found in self.maps if found.role is role), None)
 
 
@@ -108,7 +108,7 @@ def read_map(role: TextureRole, path: Path) -> TextureMap:
 
 
 def _group(folder: Path) -> dict[str, list[tuple[TextureName, Path]]]:
-    """Texture name to its files."""
+    """Group a folder's files by the name of the texture."""
     named: dict[str, list[tuple[TextureName, Path]]] = defaultdict(list)
     stray: list[tuple[str, Path]] = []
     for path in _images(folder):

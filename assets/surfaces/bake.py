@@ -107,7 +107,7 @@ def _chosen(names: Iterable[str] | None) -> tuple[SurfaceRecipe, ...]:
 
 
 def _present(directory: Path, recipe: SurfaceRecipe, pixels: int) -> BakedSurface | None:
-    """The surface on disk, or None unless it is whole and just as a bake would draw it now."""
+    """Load the surface on disk; None unless it is whole and just as a bake would draw it now."""
     try:
         surface = load_surface(directory, recipe.name)
     except AssetError:

@@ -1,4 +1,4 @@
-"""The baked surfaces on disk: what is known of them, found and checked."""
+"""The baked surfaces on disk: their records, and the check of their files."""
 
 import os
 from collections.abc import Mapping
@@ -14,10 +14,10 @@ from farm.errors import AssetError
 from farm.machine import cache_folder
 
 RECORD_NAME = "surface.json"
-"""File of what is known about a surface, beside its maps; a surface without it counts as not baked."""
+"""Name of the file with a surface's record, beside its maps; a surface without it counts as not baked."""
 
 SMALLEST_EDGE, LARGEST_EDGE = 64, 8192
-"""Texels along an edge, at least and at most."""
+"""Smallest and largest number of texels along an edge."""
 
 MapRole = Literal["colour", "normal", "roughness", "metallic", "joints"]
 
@@ -34,11 +34,11 @@ FILE_NAMES: Mapping[MapRole, str] = MappingProxyType(
 
 
 class SurfaceRecord(BaseModel):
-    """What `surface.json` says about a baked surface.
+    """The content of `surface.json`, the record of a baked surface.
 
     Attributes:
         name: The recipe's name, also the folder's.
-        family: What the surface is made of.
+        family: Material of the surface.
         size_m: Edge of the square tile in metres.
         pixels: Texels along an edge.
         recipe_version: Version of the recipe that drew it.
@@ -90,7 +90,7 @@ class BakedSurface(BaseModel):
 
 
 def surface_directory() -> Path:
-    """Where surfaces are kept: FARM_ASSETS, or `cable-farm/surfaces` in the user's cache folder."""
+    """Choose the folder of the surfaces: FARM_ASSETS, or `cable-farm/surfaces` in the user's cache folder."""
     chosen = os.environ.get("FARM_ASSETS")
     if chosen:
         return Path(chosen).expanduser()

@@ -1,4 +1,4 @@
-"""What a surface is called, what it is made of, how big it is and how to draw it."""
+"""The recipe of a surface: its name, its material, its size, and the function that draws it."""
 
 import zlib
 from collections.abc import Callable
@@ -12,7 +12,7 @@ from assets.surfaces.kit.maps import SurfaceMaps
 
 
 class SurfaceFamily(StrEnum):
-    """What a surface is made of."""
+    """The material that a surface is made of."""
 
     WOOD = "wood"
     TILE = "tile"
@@ -64,5 +64,5 @@ class SurfaceRecipe:
 
 
 def recipe_generator(recipe: SurfaceRecipe) -> np.random.Generator:
-    """The random generator that a recipe is baked with: it follows from the name and version alone."""
+    """Make the random generator that a recipe is baked with: it follows from the name and version alone."""
     return np.random.default_rng([zlib.crc32(recipe.name.encode()), recipe.version])

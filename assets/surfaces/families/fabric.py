@@ -136,7 +136,7 @@ def felt(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def _light_yarn(points_mm: npt.NDArray[np.float64], grid: Grid) -> npt.NDArray[np.bool_]:
-    """Whether each loop of the meander is of light yarn; the pattern is turned by 45 degrees and still tiles."""
+    """Find the loops of light yarn in the meander, whose pattern is turned by 45 degrees and still tiles."""
     key = np.array([[cell == "." for cell in line] for line in KEY])
     cell = grid.size_mm / 3 / len(KEY)
     rows = np.floor((points_mm[:, 1] - points_mm[:, 0]) / cell).astype(np.int64) % len(KEY)

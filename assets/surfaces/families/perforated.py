@@ -144,7 +144,7 @@ def aluminium_profile(rng: np.random.Generator, grid: Grid) -> SurfaceMaps:
 
 
 def _slot_floor(rng: np.random.Generator, grid: Grid, across: Field, bar: Labels) -> tuple[Field, Field]:
-    """What shows in the slots: a dim floor with chips and dust between dark undercuts, or a cover strip.
+    """Draw the inside of the slots: a dim floor with chips and dust between dark undercuts, or a cover strip.
 
     Args:
         rng: Source of the randomness.

@@ -1,4 +1,4 @@
-"""Where things lie on a circuit board: footprints placed at random and traces routed between them on a lattice."""
+"""The layout of a circuit board: footprints placed at random, and traces routed between them on a lattice."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -16,7 +16,7 @@ OCTANTS = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1))
 
 
 class BodyKind(StrEnum):
-    """What sits on a footprint."""
+    """The kind of component on a footprint."""
 
     CHIP = "chip"
     RESISTOR = "resistor"
@@ -253,7 +253,7 @@ def _mm(column: int, line: int) -> tuple[float, float]:
 
 
 def _square_chip(pins: int) -> _Footprint:
-    """A square chip with pins on four sides."""
+    """Make the footprint of a square chip with pins on four sides."""
     reach = pins + 1
     places = range(1 - pins, pins, 2)
     rows = (
@@ -267,7 +267,7 @@ def _square_chip(pins: int) -> _Footprint:
 
 
 def _long_chip(pins: int, turned: int) -> _Footprint:
-    """A long chip with pins on two sides."""
+    """Make the footprint of a long chip with pins on two sides."""
     places = range(1 - pins, pins, 2)
     body = (2.0 * pins * CELL_MM, 3.9)
     if turned:
@@ -281,7 +281,7 @@ def _long_chip(pins: int, turned: int) -> _Footprint:
 
 
 def _header(lines: int, pins: int, turned: int) -> _Footprint:
-    """Plated holes 2.4 mm apart in one or two lines."""
+    """Make the footprint of a pin header: plated holes 2.4 mm apart in one or two lines."""
     places = [4 * i - 2 * (pins - 1) for i in range(pins)]
     offsets = (0,) if lines == 1 else (-2, 2)
     rows = []
@@ -299,7 +299,7 @@ def _header(lines: int, pins: int, turned: int) -> _Footprint:
 
 
 def _passive(kind: BodyKind, turned: int) -> _Footprint:
-    """A resistor or capacitor with two ends."""
+    """Make the footprint of a resistor or capacitor with two ends."""
     if turned:
         rows = (_Row(((0, -2),), 6, 1.1, 1.3), _Row(((0, 2),), 2, 1.1, 1.3))
         return _Footprint(kind, (1, 3), rows, (1.25, 2.6))

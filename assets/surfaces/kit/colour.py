@@ -17,7 +17,7 @@ def rgb(code: str) -> Field:
 
 
 def plain(code: str, field: Field) -> Field:
-    """One colour over the whole of a field's grid, shape (H, W, 3)."""
+    """Spread one colour over the whole of a field's grid, shape (H, W, 3)."""
     return np.broadcast_to(rgb(code), (*field.shape, 3)).copy()
 
 

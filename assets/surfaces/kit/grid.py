@@ -31,14 +31,14 @@ class Grid:
         return self.size_mm / self.pixels
 
     def axis(self) -> Field:
-        """Positions of the texel centres along an edge in millimetres, shape (pixels,)."""
+        """Compute the positions of the texel centres along an edge in millimetres, shape (pixels,)."""
         return ((np.arange(self.pixels) + 0.5) * self.texel_mm).astype(np.float32)
 
     def coordinates(self) -> tuple[Field, Field]:
-        """Position of every texel centre: x to the right and y down, in millimetres, each shape (H, W)."""
+        """Compute the position of every texel centre: x to the right and y down, in millimetres, each shape (H, W)."""
         x, y = np.meshgrid(self.axis(), self.axis())
         return x, y
 
     def zeros(self) -> Field:
-        """A field of zeros, shape (H, W)."""
+        """Make a field of zeros, shape (H, W)."""
         return np.zeros((self.pixels, self.pixels), np.float32)

@@ -76,7 +76,7 @@ def printed_page(rng: np.random.Generator, size_mm: tuple[float, float], grid: G
 
 
 def _word(rng: np.random.Generator, height_mm: float) -> npt.NDArray[np.float64]:
-    """A scribbled word: a running loop with ascenders and descenders; corners in millimetres from its start."""
+    """Draw a scribbled word: a running loop with ascenders and descenders; corners in millimetres from its start."""
     letters = int(rng.integers(3, 10))
     t = np.linspace(0, letters, 9 * letters)
     tall = np.repeat(rng.choice([1.0, 1.0, 1.0, 1.9, 0.7], letters), 9)

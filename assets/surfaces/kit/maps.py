@@ -49,7 +49,7 @@ def joint_levels(to_joint_mm: Field) -> npt.NDArray[np.uint8]:
 
 
 def joint_distance_mm(levels: npt.NDArray[np.uint8]) -> Field:
-    """The distances that `joint_levels` stored, shape (H, W)."""
+    """Read back the distances that `joint_levels` stored, shape (H, W)."""
     return (127.5 - levels.astype(np.float32)) * np.float32(JOINT_REACH_MM / 127.5)
 
 

@@ -10,7 +10,7 @@ from assets.surfaces.kit.strokes import as_field, curve, polylines
 
 
 def scratches(rng: np.random.Generator, grid: Grid, count: int, width_mm: float) -> Field:
-    """Fine scratches of every length and strength, broken where the tool skipped; 0 to 1, shape (H, W)."""
+    """Draw fine scratches of every length and strength, broken where the tool skipped; 0 to 1, shape (H, W)."""
     image = np.zeros((grid.pixels, grid.pixels), np.uint8)
     for _ in range(count):
         start = rng.uniform(0, grid.size_mm, 2)
@@ -32,14 +32,14 @@ def dust(rng: np.random.Generator, grid: Grid, where: Field) -> Field:
 
 
 def specks(rng: np.random.Generator, grid: Grid, share: float, size_mm: float) -> Field:
-    """Small separate specks of about `size_mm`, covering `share` of the area; 0 to 1, shape (H, W)."""
+    """Draw small separate specks of about `size_mm`, covering `share` of the area; 0 to 1, shape (H, W)."""
     field = fractal(rng, grid, 8 * size_mm, 1.1 * size_mm, gain=0.85)
     clumps = fractal(rng, grid, 70, 10)
     return coverage(field + 0.28 * clumps, share, 0.25)
 
 
 def stains(rng: np.random.Generator, grid: Grid, size_mm: float, share: float) -> tuple[Field, Field]:
-    """Dried puddles: a body and the darker rim left at its border; each 0 to 1, shape (H, W)."""
+    """Draw dried puddles: a body and the darker rim left at its border; each 0 to 1, shape (H, W)."""
     field = fractal(rng, grid, size_mm, 0.8, gain=0.47) + 0.05 * fractal(rng, grid, 9, 0.6, gain=0.75)
     level = float(np.quantile(field[::4, ::4], 1.0 - share))
     inside = field - level
@@ -51,7 +51,7 @@ def stains(rng: np.random.Generator, grid: Grid, size_mm: float, share: float) -
 
 
 def cracks(rng: np.random.Generator, grid: Grid, spacing_mm: float, width_mm: float, keep: float) -> Field:
-    """A network of cracks along the wandering borders of large cells.
+    """Draw a network of cracks along the wandering borders of large cells.
 
     Args:
         rng: Source of the randomness.

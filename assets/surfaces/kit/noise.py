@@ -156,5 +156,5 @@ def _squared_frequency(rows: int, columns: int, stretch: tuple[float, float]) ->
 
 
 def _packed_axis(length: int) -> npt.NDArray[np.float64]:
-    """Frequencies of a packed real transform: 0, then each twice (its real and its imaginary part)."""
+    """List the frequencies of a packed real transform: 0, then each twice (its real and its imaginary part)."""
     return np.asarray((np.arange(length) + 1) // 2, np.float64)

@@ -13,7 +13,7 @@ from assets.surfaces.kit.noise import fractal, smoothstep
 
 @dataclass(frozen=True)
 class Joints:
-    """How tiles are set.
+    """The joints in which tiles are set.
 
     Attributes:
         width_mm: Width of the joint between two tiles.

@@ -94,7 +94,7 @@ def weave(
 
 
 def plain_pattern() -> npt.NDArray[np.bool_]:
-    """A plain weave: each thread passes over one thread, then under one."""
+    """Make the pattern of a plain weave: each thread passes over one thread, then under one."""
     return np.array([[True, False], [False, True]])
 
 
@@ -105,7 +105,7 @@ def twill_pattern(over: int, under: int) -> npt.NDArray[np.bool_]:
 
 
 def basket_pattern(size: int) -> npt.NDArray[np.bool_]:
-    """A basket weave: groups of `size` threads pass over and under groups of `size`."""
+    """Make the pattern of a basket weave: groups of `size` threads pass over and under groups of `size`."""
     return np.kron(plain_pattern().astype(np.int8), np.ones((size, size), np.int8)).astype(bool)
 
 
@@ -116,7 +116,7 @@ def _round(offset: npt.NDArray[np.floating[Any]]) -> npt.NDArray[np.floating[Any
 def _float_profile(
     over: npt.NDArray[np.bool_], warp: Labels, weft: Labels, across: npt.NDArray[np.floating[Any]], along_rows: bool
 ) -> npt.NDArray[np.floating[Any]]:
-    """The height of a thread on top, 0 to 1: 1 along a float, falling to 0 where the thread dives under another."""
+    """Compute the height of a thread on top: 1 along a float, falling to 0 where the thread dives under another."""
     rows, columns = over.shape
     step = (1, 0) if along_rows else (0, 1)
     before = over[(weft - step[0]) % rows, (warp - step[1]) % columns]

@@ -12,7 +12,7 @@ from assets.surfaces.kit.noise import fractal, sample, smoothstep
 
 @dataclass(frozen=True)
 class Species:
-    """How a kind of wood looks.
+    """The look of a kind of wood.
 
     Attributes:
         stops: Ramp from early wood (0) to late wood (1), hexadecimal sRGB.
