@@ -132,7 +132,7 @@ class Completion:
                     self._vouched_s[category][index] = changed_s[index]
                 else:
                     damaged[index] = True
-            # What came since the manifests were listed is for the next audit.
+            # The next audit judges the files that came after the manifests were listed.
             self._damaged[category] = np.where(there, damaged, self._damaged[category])
         return self.look()
 
@@ -143,7 +143,7 @@ class Completion:
             now_s: seconds of the Unix epoch.
 
         Returns:
-            How many were removed.
+            Number of removed files.
 
         Raises:
             DestinationError: if the folder can't be read or written.

@@ -92,7 +92,7 @@ def write_index(dataset: Dataset) -> int:
     """Write `index.jsonl`.
 
     Returns:
-        How many images it lists.
+        Number of images that it lists.
 
     Raises:
         DestinationError: if the folder can't be read or written.

@@ -41,7 +41,7 @@ class SettleFigures(Model):
     """Measurements of the settled cables, taken on the smooth centrelines that are rendered.
 
     Attributes:
-        fall_s: how long the cables fell and settled, in true time.
+        fall_s: true time for which the cables fell and settled, in seconds.
         steps: time steps of the rod solver, or frames of the cloth.
         length_error: worst cable, |L/L0 - 1|.
         cable_penetration: depth of a cable in another, or in itself farther along than four radii, over the smaller
@@ -80,7 +80,7 @@ class RenderSettings(Model):
 
     Attributes:
         samples: most samples that a pixel takes.
-        settings: what Cycles rendered with; None for another engine.
+        settings: settings that Cycles rendered with; None for another engine.
         expected_flip: mean FLIP against a picture without noise, as calibrated; None where it is not known, as for
             pictures that a camera's development changes.
     """

@@ -1,4 +1,4 @@
-"""The table of outputs: every file that a picture consists of, but for its manifest.
+"""The table of outputs: every file that a picture consists of, except its manifest.
 
 Layout, completeness, index, verification and upload go by this table. A new label is one more row, and the function in
 `worker/label/` that the row names; docs/how-to/add-a-label.md has the steps.
@@ -38,8 +38,8 @@ class Output:
         format: the type of its files.
         find_fault: takes a content and the dataset's resolution in pixels; says what is wrong, or None.
         agreements: checks against other outputs; one that a dataset lacks is not compared.
-        maker: where the function is that makes it, as `module:function`; None for what the renderer makes. See
-            `worker.label.makers.Maker`.
+        maker: place of the function that makes the file's content, as `module:function`; None if the renderer makes it.
+            See `worker.label.makers.Maker`.
     """
 
     role: str

@@ -23,7 +23,7 @@ class QuarantineRecord(Model):
     """The record of a job that is given up until a person puts it back: the reason, and the means to examine it.
 
     Attributes:
-        attempts: how often it was begun, as far as is known.
+        attempts: number of times that the job was begun, as far as is known.
         worker: the process that gave it up.
         log: the end of what Blender printed in its last attempt; empty where it is not at hand.
         replay: the command that makes the picture again, here and now.

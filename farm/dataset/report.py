@@ -36,7 +36,7 @@ def write_report(dataset: Dataset, *, pictures_per_category: int = 40) -> int:
         pictures_per_category: maximum number of pictures that are shown of each category.
 
     Returns:
-        How many images are done.
+        Number of images that are done.
 
     Raises:
         DestinationError: if the folder can't be read or written.

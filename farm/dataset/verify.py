@@ -61,7 +61,7 @@ class Verdict(Model):
 
 
 def verify(dataset: Dataset, on_checked: Callable[[int], None] = lambda _: None) -> Verdict:
-    """Check a dataset, which may grow meanwhile: what is made before its job is looked at is not missing.
+    """Check a dataset, which may grow meanwhile: a file that is made before its job is checked is not missing.
 
     Args:
         dataset: the dataset.

@@ -59,10 +59,10 @@ def run_locally(
     """Make the dataset here; every process that was started is gone when this returns or raises.
 
     Args:
-        destination: where the dataset goes.
+        destination: place of the dataset.
         header: the dataset to make.
-        how: how the machine is used.
-        on_progress: called now and then with what is done.
+        how: settings of the run on this machine.
+        on_progress: called now and then with the progress.
 
     Raises:
         ConflictError: if the place holds something else.

@@ -63,7 +63,7 @@ class CalibratedSettings(Model):
     """Settings, with their time and error as measured over a category's calibration scenes.
 
     Attributes:
-        settings: what is set.
+        settings: settings that were measured.
         seconds: time to build and render a scene on the machine of the calibration; good only to compare.
         flip: mean FLIP of a picture, mean over the scenes.
         psnr_db: peak signal over noise, mean over the scenes.
@@ -94,10 +94,10 @@ class Calibration(Model):
 
 
 class ChosenSettings(Model):
-    """Settings of a picture.
+    """The settings chosen for a category's pictures.
 
     Attributes:
-        settings: what is set.
+        settings: settings to render with.
         expected_flip: the mean FLIP to expect; None where the settings are the reference's.
     """
 

@@ -19,11 +19,11 @@ class Service:
 
     Attributes:
         title: the name that messages give it.
-        install: what pip installs for it; empty where it comes with the farm.
+        install: package that pip installs for it; empty where it comes with the farm.
         credentials: environment variables that hold the credentials, in words.
         address: the environment variable that holds the store's address.
         at_sign_is_credential: whether an @ in the URL's first part ends a key, as no bucket's name has one.
-        retries: how often the client repeats a request that hung; None leaves the client's own number.
+        retries: number of times that the client repeats a request that hung; None leaves the client's own number.
         get_options: fsspec's options for every read.
         put_options: fsspec's options for a write, by the content's number of bytes.
     """

@@ -135,7 +135,7 @@ def images_per_hour(finished_s: list[float], now_s: float) -> float | None:
     """Compute the rate over recent completions, in images an hour.
 
     Args:
-        finished_s: when pictures were finished, in seconds of the Unix epoch, in any order.
+        finished_s: times at which pictures were finished, in seconds of the Unix epoch, in any order.
         now_s: the time now.
 
     Returns:
