@@ -1,1 +1,1 @@
-"""Floors, textures and surroundings: what a scene is dressed with, made here or read from the user's folders."""
+"""The assets of a scene: floors, textures and surroundings, made here or read from the user's folders."""

@@ -87,7 +87,7 @@ class Environment(BaseModel):
 
     Attributes:
         path: The panorama, an EXR file of linear light.
-        record: What is known of it.
+        record: The record beside the panorama.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")

@@ -103,7 +103,7 @@ def write_atomically(path: Path, data: bytes) -> None:
 
     Args:
         path: The file; its folder exists.
-        data: What it is to hold.
+        data: Content to write.
 
     Raises:
         OSError: It can't be written; nothing is left behind.

@@ -154,7 +154,7 @@ def _checked_channels(path: Path, spec: "ImageSpec") -> int:
     """Check the size and the channels that a header announces, before memory is taken for it.
 
     Returns:
-        How many channels to read: 3 or 1.
+        Number of channels to read: 3 or 1.
     """
     size = f"{path}: {spec.width} x {spec.height} pixels"
     if not (1 <= spec.width <= LARGEST_EDGE and 1 <= spec.height <= LARGEST_EDGE):
@@ -206,7 +206,7 @@ def _reason(error: Callable[[], str]) -> str:
 def _quiet_standard_error() -> Iterator[None]:
     """Keep OpenEXR from writing about damaged files to standard error on its own; the AssetError tells of them.
 
-    What other threads write there meanwhile is lost too.
+    Whatever other threads write there meanwhile is lost, too.
     """
     with _standard_error:
         kept = os.dup(2)

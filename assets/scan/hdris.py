@@ -169,7 +169,7 @@ def read_hdri(path: Path) -> Hdri:
         path: A Radiance .hdr or OpenEXR .exr file.
 
     Returns:
-        What was measured.
+        The HDRI, as measured.
 
     Raises:
         AssetError: It is truncated or damaged, isn't about twice as wide as high, or holds values that are not

@@ -86,7 +86,7 @@ def decode_plate(path: Path, data: bytes) -> npt.NDArray[np.uint8]:
     """Decode the pixels of a photograph, turned as its EXIF note says; of several images in a file, the first.
 
     Args:
-        path: What to call it in errors.
+        path: Path of the file, for error messages.
         data: The file's content.
 
     Returns:

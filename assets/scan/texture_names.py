@@ -22,7 +22,7 @@ class TextureName:
 
     Attributes:
         texture: Name of the texture that the map belongs to, in lower case, parts joined by '_'; may be empty.
-        role: What the map is for; None if the name doesn't say, or for maps that a renderer here can't use.
+        role: Role of the map; None if the name doesn't say, or for maps that a renderer here can't use.
         directx: Normal map whose green grows downwards.
         gloss: Roughness map that holds its opposite.
         unused: The map's purpose is known, but it isn't used here (packed, opacity, previews and the like).
@@ -69,10 +69,10 @@ def parse_texture_name(stem: str) -> TextureName:
     """Read a file's name without its suffix.
 
     Args:
-        stem: Such as 'Bricks075_2K-JPG_NormalGL' or 'oak floor diff 4k'.
+        stem: Name without suffix, such as 'Bricks075_2K-JPG_NormalGL' or 'oak floor diff 4k'.
 
     Returns:
-        What it says. Case doesn't matter; parts are separated by '_', '-', '.', spaces or inner capitals.
+        The meaning of the name. Case doesn't matter; parts are separated by '_', '-', '.', spaces or inner capitals.
     """
     spaced = _CAMEL.sub("_", stem)
     parts = [part for part in re.split(r"[_\-. ]+", spaced.lower()) if part]

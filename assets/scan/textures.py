@@ -25,9 +25,9 @@ class TextureMap(BaseModel):
     """One image of a texture.
 
     Attributes:
-        role: What it is for.
-        path: The file.
-        sha256: Its checksum.
+        role: Role of the map.
+        path: Path of the file.
+        sha256: Checksum of the file.
         width: Pixels across.
         height: Pixels down.
     """
@@ -89,11 +89,11 @@ def read_map(role: TextureRole, path: Path) -> TextureMap:
     """Decode an image completely.
 
     Args:
-        role: What it is for.
-        path: The file.
+        role: Role of the map.
+        path: Path of the file.
 
     Returns:
-        Its description.
+        The map, with its size and checksum.
 
     Raises:
         AssetError: It isn't a sound image, or its size is out of bounds.

@@ -66,9 +66,9 @@ def bake_surfaces(
     Args:
         directory: Gets a folder for each surface; made if missing.
         pixels: Texels along an edge, 64 to 8192.
-        names: Which surfaces; all of the catalogue if None.
+        names: Names of the surfaces; all of the catalogue if None.
         progress: Told each name as soon as that surface is ready.
-        processes: How many to draw at once; the number of cores if None.
+        processes: Number of surfaces to draw at once; the number of cores if None.
 
     Returns:
         The surfaces asked for.

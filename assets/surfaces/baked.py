@@ -64,7 +64,7 @@ class BakedSurface(BaseModel):
 
     Attributes:
         directory: Folder that holds its files.
-        record: What is known of it.
+        record: The record beside its maps.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")

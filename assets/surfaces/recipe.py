@@ -34,7 +34,7 @@ class SurfaceRecipe:
 
     Attributes:
         name: The surface's name: unique, in snake case.
-        family: What the surface is made of.
+        family: Material of the surface.
         size_m: Edge of the square tile in metres.
         draw: The function that draws the maps on a grid.
         version: Version of the drawing, raised whenever it changes, so that stored maps are drawn again.
