@@ -68,7 +68,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _read(convert: Callable[[str], T]) -> Callable[[str], T]:
-    """A type of argument whose errors are told in their own words."""
+    """Make a type of argument whose errors keep their own message."""
 
     def read(text: str) -> T:
         try:
@@ -124,7 +124,7 @@ def _device(options: argparse.Namespace) -> int:
 
 
 def _environments(options: argparse.Namespace) -> int:
-    """Render them; the name of each goes to standard output as soon as it is on disk, for the farm to count."""
+    """Render environments; the name of each goes to standard output once it is on disk, for the farm to count."""
     names = None if options.name is None else tuple(options.name)
     renderer: RendererSettings = options.renderer
     with _output_in(options.logs / "environments.log") as screen:
@@ -162,7 +162,7 @@ def _read_header() -> DatasetHeader:
 
 @contextmanager
 def _output_in(log_file: Path) -> Iterator[int]:
-    """Send all output to a file; gives the descriptor of what was standard output."""
+    """Send all output to a file inside `with`; yields the descriptor of the standard output before."""
     prepare_log(log_file.parent, log_file.name)
     errors, screen = os.dup(2), os.dup(1)
     send_output_to(log_file)

@@ -1,7 +1,7 @@
 """A settled scene's geometry, derived once for a picture and read by building, matting and labelling. Pure numpy.
 
-It joins what cable, clutter, camera and the fall each know a part of, so it stands beside those rooms and not in one of
-them: the fall, for one, must not know the camera. Each part is computed when it is first asked for, and then kept.
+It joins parts from the rooms of cables, clutter, camera and fall, so it stands beside those rooms and not in one of
+them: the fall, for example, must not know the camera. Each part is computed at its first use, and then kept.
 """
 
 from dataclasses import dataclass
@@ -23,12 +23,12 @@ from worker.simulate.shapes import CableShapes
 
 @dataclass(frozen=True, eq=False)
 class SettledGeometry:
-    """What stands where in a picture, and where it is seen from.
+    """The geometry of one picture: its settled cables, sticks and small parts, and its camera.
 
     Attributes:
         scene: the scene as drawn.
         shapes: its settled cables and sticks.
-        detail: how finely cables are modelled.
+        detail: fineness of the models of cables.
         resolution: pixels along an edge of the picture.
     """
 
@@ -51,7 +51,7 @@ class SettledGeometry:
     def sticks(self) -> tuple[tuple[Stick, Points], ...]:
         """The sticks that fell, each with the nodes (N, 3) of its axis in metres; none from a simulator without sticks.
 
-        A drawn scene is cut short to those that fell.
+        Drawn sticks beyond those that fell are left out.
         """
         return tuple(zip(self.scene.sticks[: len(self.shapes.sticks_m)], self.shapes.sticks_m, strict=True))
 
@@ -64,12 +64,12 @@ class SettledGeometry:
 
     @cached_property
     def view(self) -> View:
-        """The camera through the middle of its lens, with the lens's distortion: what the labels are drawn for."""
+        """The camera through the middle of its lens, with the lens's distortion, for which labels are drawn."""
         return View.of(self.scene.camera, self.resolution)
 
     @cached_property
     def rendered_view(self) -> View:
-        """The same camera without distortion: what Blender renders."""
+        """The same camera without distortion, for which Blender renders."""
         return self.view.undistorted()
 
     @property

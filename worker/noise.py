@@ -136,7 +136,7 @@ def rough_wrapped_noise(
 
 
 def highest_share(values: Field, share: float, softness: float) -> Field:
-    """Patches where a field is highest.
+    """Mark the patches where a field is highest.
 
     Args:
         values: the field, (H, W).
@@ -144,7 +144,7 @@ def highest_share(values: Field, share: float, softness: float) -> Field:
         softness: width of the patches' edges, in units of `values`.
 
     Returns:
-        How much each place belongs to a patch, (H, W), 0 to 1.
+        Degree to which each place belongs to a patch, (H, W), 0 to 1.
     """
     if share <= 0.0:
         return np.zeros_like(values)

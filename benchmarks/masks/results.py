@@ -38,7 +38,7 @@ class LabelledImage:
         category: the picture's category.
         width_px: width of the thinnest cable on the floor.
         label_ms: CPU milliseconds that labelling takes, on one core.
-        agreement: how the mask agrees with the reference.
+        agreement: agreement of the mask with the reference.
     """
 
     category: Category

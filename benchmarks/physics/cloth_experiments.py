@@ -25,7 +25,7 @@ VERTEX_MASS = 0.4
 """Mass of a vertex: the middle of the published range. A strip at rest does not depend on it."""
 
 _FRAMES = 3000
-"""Frames after which a strip is taken as it is."""
+"""Maximum frames; after them a strip is measured even if it still moves."""
 
 _REST = 2e-6
 """Movement in a frame over the strip's length, below which the strip hangs still."""
@@ -48,8 +48,8 @@ class Deflection:
     """A settled cantilever.
 
     Attributes:
-        gamma: rho g A L^3 / (E I) as asked for.
-        gamma_set: the same as the settings have it, which is more where the solver can't be so stiff.
+        gamma: slenderness rho g A L^3 / (E I) as asked for.
+        gamma_set: slenderness as set, which is more where the solver can't be as stiff as asked for.
         droop: H/W as measured, from the clamp to the tip.
         gamma_effective: the slenderness at which the heavy elastica droops as much.
         seconds: time that the computer took.
@@ -90,20 +90,12 @@ def cloth_cantilever(gamma: float, *, segments: int, settings: ClothFall, publis
     """Let a strip that is clamped at one end sag under its weight.
 
     Args:
-        gamma: rho g A L^3 / (E I) to aim at.
-        segments: number of segments of the free length, >= 4; the stiffness for a given `gamma` grows with its third
-            power.
-        settings: quality of the solver; frames and collisions do not matter here.
-        published: take the plane of quads of the published set-up and not the zigzag of the joined one. It has
-            Blender's own stretching, so soft sideways that it may turn on edge and sag more than asked for.
-
-    Args:
         gamma: slenderness rho g A L^3 / (E I) to aim at.
         segments: number of segments of the free length, at least 4; the stiffness for a given `gamma` grows with its
             third power.
         settings: quality of the solver; its frames and collisions don't matter here.
         published: whether to use the published set-up's plane of quads instead of the joined set-up's zigzag. The plane
-            stretches as Blender sets it, so softly that it may turn on edge and sag more than asked for.
+            has Blender's own stretching, so soft sideways that it may turn on edge and sag more than asked for.
 
     Raises:
         SceneError: if the solver diverges.

@@ -1,4 +1,4 @@
-"""What the comparison lets fall against each other: the farm's simulators, and the published set-up."""
+"""The contenders of the comparison: the farm's simulators, and the published set-up."""
 
 from collections.abc import Mapping
 from enum import StrEnum
@@ -21,10 +21,10 @@ class Contender(StrEnum):
 
     @property
     def simulator(self) -> Simulator:
-        """The farm's simulator that shares settings and grants with it: its own, or the cloth for the published one."""
+        """The farm's simulator whose settings and grants it has: its own, or the cloth for the published set-up."""
         return Simulator.CLOTH if self is Contender.CLOTH_PUBLISHED else Simulator(self.value)
 
     @property
     def grants(self) -> Mapping[Gate, float]:
-        """Targets that it is granted in place of the gates' own."""
+        """The contender's targets that hold in place of the gates' own."""
         return grants_of(self.simulator)

@@ -17,7 +17,7 @@ from matplotlib.axes import Axes
 
 _MARKS = {Contender.ROD: "o", Contender.CLOTH: "s", Contender.CLOTH_PUBLISHED: "^"}
 _LABELS = {Contender.ROD: (60, 36), Contender.CLOTH: (45, 42), Contender.CLOTH_PUBLISHED: (0, -36)}
-"""Where a default's label stands from its mark, in points: where no other marks are."""
+"""Offset of a default's label from its mark, in points, to where no other marks are."""
 
 _COLOURS = dict(zip(COUNTS, mpl.colormaps["viridis"](np.linspace(0.9, 0.0, len(COUNTS))), strict=True))
 _BEYOND = 1e4

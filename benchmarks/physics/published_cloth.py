@@ -56,7 +56,7 @@ _GOLDEN_ANGLE_DEG = 137.5
 
 @dataclass(frozen=True, slots=True)
 class _Planes:
-    """The falling objects, and the line along which each started, in units."""
+    """The falling objects, and the line along which each one starts, in units."""
 
     objects: list[Any]
     lines: list[Points]

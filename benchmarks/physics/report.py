@@ -69,7 +69,11 @@ def textbook_table(rows: Iterable[Row]) -> Table:
 
 
 def conclusions(rows: Sequence[Row]) -> Iterator[str]:
-    """Which setting is best for each contender, how the rods compare with the cloth, and how their cost grows."""
+    """Say which setting is best for each contender, how the rods compare with the cloth, and how their cost grows.
+
+    Yields:
+        One line of text at a time.
+    """
     yield (
         "error: the worst of gates 1, 2 and 5 over the rods' targets. off, never: scenes that miss a target of gates "
         "1 to 4, that break a bound. a s: for a simulated second. Bold: the defaults. The published cloth drops eight "

@@ -29,14 +29,14 @@ ERROR_GATES = (Gate.LENGTH, Gate.CABLE_PENETRATION, Gate.FLOOR_PENETRATION)
 
 @dataclass(frozen=True, slots=True)
 class Played:
-    """One fall.
+    """The measurements of one fall.
 
     Attributes:
         cpu_s: processor seconds of the whole process for the fall alone.
         fall_s: simulated seconds.
         steps: time steps of the rod solver, or frames of the cloth.
-        figures: what was measured; None if the fall did not end in finite places.
-        fault: the reason for that; empty where there is none.
+        figures: measured figures; None if the fall did not end in finite places.
+        fault: the reason why there are no figures; empty if there are.
     """
 
     cpu_s: float
@@ -80,7 +80,7 @@ class Textbook:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One setting on one number of cables."""
+    """The measurements at one setting on one number of cables."""
 
     setting: Setting
     cables: int
@@ -170,7 +170,7 @@ def growth(few: Row, many: Row) -> float:
 
 
 def is_rod_default(row: Row) -> bool:
-    """Whether the row is of the rod solver as the farm has it."""
+    """Whether the row is that of the rod solver's default."""
     return row.setting.contender is Contender.ROD and row.setting.is_default
 
 

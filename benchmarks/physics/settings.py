@@ -1,4 +1,4 @@
-"""Which settings of which contender are compared, and on how many cables."""
+"""The settings of each contender that are compared, and the numbers of cables on which they are compared."""
 
 from dataclasses import dataclass
 
@@ -27,10 +27,10 @@ class Setting:
     """One row of the comparison.
 
     Attributes:
-        contender: what lets the cables fall.
-        name: what is set, in a few characters; unique for its contender.
+        contender: contender that lets the cables fall.
+        name: the setting in a few characters; unique for its contender.
         fall: the settings of all simulators, of which the contender takes its own.
-        is_default: whether the farm takes it unless told otherwise.
+        is_default: whether it is the contender's default.
         most_scenes: number of scenes, the first ones, to which a slow setting is limited.
         counts: numbers of cables.
     """

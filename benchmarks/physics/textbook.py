@@ -33,17 +33,17 @@ _LEAST_SEGMENTS = 4
 """Fewest segments of a cantilever: with fewer it has no shape to measure."""
 
 _DAMPING_S = {1.0: 0.1, 10.0: 0.05, 100.0: 0.3, 1000.0: 3.0}
-"""Internal damping, by slenderness, with which a cantilever rests soon. Where it rests does not depend on it."""
+"""Internal damping, by slenderness, with which a cantilever rests soon. Its shape at rest does not depend on it."""
 _REST_RMS_M_S, _REST_FASTEST_M_S, _REST_S, _REST_BY_S = 5e-6, 2e-5, 0.05, 60.0
-"""When a cantilever rests: its speeds, how long it keeps them, and the time by which it must. At 4000 steps a second
-the most slender one trembles at 2e-6 m/s for ever."""
+"""Limits for a cantilever at rest: its root mean square and greatest speed, the seconds for which it stays below them,
+and the seconds by which it must rest. At 4000 steps a second the most slender one trembles at 2e-6 m/s for ever."""
 
 _CROSSING_DAMPING_S = 0.05
 """Internal damping of the cable over the ridge, seconds, with which it comes to rest soon."""
 _CROSSING_S = 3.0
 """Simulated time of the crossing, seconds, in which the cable comes to rest."""
 _AVERAGED_S = 0.2
-"""Seconds over which reactions are averaged: they tremble from step to step, and what they carry is their mean."""
+"""Seconds over which reactions are averaged: they tremble from step to step, and their mean carries the cable."""
 _HALF_LENGTHS = 2.2
 """Length of the cable on either side of a ridge, in lift-off lengths."""
 _REFERENCE = RidgeCrossing(
@@ -54,7 +54,7 @@ _REFERENCE = RidgeCrossing(
 
 
 def textbook(setting: Setting) -> Textbook:
-    """Gates 5 and 6; of a cloth's crossing the reaction can't be read, and the published one has no crossing."""
+    """Measure gates 5 and 6; a cloth's reaction to the ridge can't be read, and the published cloth has no crossing."""
     match setting.contender:
         case Contender.ROD:
             return _of_rods(setting.fall.rod)

@@ -32,7 +32,7 @@ PUBLISHED_S = 4.0
 """Seconds that the 100 frames of the published fall last."""
 
 BLENDER_COMPRESSION = 15
-"""Compression of PNG files in percent that Blender takes if it is told nothing."""
+"""Blender's default compression of PNG files, in percent."""
 
 _BREATH_M_S = 1e-9
 """Speed of a wind that is computed and moves nothing."""
@@ -40,14 +40,14 @@ _BREATH_M_S = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Skip:
-    """Something that is left out.
+    """A thing that the farm leaves out of a picture.
 
     Attributes:
-        name: what is left out, in words.
+        name: the thing, in words.
         stages: stages of the picture that are timed.
         categories: categories whose pictures do without it.
-        same_picture: whether a picture must be the same to the byte with it.
-        prepare: gives what to time, for a settled scene and whether it is left out.
+        same_picture: whether a picture with the thing must be the same to the byte as one without it.
+        prepare: function that makes the action to time, from a settled scene and whether the thing is left out.
     """
 
     name: str

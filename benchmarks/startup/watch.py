@@ -45,7 +45,7 @@ class TimedLibrary(AssetLibrary):
 
 
 def make(renderer: Renderer, job: Job, header: DatasetHeader, library: TimedLibrary) -> Mapping[str, object]:
-    """Make a picture; its seconds by stage, and a checksum of what was made.
+    """Make a picture; return its seconds by stage, a checksum of image and mask, and the device.
 
     Args:
         renderer: the open renderer.
@@ -66,13 +66,13 @@ def make(renderer: Renderer, job: Job, header: DatasetHeader, library: TimedLibr
 
 
 def write(result: str, marks: Sequence[float], pause_s: float, pictures: Sequence[Mapping[str, object]]) -> None:
-    """Write what was measured.
+    """Write the measurements of one start.
 
     Args:
         result: path of the JSON file.
         marks: the clock at spawning, at the first line, after both imports, and when the template was open.
         pause_s: seconds between the last two marks that the measurement itself took.
-        pictures: what `make` returned for each picture.
+        pictures: result of `make` for each picture.
     """
     spawned, begun, farm, blender, opened = marks
     content = {

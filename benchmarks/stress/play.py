@@ -30,7 +30,7 @@ class Result:
 
     Attributes:
         case: the scene.
-        fault: how the run failed; None if it did not.
+        fault: reason why the run failed; None if it did not.
         detail: the fault's figure.
         figures: figures of gates 1 to 4; None if the end is not finite or far away.
         passes: number of passages of a cable through another or itself, away from all ends, that stand.

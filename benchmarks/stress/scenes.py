@@ -20,7 +20,7 @@ CROWD_SHARE = 0.02
 """Share of the scenes that are crowded."""
 
 NODE_BUDGET = 1000
-"""Segments of all cables together, about: where there are many cables, they are shorter."""
+"""Approximate number of segments of all cables together: cables are shorter where there are many."""
 
 SEGMENT_RADII = 4.0
 """Length of a segment over the radius, the default of drawn scenes."""
@@ -29,7 +29,7 @@ MIN_LENGTH_RADII = 48.0
 """Least length of a cable, in radii: a dozen segments."""
 
 _SEED_STREAM, _SCENE_STREAM = 0, 1
-"""First spawn keys of the random streams for the cases and for what else is drawn in each scene."""
+"""First spawn keys of the random streams for the cases, and for everything else that is drawn in each scene."""
 
 
 class Start(Enum):
@@ -42,9 +42,9 @@ class Start(Enum):
     ONE_HEIGHT = "one height"
     """All axes are at one height, so that they meet wherever they cross, and neither side is the right one."""
     COINCIDENT = "coincident"
-    """Pairs of cables, the one in the place of the other."""
+    """The cables are pairs, the two of a pair in the same place."""
     UPRIGHT = "upright"
-    """Standing on their ends, side by side, with the small bend that any cable has."""
+    """The cables stand on their ends, side by side, with the small bend that any cable has."""
     AT_FLOOR = "at the floor"
     """The cables lie on the floor and on each other, and touch all the way up the pile."""
     IN_FLOOR = "in the floor"
@@ -110,17 +110,6 @@ class Case:
         runs: number of the test's scenes.
         number: the scene's number among them; with `seed` and `runs` it says which scene this is.
         start: the way that the cables start.
-        density: density of the scene's first cable, in kg/m3.
-        modulus: Young's modulus of that cable, in Pa.
-        radius: radius of that cable, in m.
-        wind: mean speed of the wind, in m/s.
-        drop: height of the lowest cable above the floor, in m.
-        steps: time steps per second.
-        cables: number of cables.
-        friction_floor: Coulomb's coefficient on the floor.
-        friction_cable: Coulomb's coefficient between cables.
-        turn: angle by which the natural shape turns over the length, in rad.
-        length: length over `radius`; less where many cables would have too many nodes.
         aligned: whether the cables lie in a bundle.
         mixed: whether each cable has its own radius, density and modulus.
         density: density of the scene's first cable, kg/m3.
@@ -128,10 +117,10 @@ class Case:
         radius: radius of the first cable, m.
         wind: mean speed of the wind, m/s.
         drop: height of the lowest cable above the floor, m.
-        steps: steps of the solver per second.
+        steps: time steps of the solver per second.
         cables: number of cables.
-        friction_floor: coefficient of friction between a cable and the floor.
-        friction_cable: coefficient of friction between two cables.
+        friction_floor: Coulomb's coefficient of friction between a cable and the floor.
+        friction_cable: Coulomb's coefficient of friction between two cables.
         turn: turn of the natural shape from end to end, rad.
         length: length of a cable in units of `radius`, limited by `NODE_BUDGET`.
     """
@@ -193,7 +182,7 @@ def draw_cases(runs: int, seed: int) -> list[Case]:
 
 
 def _layers(rng: np.random.Generator, runs: int) -> NDArray[np.float64]:
-    """One number in each layer of 0 to 1, in random order, stretched so that `EXTREME_SHARE` lies at either end."""
+    """Draw a number in each layer of 0 to 1, in random order, stretched so that `EXTREME_SHARE` lies at either end."""
     layers = (rng.permutation(runs) + rng.random(runs)) / runs
     stretched: NDArray[np.float64] = np.clip((layers - EXTREME_SHARE) / (1 - 2 * EXTREME_SHARE), 0.0, 1.0)
     return stretched

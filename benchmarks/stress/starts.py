@@ -32,11 +32,11 @@ _AIR_KG_M3, _DRAG = 1.2, 1.1
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """A scene that can be let fall.
+    """A scene that is ready to fall.
 
     Attributes:
         rods: the cables where they start.
-        surroundings: what acts on them.
+        surroundings: forces and surfaces that act on the rods.
         velocities_m_s: (rods, 3), velocity of each rod at the start.
         reach_m: distance from the origin beyond which a rod has been flung away.
         max_time_s: time by which the rods must rest.

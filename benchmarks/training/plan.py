@@ -19,7 +19,7 @@ _TEST_SEED = 1_000_003
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What to train and test on, and for how long.
+    """The sets of pictures to train and test on, and the length of the training.
 
     Attributes:
         seed: seed of the datasets that are made, of the initial weights, the order and the augmentation.

@@ -7,7 +7,7 @@ from farm.spec.category import Category
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What is measured.
+    """The pictures and points of growth that a run measures.
 
     Attributes:
         seed: seed of the dataset whose scenes are used.

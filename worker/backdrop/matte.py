@@ -1,7 +1,7 @@
-"""How much of each pixel cables cover, and laying them over the backdrop. Numpy and OpenCV.
+"""The share of each pixel that cables cover, and the use of it to lay them over a backdrop. Numpy and OpenCV.
 
-Cycles counts a pixel's coverage in samples and denoises colours alone: with few samples edges are ragged. From the
-geometry it is exact.
+Cycles counts a pixel's coverage in samples and denoises colours alone, so edges are ragged if samples are few. The
+coverage here comes from the geometry and has no noise.
 """
 
 import math
@@ -19,9 +19,9 @@ from worker.label.coverage import covered_share
 from worker.label.silhouette import silhouettes
 
 _RING_PX = 0.75
-"""Distance of neighbouring places on the lens, in pixels by which they see apart what is most out of focus.
+"""Distance between neighbouring places on the lens: the pixels by which their views of the blurriest point differ.
 
-Below 1, which is what each place blurs by, so that no edge shows twice."""
+It is below 1, since each view blurs an edge by a pixel, so that no edge shows twice."""
 
 _MOST_RINGS = 4
 """Most rings of places on the lens, 61 places in all: no two lie in line from any side, and steps are a few percent."""
@@ -30,16 +30,16 @@ _SPREAD_PX = 0.8
 """Standard deviation in pixels of the Gaussian that carries cables' colours to their edges, which few samples hit."""
 
 _NO_COVER = 1e-3
-"""Least share of a pixel that colours are divided by: where no cable is near, both are 0."""
+"""Least share of a pixel by which colours are divided: where no cable is near, colour and share are both 0."""
 
 
 @dataclass(frozen=True, slots=True)
 class Matte:
-    """How a render of cables alone and their backdrop make one picture.
+    """A backdrop, and the share of each pixel in which cables hide it.
 
     Attributes:
         covered: (H, W), the share of each pixel that cables cover, 0 to 1.
-        backdrop: (H, W, 3) of linear light, what is behind them.
+        backdrop: (H, W, 3) of linear light behind the cables.
     """
 
     covered: NDArray[np.float32]
@@ -47,7 +47,7 @@ class Matte:
 
 
 def covered_by(pieces: Sequence[Piece], view: View, lens_radius_m: float, sides: int) -> NDArray[np.float32]:
-    """The share of each pixel that cables and what is on them cover, seen through a lens.
+    """Compute the share of each pixel that cables and their ties cover, seen through a lens.
 
     It is the mean over places spread evenly over the lens, each of which sees as a pinhole does; there are enough of
     them that no edge shows twice.
@@ -55,7 +55,7 @@ def covered_by(pieces: Sequence[Piece], view: View, lens_radius_m: float, sides:
     Args:
         pieces: everything that is rendered.
         view: the camera.
-        lens_radius_m: radius of its aperture.
+        lens_radius_m: radius of the camera's aperture, in metres.
         sides: corners of the rendered tubes' cross-section.
 
     Returns:

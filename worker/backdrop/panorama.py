@@ -26,11 +26,11 @@ Panorama = NDArray[np.float32]
 
 
 def upper_world(panorama: Panorama, turn: NDArray[np.float64]) -> Panorama:
-    """What lights a floor from above, in the world's own frame.
+    """Make the light that reaches a floor from above, in the world's own frame.
 
-    Cycles finds the world's bright parts by a map in the world's frame. Of a panorama that has been turned already, and
-    is as fine as the map, the map is exact: a sun of a few texels is then never missed, which made white specks. And
-    half of what it would find lights nothing under a floor, so that is black.
+    Cycles finds the world's bright parts by a map in the world's frame. The map is exact if the panorama is turned
+    beforehand and as fine as the map: Cycles then never misses a sun of a few texels, which would make white specks.
+    The part of the world below the floor's edge lights nothing, so it is black.
 
     Args:
         panorama: the HDRI.
@@ -53,16 +53,17 @@ def upper_world(panorama: Panorama, turn: NDArray[np.float64]) -> Panorama:
 def panorama_backdrop(
     panorama: Panorama, turn: NDArray[np.float64], view: View, lens_radius_m: float
 ) -> NDArray[np.float32]:
-    """What a camera sees of a panorama, out of focus as it is, before its lens distorts it.
+    """Make the picture that a camera takes of a panorama: out of focus, and before the lens distorts it.
 
-    The world is infinitely far. A ray through the lens at l goes through the point in focus at distance D, so it points
-    where one through the lens's middle would, less l / D: blur is a convolution with the lens's disc, exactly.
+    The world is infinitely far, so only a ray's direction counts. A ray through the lens at l meets the ray through the
+    lens's middle in focus, at distance D, so their directions differ by l / D. Blur is therefore exactly a convolution
+    with the lens's disc.
 
     Args:
         panorama: the HDRI.
         turn: (3, 3), takes a direction in the world to one in the panorama.
         view: the camera's direction, angle of view and distance in focus.
-        lens_radius_m: radius of its aperture.
+        lens_radius_m: radius of the camera's aperture, in metres.
 
     Returns:
         (H, W, 3) of linear light, the top row first.
@@ -89,7 +90,7 @@ def _samples_per_pixel(pixel: float, columns: int) -> int:
 
 
 def disc(radius_px: float) -> NDArray[np.float32]:
-    """A disc of unit sum, (N, N) with N odd, whose pixels weigh as much as the disc covers of them."""
+    """Make a disc (N, N), N odd, of unit sum; a pixel's weight is proportional to its part within the disc."""
     reach, fine = math.ceil(radius_px), 8
     place = (np.arange((2 * reach + 1) * fine) + 0.5) / fine - (reach + 0.5)
     inside = (place[:, None] ** 2 + place[None, :] ** 2 <= max(radius_px, 0.5) ** 2).astype(np.float32)

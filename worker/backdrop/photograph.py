@@ -19,9 +19,9 @@ _STRIP_ROWS = 512
 def photograph_backdrop(
     pixels: NDArray[np.uint8], plate: Plate, resolution: int, blur_px: float, luminance: float
 ) -> NDArray[np.float32]:
-    """A square of a photograph, out of focus and as bright as is wanted.
+    """Cut a square out of a photograph, blur it, and scale it to a mean luminance.
 
-    It is computed in linear light. At the edges the blur sees the picture mirrored.
+    The computation is in linear light. At the edges the blur sees the picture mirrored.
 
     Args:
         pixels: (H, W, 3) of sRGB, the top row first.

@@ -147,7 +147,7 @@ class AssetLibrary:
 
 
 def checked(reference: FileRef) -> Path:
-    """The file of a reference.
+    """Find the file of a reference, and check its content.
 
     Raises:
         AssetError: if the file is not there, or has changed.

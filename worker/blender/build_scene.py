@@ -1,4 +1,4 @@
-"""The open template made into a settled scene: cables, floor, light, world and camera. Sets everything, every time."""
+"""Makes the open template show a settled scene: sets cables, floor, light, world and camera for every picture."""
 
 from dataclasses import dataclass
 
@@ -26,7 +26,7 @@ PLATE_LUMINANCE = 0.3
 
 @dataclass(frozen=True, slots=True)
 class BuiltScene:
-    """What the template now shows, and what a render of it lacks.
+    """The scene that the template shows, and the backdrop that its render lacks.
 
     Attributes:
         scene: the scene as drawn.
@@ -43,10 +43,10 @@ def build_scene(
     """Set the template's picture to a settled scene.
 
     Args:
-        geometry: what stands where.
+        geometry: geometry of the settled scene.
         library: the files of textures and HDRIs.
         image_cache: the images that this process holds.
-        economy: what is left out.
+        economy: choice of what is left out to save time.
 
     Raises:
         AssetError: if a texture or HDRI can't be had.
@@ -87,14 +87,14 @@ def build_scene(
 def _backdrop(
     geometry: SettledGeometry, world: HdriWorld, library: AssetLibrary, image_cache: ImageCache, economy: Economy
 ) -> NDArray[np.float32] | None:
-    """The backdrop of cables without a floor, where it is looked up: a photograph always is."""
+    """Make the backdrop of cables without a floor; None if there is a floor, or if Blender renders the HDRI itself."""
     scene = geometry.scene
     if scene.floor is not None or (scene.plate is None and not (economy.backdrop and has_round_aperture())):
         return None
     seen = hdri_backdrop(world, geometry.rendered_view, geometry.lens_radius_m, library, image_cache)
     if scene.plate is None:
         return seen
-    # As bright as what would be seen of the HDRI that lights the cables.
+    # The photograph is as bright as the part of the HDRI that it stands in for.
     luminance = PLATE_LUMINANCE if seen is None else float((seen @ REC709_LUMINANCE).mean())
     photograph = image_cache.photograph(library.plate(scene.plate.name))
     return photograph_backdrop(photograph, scene.plate, geometry.resolution, scene.plate.blur_px, luminance)

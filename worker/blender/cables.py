@@ -25,11 +25,11 @@ DIRT_EDGE = 0.05
 """Distance of the dirt ramp's two stops, which makes the edge of a spot that soft."""
 
 SHADOW_SLOPE = 3.0
-"""Reach of a shadow over the height of what throws it, under the lowest published lamp: 15 m away and 5 m high."""
+"""Reach of a shadow over its object's height under the lowest published lamp, which is 15 m away and 5 m high."""
 
 
 def shadow_slope(lamps: Sequence[Lamp]) -> float:
-    """Reach of the longest shadow over the height of what throws it; that of a lamp at the horizon is cut short."""
+    """Compute the reach of the longest shadow over its object's height; a lamp below 1 degree counts as at 1 degree."""
     elevations_deg = [max(lamp.elevation_deg, 1.0) for lamp in lamps if isinstance(lamp, StudioLamp)]
     return max([SHADOW_SLOPE, *(1.0 / math.tan(math.radians(elevation)) for elevation in elevations_deg)])
 
@@ -44,7 +44,7 @@ def add_cables(
         sides: corners of a tube's cross-section.
         view: the camera.
         image_cache: the holder of the images of skins.
-        slope: reach of shadows over the height of what throws them.
+        slope: reach of the longest shadow over its object's height.
         whole: whether to add cables that leave the view wholly, not only what is seen or may throw a shadow into it.
     """
     remove_blocks(f"{names.CABLE}.")
@@ -62,7 +62,7 @@ def add_cables(
 
 
 def _identity(piece: Piece) -> object:
-    """What pieces of one material have in common. A sheath has a material of its own, drawn for its own length."""
+    """Compute the key of a piece's material. A sheath has a material of its own, drawn for its own length."""
     if isinstance(piece.surface, Plain):
         return piece.surface
     return piece.instance
@@ -152,7 +152,7 @@ def _drawn(name: str, images: SkinImages, image_cache: ImageCache) -> Any:
 
 
 def _levels_as_light(colour: Rgb) -> tuple[float, float, float, float]:
-    """The levels taken for linear light, without sRGB's curve, as the published set-up does: colours come out pastel.
+    """Take levels for linear light, without sRGB's curve, as the published set-up does: colours come out pastel.
 
     Returns:
         Red, green, blue and an alpha of 1, each 0 to 1.

@@ -32,7 +32,7 @@ SHEET_STEP_M = 10e-6
 
 
 def add_clutter(geometry: SettledGeometry, image_cache: ImageCache) -> None:
-    """Add what lies about on the floor, after removing that of the picture before.
+    """Add a scene's clutter, after removing that of the picture before.
 
     A scene without a visible floor gets none.
 

@@ -1,4 +1,4 @@
-"""What Eevee needs that Cycles does not: a lamp whose shadows are fine enough for cables."""
+"""Eevee's settings, and its stand-in for the lamp: a spot light whose shadows are fine enough for cables."""
 
 from collections.abc import Mapping
 from typing import Any, Final
@@ -18,7 +18,7 @@ CHOSEN: Final = ChosenSettings(
     settings=PictureSettings(cycles=CyclesSettings(samples=1), economy=Economy(upper_world=False, backdrop=False)),
     expected_flip=None,
 )
-"""How cables and textures are built for Eevee; its settings of Cycles are not used."""
+"""Settings by which cables and textures are built for Eevee; the settings of Cycles among them are not used."""
 
 _NAME = f"{names.POINT_LAMP}.eevee"
 """Name of the spot light that stands for the picture's lamp."""

@@ -125,7 +125,7 @@ def render_picture(
     Args:
         matte: the backdrop to lay the render over; None if the render has everything.
         distortion: the lens's distortion, which Blender's lens lacks; see `farm.scene.camera.Camera`.
-        development: what the camera makes of the light; None for Blender's view transform.
+        development: settings by which the camera develops the light; None for Blender's view transform.
         lit_by: (3,), colour of the scene's light, for the development.
 
     Returns:

@@ -1,7 +1,7 @@
 """The renderer: an open template in this process that makes one picture after another.
 
-A picture's steps are methods (settle, build, render, label), so that what measures or tests one of them calls the very
-step that pictures go through.
+A picture's steps are methods (settle, build, render, label), so that a benchmark or test of one step calls the
+code that makes pictures.
 """
 
 import time

@@ -1,4 +1,4 @@
-"""What lights the picture, lamps in a grey world or an HDRI; and the backdrop that an HDRI gives."""
+"""The picture's light, from lamps in a grey world or from an HDRI, and the backdrop that an HDRI gives."""
 
 from typing import Any
 
@@ -96,12 +96,12 @@ def set_hdri_world(world: HdriWorld, library: AssetLibrary, image_cache: ImageCa
 def hdri_backdrop(
     world: HdriWorld, view: View, lens_radius_m: float, library: AssetLibrary, image_cache: ImageCache
 ) -> NDArray[np.float32] | None:
-    """What the camera sees of an HDRI, as bright as the template shows it.
+    """Make the backdrop that the camera sees of an HDRI, as bright as the template shows it.
 
     Args:
         world: the HDRI.
         view: the camera.
-        lens_radius_m: radius of its aperture.
+        lens_radius_m: radius of the camera's aperture, in metres.
         library: the files of HDRIs.
         image_cache: the images that this process holds.
 
@@ -122,5 +122,5 @@ def _euler(world: HdriWorld) -> Any:
 
 
 def _turn(world: HdriWorld) -> NDArray[np.float64]:
-    """(3, 3), takes a direction in the world to one in the panorama, as the template's Mapping node does."""
+    """Make the matrix (3, 3) that turns the world's directions to the panorama's, like the template's Mapping node."""
     return np.array(_euler(world).to_matrix(), np.float64)

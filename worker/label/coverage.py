@@ -1,4 +1,4 @@
-"""Which polygon of a pile covers most of each pixel: scanlines, cut where polygons begin and end. Pure numpy.
+"""Finds the polygon of a pile that covers most of each pixel, by scanlines cut where polygons begin or end. Pure numpy.
 
 Along a scanline coverage is exact to 1/256 pixel. Everything is counted in whole numbers, so that neither the order of
 equal numbers nor the processor's vector width decides anything.
@@ -24,13 +24,13 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True, slots=True)
 class _Stretches:
-    """Pieces of scanlines, each with the number of what covers it.
+    """Pieces of scanlines, each with the number of the thing that covers it.
 
     Attributes:
         rows: (N,) scanlines, counted from the top.
         starts: (N,) steps from the left edge of the picture to the piece's start.
         ends: (N,) steps from the left edge of the picture to the piece's end, after its start.
-        numbers: (N,) numbers of the quads, 0 for what only hides.
+        numbers: (N,) numbers of the things, 0 for one that only hides others.
     """
 
     rows: Ints
@@ -40,18 +40,18 @@ class _Stretches:
 
 
 def cover(quads_px: NDArray[np.float64], numbers: Ints, rows: int, width: int) -> NDArray[np.uint16]:
-    """Find what covers each pixel.
+    """Find the thing that covers most of each pixel.
 
     Args:
         quads_px: (N, 4, 2) corners x, y of convex quads in order around each; a later quad hides an earlier one.
-        numbers: (N,) number of the thing that each quad is a part of, 1 to 65,535; or 0 for what hides things and is
-            none itself.
+        numbers: (N,) number of the thing that each quad is a part of, 1 to 65,535; or 0 for a quad that hides
+            things and belongs to none.
         rows: height of the picture, pixels; its top left corner is (0, 0).
         width: width of the picture, pixels.
 
     Returns:
-        (rows, width): the number of the thing that covers most of a pixel, 0 where what is seen of all things together
-        covers less than half. Of two that cover the same, the lower number.
+        (rows, width): the number of the thing that covers most of a pixel, 0 where the visible parts of all things
+        together cover less than half. Of two that cover the same, the lower number.
     """
     seen = _uppermost(_scan(quads_px, numbers, rows, width), width)
     pixels, shares, stretch = _by_pixel(seen, width)
@@ -74,7 +74,7 @@ def covered_share(quads_px: NDArray[np.float64], rows: int, width: int) -> NDArr
 
 
 def _scan(quads_px: NDArray[np.float64], numbers: Ints, rows: int, width: int) -> _Stretches:
-    """Cut the quads along the scanlines: their stretches, in the order of the quads, also where others hide them."""
+    """Cut the quads along the scanlines into stretches, in the order of the quads, hidden parts included."""
     x, y = quads_px[:, :, 0] * STEPS, quads_px[:, :, 1] * SCANLINES - 0.5
     first, last = (
         np.clip(np.ceil(edge), 0, rows * SCANLINES).astype(np.int64) for edge in (y.min(axis=1), y.max(axis=1))
@@ -98,9 +98,9 @@ def _scan(quads_px: NDArray[np.float64], numbers: Ints, rows: int, width: int) -
 
 
 def _uppermost(stretches: _Stretches, width: int) -> _Stretches:
-    """What is seen of stretches of which a later one hides an earlier one: stretches that overlap nowhere.
+    """Cut the hidden parts away from stretches, of which a later one hides an earlier one; the rest overlaps nowhere.
 
-    Those of number 0 hide what they lie over and are left out themselves, as if nothing were there.
+    Stretches of number 0 hide those beneath them and are left out themselves, as if nothing were there.
     """
     # The scanlines one after the other make one long line; a step between them keeps them apart.
     line = width * STEPS + 1
@@ -123,7 +123,7 @@ def _uppermost(stretches: _Stretches, width: int) -> _Stretches:
 
 
 def _by_pixel(stretches: _Stretches, width: int) -> tuple[Ints, Ints, Ints]:
-    """Cut stretches at the pixels' edges: of each piece the pixel, the length in steps, and the stretch it is of."""
+    """Cut stretches at the pixels' edges; return each piece's pixel, its length in steps, and its stretch."""
     left, right = stretches.starts // STEPS, (stretches.ends - 1) // STEPS
     counts = right - left + 1
     pixels = _count_up(stretches.rows // SCANLINES * width + left, counts)
@@ -135,7 +135,7 @@ def _by_pixel(stretches: _Stretches, width: int) -> tuple[Ints, Ints, Ints]:
 
 
 def _winners(covered: NDArray[np.bool_], pixels: Ints, shares: Ints, numbers: Ints) -> Ints:
-    """The number with the largest share of each covered pixel."""
+    """Find the number with the largest share of each covered pixel."""
     here = covered[pixels]
     place = (np.cumsum(covered) - 1)[pixels[here]]
     columns = int(numbers.max(initial=0)) + 1
@@ -147,6 +147,6 @@ def _winners(covered: NDArray[np.bool_], pixels: Ints, shares: Ints, numbers: In
 
 
 def _count_up(starts: Ints, counts: Ints) -> Ints:
-    """`counts` whole numbers from each start on, one after the other."""
+    """List `counts` whole numbers from each start on, one start after the other."""
     before = np.cumsum(counts) - counts
     return np.arange(counts.sum()) - np.repeat(before - starts, counts)

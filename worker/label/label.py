@@ -1,8 +1,9 @@
 """Masks from the geometry itself: the silhouettes of the rendered tubes, drawn from far to near. Pure numpy.
 
-The camera is taken as a pinhole in the middle of the lens. Opposite points of the lens see an edge moved to opposite
-sides by the same, so that depth of field leaves its half-way line, and with it the mask, where the pinhole sees it.
-What is left out: blur fills narrow gaps, of a pixel or so, between cables well above the floor, where the focus is.
+The camera is taken as a pinhole in the middle of the lens. Opposite points of the lens see an edge moved by the
+same distance to opposite sides, so depth of field leaves its half-way line, and with it the mask, where the pinhole
+sees it. One effect is left out: between cables well above the floor, which is in focus, blur fills gaps of about a
+pixel.
 """
 
 from collections.abc import Mapping, Sequence

@@ -27,7 +27,7 @@ def make_labels(geometry: SettledGeometry, outputs: Iterable[Output]) -> dict[st
     """Make every label among the outputs; each maker is called once.
 
     Args:
-        geometry: what the labels are made from.
+        geometry: geometry of the picture.
         outputs: the outputs that the picture must have; those without a maker are left out.
 
     Returns:

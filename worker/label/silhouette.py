@@ -25,7 +25,7 @@ class Silhouettes:
 
     Attributes:
         quads_px: (N, 4, 2) corners in order around each.
-        instances: (N,) numbers of the pieces; `worker.cable.piece.OCCLUDER` for what is no cable.
+        instances: (N,) numbers of the pieces; `worker.cable.piece.OCCLUDER` for a piece of no cable.
     """
 
     quads_px: NDArray[np.float64]
@@ -135,7 +135,7 @@ def _quads(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The strip between two lines of points (N, 3) in quads (N - 1, 4, 2) px, with the distance of each (N - 1,).
 
-    What is not in front of the camera is left out, for it has no picture.
+    Quads that are not in front of the camera are left out, since they have no picture.
     """
     seen = np.minimum(view.depths_m(left), view.depths_m(right)) > 0.0
     kept = seen[:-1] & seen[1:]

@@ -40,7 +40,7 @@ def sample_world(header: DatasetHeader, background: Background, rng: np.random.G
 
     Args:
         header: header of the dataset, with its HDRIs and ranges.
-        background: what the picture shows behind the cables: the HDRI, or a floor that the HDRI lights.
+        background: background of the cables: the HDRI itself, or a floor that the HDRI lights.
         rng: random generator of the HDRI.
     """
     ranges = header.spec.ranges.world

@@ -1,1 +1,1 @@
-"""One worker process: Celery's main process, the child that runs jobs, and what keeps both honest."""
+"""A worker: Celery's main process, the child that runs jobs, and the supervisor, leases and watchdog over both."""

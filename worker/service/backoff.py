@@ -17,7 +17,7 @@ class Backoff:
     Args:
         store: folder or URL below which the datasets lie.
         min_free_bytes: free space of the store's disk below which no job is taken; the free space of a URL isn't known.
-        clock: counts seconds.
+        clock: clock that counts seconds.
     """
 
     def __init__(self, store: str, min_free_bytes: int, clock: Callable[[], float] = time.monotonic) -> None:
@@ -39,7 +39,7 @@ class Backoff:
         self._pause_s = 0.0
 
     def reason(self) -> str:
-        """Why no job may be taken now; empty if one may."""
+        """Return the reason why no job may be taken now; empty if one may be taken."""
         if self._clock() < self._until_s:
             return self._reason
         free = free_bytes(self._store)

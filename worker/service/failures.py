@@ -1,4 +1,4 @@
-"""What becomes of a job that failed: it is tried again later, given up, or a sign that this worker is unfit."""
+"""The handling of failed jobs: a job is tried again later or given up, or it shows that this worker is unfit."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from worker.service.job_log import JobLogs
 from worker.service.lease import LeaseLostError
 
 MAX_TRIES = 3
-"""Times that a job is tried before a failure that may pass makes it be given up."""
+"""Maximum attempts at a job whose failures may pass; after the last, the job is given up."""
 
 BACKOFF_S = (5.0, 30.0)
 """Seconds before the second and before the third try of a job; each pause is made up to half longer."""
@@ -33,7 +33,7 @@ class TryLaterError(RetryableError):
         self.delay_s = delay_s
 
     def __reduce__(self) -> tuple[type, tuple[str]]:
-        """As a plain error: Celery carries it from the child to the worker's main process by pickle."""
+        """Pickle as a plain error, which Celery carries from the child to the worker's main process."""
         return RetryableError, (str(self),)
 
 
@@ -87,7 +87,7 @@ class Failures:
             message: the job.
             dataset: its dataset, whose quarantine takes the record.
             ledger: its run's ledger.
-            error: why it failed.
+            error: the failure.
             attempts: number of times that the job was begun.
 
         Raises:
@@ -128,7 +128,7 @@ class Failures:
 
 
 def _require_claim(ledger: Ledger, job_id: str) -> None:
-    """Only the holder may count a job's failures or give it up."""
+    """Raise LeaseLostError unless this process holds the job's claim: only the holder may count failures or give up."""
     if not ledger.refresh(job_id, this_process()):
         raise LeaseLostError(f"{job_id}: failed here, but is another worker's by now")
 

@@ -1,4 +1,4 @@
-"""What is printed while a job runs, Blender's C code included: one file for each job, bounded in size and number."""
+"""The logs of jobs: all output, that of Blender's C code included, a file for each job, bounded in size and number."""
 
 import os
 import sys
@@ -10,26 +10,26 @@ from farm.errors import DestinationError
 from farm.spec.job import JobMessage, queue_key
 
 MAX_BYTES = 256 * 1024
-"""Size of a finished job's log; of a longer one the end is kept."""
+"""Maximum bytes of a finished job's log; a longer one keeps its end."""
 
 MAX_FILES = 1000
-"""Logs that are kept of a dataset's jobs, the newest; up to `_ROOM_EVERY` more, until a worker makes room."""
+"""Number of logs kept of a dataset's jobs, the newest; up to `_ROOM_EVERY` more stay until a worker makes room."""
 
 _ROOM_EVERY = 100
-"""Jobs of a process after which it makes room."""
+"""Number of a process's jobs after which it makes room."""
 
 _RUNNING_BYTES = 16 * MAX_BYTES
-"""Size at which the log of a running job is cut, so that it does not fill the disk."""
+"""Bytes above which the log of a running job is cut, so that it does not fill the disk."""
 
 _TAIL_BYTES = 16 * 1024
-"""Size of the end that goes into a record of quarantine."""
+"""Bytes from the end of a log that go into a record of quarantine."""
 
 
 class JobLogs:
     """The logs of the jobs that this machine's workers run.
 
     Args:
-        folder: folder that gets another for each dataset.
+        folder: folder in which each dataset gets a folder of its own.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -95,7 +95,7 @@ class JobLogs:
 
 def _send_output(standard: int, error: int) -> None:
     for stream in (sys.stdout, sys.stderr):
-        # On a full disk the last words are lost.
+        # On a full disk the last output is lost.
         with suppress(OSError):
             stream.flush()
     os.dup2(standard, 1)

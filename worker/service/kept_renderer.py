@@ -24,8 +24,8 @@ class KeptRenderer:
     """Makes pictures, with the renderer of the last dataset kept open.
 
     Args:
-        open_renderer: opens the renderer of a dataset; called in this process, at its first job.
-        settings: how the renderer runs.
+        open_renderer: function that opens the renderer of a dataset; called in this process, at its first job.
+        settings: settings of the renderer.
     """
 
     def __init__(self, open_renderer: OpenRenderer, settings: RendererSettings) -> None:
@@ -40,7 +40,7 @@ class KeptRenderer:
         Raises:
             UnfitWorkerError: if this machine can't open the renderer, or lacks what the scene shows.
             FarmError: another failure that the renderer foresees.
-            RenderError: if it failed in a way that nobody foresaw, or took longer than the time limit.
+            RenderError: if the renderer failed in an unforeseen way, or took longer than the time limit.
         """
         renderer = self._renderer_for(header)
         try:
@@ -77,6 +77,6 @@ class KeptRenderer:
 
 
 def defect(job: Job, error: Exception) -> RenderError:
-    """An unforeseen error as one that is tried again: it ends as a reason in quarantine, not as a lost message."""
+    """Turn an unforeseen error into one that is tried again, so that it ends in quarantine, not as a lost message."""
     log.error("%s: unexpected error", job.id, exc_info=error)
     return RenderError(f"unexpected {type(error).__name__}: {error}")

@@ -19,7 +19,7 @@ log = logging.getLogger(__name__)
 
 
 class LeaseLostError(FarmError):
-    """The job is another worker's by now, or may be."""
+    """The job belongs to another worker by now, or may belong to one."""
 
 
 class Lease:
@@ -31,7 +31,7 @@ class Lease:
         owner: the process that has claimed it, just now.
         ttl_s: seconds after which the claim lapses unless it is renewed.
         every_s: seconds between two renewals; by default a sixth of `ttl_s`.
-        clock: counts seconds, also while the process is stopped.
+        clock: clock that counts seconds, also while the process is stopped.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class Lease:
         self._ttl_s = ttl_s
         self._every_s = ttl_s / 6 if every_s is None else every_s
         self._clock = clock
-        # A tenth less than in the ledger, whose clock is another.
+        # A tenth less than the ledger counts, since its clock is another one.
         self._until_s = clock() + 0.9 * ttl_s
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._keep_renewing, name=f"heartbeat {job_id}", daemon=True)

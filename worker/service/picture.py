@@ -1,4 +1,4 @@
-"""What a renderer hands over for upload, and the port that workers call."""
+"""The picture that a renderer hands over for upload, and the port by which workers call a renderer."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

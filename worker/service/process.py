@@ -37,9 +37,9 @@ def serve(settings: WorkerSettings, broker_url: str, open_renderer: OpenRenderer
     """Work until told to stop by a signal: after SIGTERM the running job is finished, a second one ends it at once.
 
     Args:
-        settings: how the worker runs.
+        settings: settings of the worker.
         broker_url: address of the Redis.
-        open_renderer: opens the renderer of a dataset; called in the children alone.
+        open_renderer: function that opens the renderer of a dataset; called in the children alone.
 
     Returns:
         The exit code.
@@ -117,7 +117,7 @@ def _prepare_children(log_file: Path) -> None:
     main_process = os.getpid()
 
     def prepare_child(**_: Any) -> None:
-        # A group of its own, so that it is killed with all that it has started.
+        # The child leads a group of its own, so that it is killed with all processes that it has started.
         os.setpgid(0, 0)
         die_with_parent(main_process)
         send_output_to(log_file)
@@ -126,7 +126,7 @@ def _prepare_children(log_file: Path) -> None:
 
 
 def _end_at_once_next_time(**_: Any) -> None:
-    # Told to stop, Celery finishes what runs and ignores a second signal; people who send one mean it.
+    # Celery would finish the running job after the first signal and ignore the second. The second ends this worker.
     signal.signal(signal.SIGTERM, _end_at_once)
     signal.signal(signal.SIGINT, _end_at_once)
 

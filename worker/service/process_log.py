@@ -1,4 +1,4 @@
-"""What a whole process prints, Blender's C code included: to the end of one file."""
+"""The log of a process: all its output, that of Blender's C code included, at the end of one file."""
 
 import os
 import sys
@@ -11,13 +11,13 @@ _MAX_BYTES = 16 * 1024 * 1024
 
 
 def prepare_log(folder: Path, name: str) -> Path:
-    """Make a folder for logs.
+    """Make a folder for logs, and a log file in it.
 
     Returns:
-        The log file in it, which can be written.
+        The log file, which can be written.
 
     Raises:
-        DestinationError: if it can't be.
+        DestinationError: if the file can't be written.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)

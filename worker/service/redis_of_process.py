@@ -11,7 +11,7 @@ from farm.run.registry.redis import RedisRegistry
 
 
 class RedisOfProcess:
-    """Opens what lies in Redis over one connection pool, which the process that first asks makes for itself.
+    """Opens the registry and ledgers in Redis over one connection pool, which each process makes at its first call.
 
     Args:
         broker_url: address of the Redis.

@@ -1,4 +1,4 @@
-"""One job from its message to its manifest, whatever brought the message."""
+"""Runs one job from its message to its manifest, whatever brought the message."""
 
 from typing import NamedTuple
 
@@ -31,8 +31,8 @@ from worker.service.picture import Picture
 from worker.service.upload import upload
 
 MAX_STARTS = 3
-"""Times that a job is begun before it is given up because each ended its process, or met the time limit. Redis counts
-them, so that they outlast restarts."""
+"""Maximum starts of a job of which each ends its process or meets the time limit; then the job is given up. Redis
+counts the starts, so that the count outlasts restarts of the worker."""
 
 _LOST_CLAIM_S = 2.0
 """Seconds before the message of a job whose claim was lost is delivered again."""
@@ -41,7 +41,7 @@ _PROBE = ".tmp-probe"
 
 
 class Outcome(NamedTuple):
-    """How a job ended that did not fail.
+    """The outcome of a job that did not fail.
 
     Attributes:
         said: one line about what was done.
@@ -57,9 +57,9 @@ class JobRunner:
 
     Args:
         store: folder or URL below which the datasets lie.
-        renderer: makes the pictures of every dataset.
-        open_ledger: opens the ledger of a dataset.
-        logs: files for what jobs print; None leaves their output alone.
+        renderer: renderer of the pictures of every dataset.
+        open_ledger: function that opens the ledger of a dataset.
+        logs: files for the output of jobs; None leaves their output alone.
     """
 
     def __init__(
@@ -80,7 +80,7 @@ class JobRunner:
             payload: the message as it came off the wire.
 
         Raises:
-            TryLaterError: when the message is to be sent again.
+            TryLaterError: if the message is to be sent again later.
             MessageError: if it asks for no job, or for one that its dataset does not have.
             PermanentError: if the job is given up; its record is in the dataset's quarantine.
             DestinationError: if the dataset can't be read or written now; the message must go back to the queue.
@@ -116,7 +116,7 @@ class JobRunner:
             return Outcome(f"dropped: {message.task_id}: {MAX_ABSENCES} other workers lacked its dataset, too")
         self._probe(dataset, job)
         if nothing_to_do := _nothing_to_do(dataset, job):
-            # A second delivery is no start.
+            # A second delivery of a job's message does not count as a start.
             ledger.give_back(job.id, this_process())
             return Outcome(f"{message.task_id} {nothing_to_do}")
         if start > MAX_STARTS:
@@ -137,12 +137,12 @@ class JobRunner:
         return Outcome(_note_done(message, manifest, ledger), made=True)
 
     def _open_dataset(self, message: JobMessage, ledger: Ledger) -> Dataset | None:
-        """The message's dataset; None if more than `MAX_ABSENCES` workers lack it, since its run has ended then."""
+        """Open the message's dataset; None if more than `MAX_ABSENCES` workers lack it: its run has ended then."""
         try:
             dataset = open_for_message(self._store, message)
         except DatasetMissingError as error:
             if message.dataset in self._found:
-                # It was there before: the store has gone, say a mount, and may come back.
+                # The dataset was there before, so its store has gone, for example a mount, and may come back.
                 raise DestinationError(str(error)) from error
             if ledger.count_absence() > MAX_ABSENCES:
                 return None

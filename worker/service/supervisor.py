@@ -1,4 +1,4 @@
-"""What a worker's main process does beside Celery's own work: it chooses queues, holds back, reports, keeps limits.
+"""The supervisor in a worker's main process: it chooses queues, holds back, reports, and bounds memory and logs.
 
 It runs once a second in Celery's event loop, as a step of its consumer, so it may change which queues are consumed.
 """
@@ -31,7 +31,7 @@ TICK_S = 1.0
 """Seconds between two looks at the registry, the store and the children."""
 
 _KILL_RATIO = 2
-"""Memory at which a child is killed amid its job, as a multiple of that above which it is replaced after it."""
+"""Memory above which a child is killed during a job, as a multiple of that above which it is replaced after a job."""
 
 
 class Supervisor:
@@ -39,15 +39,15 @@ class Supervisor:
 
     Args:
         name: name of the worker, as `NAME@HOST`.
-        open_registry: opens the registry of runs and workers; called in the main process, when it is first needed.
-        open_ledger: opens a dataset's ledger; called in the main process, when it is first needed.
-        backoff: tells why no job may be taken.
+        open_registry: function that opens the registry of runs and workers; called in the main process, at first use.
+        open_ledger: function that opens a dataset's ledger; called in the main process, at first use.
+        backoff: source of the reason why no job may be taken.
         logs: logs of the jobs that run here.
         memory_per_child_kib: memory above which a child is replaced after its job; see
             `farm.run.worker_settings.WorkerSettings`.
 
     Attributes:
-        ticked_s: when it last looked, by the monotonic clock.
+        ticked_s: time of the last look, by the monotonic clock.
         fault: the fault that made this worker unfit; None while there is none.
     """
 
@@ -92,7 +92,7 @@ class Supervisor:
     def attach(self, consumer: Any) -> None:
         """Supervise a consumer that has just connected; Celery ends its timers with the connection."""
         self._consumer = consumer
-        # What Celery consumed before the connection was lost it consumes again.
+        # Celery consumes the queues again that it consumed before the connection was lost.
         self._joined = set(consumer.app.amqp.queues.consume_from) - {QUEUE}
         self.tick()
         consumer.timer.call_repeatedly(TICK_S, self.tick)
@@ -106,7 +106,7 @@ class Supervisor:
             self._join({queue_name(key) for key, run in runs.items() if run.state is RunState.ACTIVE})
             self._open_registry().report(self.report())
         except BrokerError as error:
-            # Celery notices it as well, and connects again.
+            # Celery notices the lost connection as well, and connects again.
             log.warning("%s", error)
         self._keep_memory()
         self._bound_logs()
@@ -121,7 +121,7 @@ class Supervisor:
         self._joined = wanted
 
     def report(self) -> WorkerReport:
-        """What this worker does at the moment."""
+        """Describe the present state of this worker."""
         jobs = tuple(str(request.id).rpartition(":")[2] for request in list(state.active_requests))
         unoccupied = WorkerState.HELD if self._held_reason else WorkerState.IDLE
         doing = WorkerState.WORKING if jobs else unoccupied

@@ -34,26 +34,26 @@ def register_tasks(app: Any, runner: JobRunner, supervisor: Supervisor) -> Any:
 
     Args:
         app: the Celery application.
-        runner: runs the jobs, in the children.
-        supervisor: learns how jobs ended, in the main process.
+        runner: runner of the jobs, in the children.
+        supervisor: supervisor in the main process, which is told how jobs end.
 
     Returns:
         The task.
     """
 
     class WatchedRequest(Request):  # type: ignore[misc]  # celery is untyped
-        """What the main process knows of a message that a child works on."""
+        """A message that a child works on, as the main process sees it; it tells the supervisor how the job ends."""
 
         failed = False
 
         def acknowledge(self) -> Any:
-            """Learn that a picture was made: Celery overrides `on_success`, but acknowledges in it."""
+            """Tell the supervisor that a picture was made: Celery overrides `on_success`, but acknowledges in it."""
             if not self.failed:
                 supervisor.note_done()
             return super().acknowledge()
 
         def on_failure(self, exc_info: Any, send_failed_event: bool = True, return_ok: bool = False) -> Any:
-            """Learn that this worker is unfit, its store full, or its child dead."""
+            """Tell the supervisor if this worker is unfit, its store full, or its child dead."""
             self.failed = True
             error = getattr(exc_info.exception, "exc", exc_info.exception)
             if isinstance(error, Reject) and isinstance(error.reason, UnfitWorkerError):
@@ -65,7 +65,7 @@ def register_tasks(app: Any, runner: JobRunner, supervisor: Supervisor) -> Any:
             return super().on_failure(exc_info, send_failed_event, return_ok)
 
         def on_timeout(self, soft: bool, timeout: float) -> Any:
-            """Learn that a child is about to be killed at the hard limit."""
+            """Tell the supervisor if a child is about to be killed at the hard limit."""
             if not soft:
                 self.failed = True
                 supervisor.note_crash(self)

@@ -37,13 +37,13 @@ class Guard(Protocol):
 
 
 class Unguarded:
-    """For a writer that has the dataset to itself."""
+    """The guard of a writer that has the dataset to itself."""
 
     def renew(self) -> None:
-        """Nothing to ask."""
+        """Do nothing: there is no ledger to ask."""
 
     def check(self) -> None:
-        """Nothing to check."""
+        """Do nothing: no other process writes the job."""
 
 
 def upload(made: Picture, job: Job, dataset: Dataset, guard: Guard | None = None) -> Manifest:

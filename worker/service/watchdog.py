@@ -1,7 +1,7 @@
 """Ends a worker that no longer works, so that its supervising program starts another and its jobs go to others.
 
-A worker is known to get there by an event loop that hangs after a lost connection, by a consumer that came back from
-one and takes nothing, and by a shutdown that never ends.
+Three faults are known to stop a worker: an event loop that hangs after a lost connection, a consumer that takes no
+jobs after it has connected again, and a shutdown that never ends.
 """
 
 import logging
@@ -23,7 +23,7 @@ LOOK_S = 5.0
 """Seconds between two looks at the worker."""
 
 LOOKS = 12
-"""Looks in a row that must find the event loop silent. A process that was stopped and goes on is seen so only once."""
+"""Looks in a row that must find the event loop silent. A process that was stopped and goes on is silent only once."""
 
 IDLE_LOOKS = 24
 """Looks in a row that must find jobs waiting beside an idle worker."""
@@ -31,10 +31,10 @@ IDLE_LOOKS = 24
 
 @dataclass(frozen=True, slots=True)
 class Observation:
-    """What can be seen of a worker.
+    """One look at a worker.
 
     Attributes:
-        ticked_s: when its event loop last came by, by the monotonic clock.
+        ticked_s: time of the last tick of its event loop, by the monotonic clock.
         busy: whether a job runs.
         stopping: whether it was told to end.
         jobs_wait: whether jobs wait that it should take.
@@ -50,7 +50,7 @@ class FaultDetector:
     """Counts the looks in a row that find the same fault.
 
     Args:
-        clock: counts seconds, by the clock of `Observation.ticked_s`.
+        clock: clock of `Observation.ticked_s`, in seconds.
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
@@ -59,9 +59,9 @@ class FaultDetector:
         self._idle = 0
 
     def look(self, seen: Observation) -> str:
-        """What has been wrong for long enough to end the worker; empty if nothing has."""
+        """Count a look; return the fault that has lasted long enough to end the worker, or an empty text."""
         silent = self._clock() - seen.ticked_s > LOOKS * LOOK_S / 2
-        # Told to stop, it waits for its job without coming by.
+        # A worker that was told to stop waits for its job, and its event loop does not tick meanwhile.
         self._silent = self._silent + 1 if silent and not (seen.stopping and seen.busy) else 0
         self._idle = self._idle + 1 if seen.jobs_wait and not seen.busy and not seen.stopping else 0
         if self._silent >= LOOKS:
@@ -79,8 +79,8 @@ def watch(observe: Callable[[], Observation], end: Callable[[], None]) -> thread
     """Watch this process from a thread.
 
     Args:
-        observe: looks at the worker; raises BrokerError while Redis is away.
-        end: called before the process ends, to end its children.
+        observe: function that looks at the worker; it raises BrokerError while Redis is away.
+        end: function that ends the children, called before the process ends.
     """
 
     def look_for_ever() -> None:

@@ -15,7 +15,7 @@ from worker.simulate.shapes import CableShapes
 
 
 class FallModule(Protocol):
-    """What the module `fall` of a simulator's folder holds."""
+    """The module `fall` of a simulator's folder."""
 
     def drop_cables(self, scene: Scene, fall: Any) -> CableShapes:
         """Let the cables of a scene fall until they rest.
@@ -38,7 +38,7 @@ _MODULES: Mapping[Simulator, FallModule] = MappingProxyType(
 def simulate(scene: Scene, simulator: Simulator, fall: Fall) -> CableShapes:
     """Let the cables of a scene fall until they rest.
 
-    Sticks fall with them as rods; cloth has none, and its cables fall as if there were none.
+    Sticks fall with rods, as rods themselves. Cloth has no sticks, and its cables fall as if there were none.
 
     Raises:
         SceneError: if the simulator diverges.

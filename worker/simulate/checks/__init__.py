@@ -1,1 +1,1 @@
-"""What is measured on settled cables, and whether a scene may be shipped."""
+"""The measurements of settled cables, and the decision whether a scene may be shipped."""

@@ -1,4 +1,4 @@
-"""Whether a settled scene may be shipped. Measuring is `worker.simulate.checks.measure`."""
+"""Decides whether a settled scene may be shipped, from the figures of `worker.simulate.checks.measure`."""
 
 from farm.dataset.manifest import SettleFigures
 from worker.simulate.checks.measure import Gate, settled_figures
@@ -17,7 +17,7 @@ MAX_SPEED_MM_S = Gate.SPEED_MAX.value.target
 
 
 def find_fault(figures: SettleFigures) -> str | None:
-    """Why a scene must be drawn again, or None if it may be shipped.
+    """Find the reason why a scene must be drawn again; None if it may be shipped.
 
     A scene that breaks one of gates 1 to 3 is never shipped. A picture asks for more than the gates do:
 
@@ -27,8 +27,8 @@ def find_fault(figures: SettleFigures) -> str | None:
       is enough to be seen.
     - Not more than half a radius of air below a cable at its lowest: its shadow would come away from it.
 
-    A cable that crosses itself in plan view is no fault: cables do. Where it cuts into itself, penetration tells. Nor
-    is one whose tip slipped round another's: real cables do that too.
+    Two things that real cables do are no faults: a cable may cross itself in plan view (where it cuts into itself,
+    penetration tells), and its tip may slip round another's.
     """
     if figures.pass_throughs:
         return f"{figures.pass_throughs} crossing(s) of cables that passed through each other"

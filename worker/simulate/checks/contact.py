@@ -1,4 +1,4 @@
-"""How deep cables cut into each other and into themselves, and how much air is between them.
+"""The contacts of cables: the depth to which they cut into each other and themselves, and the air between them.
 
 Distances are those of the smooth centrelines, segment to segment of a fine sampling, so a crossing between two samples
 is measured where it is closest.
@@ -27,11 +27,11 @@ _ROWS = 8192
 
 @dataclass(frozen=True, slots=True)
 class Contacts:
-    """What was found.
+    """The depth and the air of all contacts.
 
     Attributes:
-        depth: (samples,), >= 0: in the piece of cable around each sample, how far its surface and another's, or its
-            own, overlap, over the smaller radius.
+        depth: (samples,), >= 0: overlap of the piece of cable around each sample with another cable, or with its own,
+            over the smaller radius.
         clearance_m: (cables,): least air to another cable, negative where they overlap; inf without a neighbour within
             half the larger radius.
     """
@@ -70,7 +70,7 @@ def search_reach_m(radii_m: NDArray[np.float64]) -> float:
 def _worth_searching(
     spans: Spans, near: tuple[Indices, Indices], radii_m: NDArray[np.float64]
 ) -> tuple[Indices, Indices]:
-    """Those of the pairs near in plan that may touch."""
+    """Select those of the pairs near in plan view that may touch."""
     one, other = near
     low, high = spans.boxes_m
     reach = _reach_m(radii_m, spans.cable[one], spans.cable[other])
@@ -92,9 +92,9 @@ def _reach_m(radii_m: NDArray[np.float64], one: Indices, other: Indices) -> NDAr
 def _nearest_samples(
     spans: Spans, one: Indices, other: Indices, radii_m: NDArray[np.float64]
 ) -> tuple[Indices, Indices]:
-    """For each sample of each pair of spans, both ways round, the nearest sample of the other span if within reach."""
+    """Find for each sample of a pair of spans, both ways round, the nearest sample of the other span within reach."""
     table_one, table_other = spans.span_samples[one], spans.span_samples[other]
-    # About a point of the pair itself, so that the products below lose no digits far from the origin.
+    # Places are relative to a point of the pair, so that the products below lose no digits far from the origin.
     origin = spans.samples_m[table_one[:, :1]]
     a, b = spans.samples_m[table_one] - origin, spans.samples_m[table_other] - origin
     squares = np.einsum("pik,pik->pi", a, a)[:, :, None] + np.einsum("pik,pik->pi", b, b)[:, None, :]
@@ -118,7 +118,7 @@ def _nearest_samples(
 
 
 def _gap(spans: Spans, here: Indices, there: Indices) -> NDArray[np.float64]:
-    """Distance of the piece of cable that each sample `here` stands for to the segments that meet at `there`.
+    """Compute the distance from the piece of cable around each sample `here` to the segments that meet at `there`.
 
     The piece reaches half way to the samples beside it, so the pieces make up the cable and none counts twice.
     """

@@ -1,4 +1,4 @@
-"""The ten gates that a simulator of cables must pass, as data, and how each is measured.
+"""The ten gates that a simulator of cables must pass, as data, and the measurement of gates 1 to 4.
 
 Gates 1 to 4 hold for every settled scene, whichever simulator made it. Gates 5 to 10 hold for a simulator:
 `benchmarks.physics.gates` measures them on scenes laid out for the purpose and compares them with reference solutions.
@@ -20,15 +20,15 @@ from worker.simulate.shapes import CableShapes
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What is asked of one figure.
+    """The limits of one figure.
 
     Attributes:
         number: the gate's number, 1 to 10.
         name: the figure in words.
         unit: the figure's unit; empty for a plain ratio or count.
-        target: the most that the figure should be.
-        never: the most that it may be for the result to be used; inf where nothing is so bad.
-        least: the least that the figure should be.
+        target: largest figure that is on target.
+        never: largest figure with which a result may be used; inf if any may.
+        least: smallest figure that is on target.
     """
 
     number: int
@@ -40,7 +40,7 @@ class Limits:
 
 
 NO_GRANTS: Mapping["Gate", float] = MappingProxyType({})
-"""The gates' own targets hold, all of them."""
+"""No grants: all of the gates' own targets hold."""
 
 
 class Gate(Enum):
@@ -64,7 +64,7 @@ class Gate(Enum):
     STRESS = Limits(10, "failed runs of the stress grid", "", 0, never=0)
 
     def on_target(self, figure: float, grants: Mapping["Gate", float] = NO_GRANTS) -> bool:
-        """Whether the figure is what is aimed for; NaN is not.
+        """Whether the figure is on target; NaN is not.
 
         Args:
             figure: the measured figure.
@@ -91,7 +91,7 @@ def settled_figures(figures: SettleFigures) -> Mapping[Gate, float]:
 
 
 def measure(shapes: CableShapes) -> SettleFigures:
-    """Gates 1 to 4 of settled cables, and what else decides whether a picture is sound.
+    """Measure gates 1 to 4 of settled cables, and the other figures that decide whether a picture is sound.
 
     Penetration, air and crossings are those of the smooth centrelines that are rendered, with the true radii. Cables
     start at stacked heights, so the order of a pair at every crossing is that of their start; another order means that

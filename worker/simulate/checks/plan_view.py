@@ -1,4 +1,4 @@
-"""Where cables cross each other, or themselves, seen from above."""
+"""The places where cables cross each other, or themselves, seen from above."""
 
 from dataclasses import dataclass
 
@@ -35,25 +35,25 @@ class PlanCrossings:
 
     @property
     def own(self) -> NDArray[np.bool_]:
-        """(C,): where a cable crosses itself."""
+        """(C,): whether a cable crosses itself there."""
         own: NDArray[np.bool_] = self.one == self.other
         return own
 
     def flipped(self, order: tuple[int, ...]) -> NDArray[np.bool_]:
-        """(C,): where two cables lie the other way round than in `order`, the cables from the lowest to the highest."""
+        """(C,): whether two cables lie the other way round than in `order`, which lists cables from the lowest up."""
         rank = np.argsort(order)
         rises = rank[self.other] > rank[self.one]
         flipped: NDArray[np.bool_] = ~self.own & np.where(rises, self.rise_m < 0, self.rise_m > 0)
         return flipped
 
     def near_end(self, radii_m: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """(C,): within `END_RADII` of an end, for cables of these radii."""
+        """(C,): whether the crossing is within `END_RADII` of an end, for cables of these radii."""
         near: NDArray[np.bool_] = self.from_end_m <= END_RADII * np.maximum(radii_m[self.one], radii_m[self.other])
         return near
 
 
 def find_crossings(spans: Spans, near: tuple[Indices, Indices]) -> PlanCrossings:
-    """Crossings of the projections on the floor.
+    """Find the crossings of the cables' projections on the floor.
 
     Neighbouring segments share a point and do not count.
 

@@ -1,6 +1,6 @@
 """Centrelines cut into spans, one from node to node, and the pairs of spans that come near each other in plan view.
 
-Cables on a floor form a thin layer, so what is near in plan is nearly all that is near, and the same pairs serve both
+Cables on a floor form a thin layer, so most spans that are near in plan view are near, and the same pairs serve both
 the search for contacts and the search for crossings seen from above.
 """
 

@@ -42,7 +42,7 @@ _STRETCHING_GROUP = "stretching"
 
 @dataclass(frozen=True, slots=True)
 class _Strips:
-    """The joined mesh, in the fall's units, and which vertices belong to which cable."""
+    """The joined mesh, in the fall's units, and the vertices of each cable."""
 
     vertices: Points
     faces: list[tuple[int, int, int]]
@@ -83,7 +83,7 @@ def _length(path: Points) -> float:
 
 
 def start_line(cable: Cable, scale: FallScale, segment: float) -> Points:
-    """The line (N, 3) that a cable starts as, in the fall's units, in segments of about the length `segment`."""
+    """Make the line (N, 3) as which a cable starts, in the fall's units, in segments of about the length `segment`."""
     segments = max(8, round(cable.length_m / (segment * scale.unit_m)))
     level = bent_rod(cable.length_m, cable.bends_per_m, segments + 1)
     turn = np.radians(cable.rotation_deg)

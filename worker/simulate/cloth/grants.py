@@ -1,4 +1,4 @@
-"""What Blender's cloth is granted: it stretches more than the rods do, and its strips bend a little otherwise."""
+"""The grants of Blender's cloth: it stretches more than the rods do, and its strips bend a little differently."""
 
 from collections.abc import Mapping
 from types import MappingProxyType

@@ -1,7 +1,7 @@
 """A cable's Young's modulus and density as settings of a zigzag strip of Blender's cloth.
 
-What a cable at rest looks like depends on its bending stiffness over its weight per length, EI / w, a length cubed; for
-a round section it is E r^2 / (4 rho g). It is carried over to the fall's units; the mass itself is the published one.
+The shape of a cable at rest depends on its bending stiffness over its weight per length, EI / w, a length cubed; for a
+round section it is E r^2 / (4 rho g). It is carried over to the fall's units; the mass itself is the published one.
 
 Blender's angular bending springs act across the edge that two triangles share. In a strip of segments l, width w and
 diagonals e = hypot(l, w), two such triangles are (0, 1, 2) and (1, 2, 3). Each pushes its three corners by a third of
@@ -119,7 +119,7 @@ def achieved_stiffness(bending: float, vertex_mass: float) -> float:
 
 
 def achieved_moduli_pa(scene: Scene, fall: ClothFall) -> tuple[float, ...]:
-    """Young's modulus of each cable as the cloth has it: what was asked for, or less where that would not be stable."""
+    """Young's modulus of each cable as the cloth has it: the one asked for, or less where that would not be stable."""
     scale = FallScale.for_radius(max(cable.diameter_m for cable in scene.cables) / 2)
     material = strip_material(scene, scale, fall)
     return tuple(

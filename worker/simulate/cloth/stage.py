@@ -13,7 +13,7 @@ from worker.simulate.cloth.scale import GRAVITY
 
 @contextmanager
 def temporary_scene() -> Iterator[Any]:
-    """An empty scene with gravity; it goes at the end, and every object and mesh that was added to it."""
+    """Make an empty scene with gravity; at the end, remove it and every object and mesh that was added to it."""
     scene = bpy.data.scenes.new("temporary")
     scene.use_gravity = True
     scene.gravity = (0.0, 0.0, -GRAVITY)
