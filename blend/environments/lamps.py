@@ -4,7 +4,6 @@ import numpy as np
 
 from blend.environments.assembly import Assembly
 from blend.environments.palette import ALUMINIUM, DARK_GREY, WHITE, Colour
-from blend.environments.solids import hanging
 
 COOL: Colour = (17.0, 18.5, 20.0)
 """Radiance of a bluish lamp in red, green and blue, linear: about three times that of the sky in a window."""
@@ -66,8 +65,3 @@ def desk_lamp(a: Assembly, rng: np.random.Generator) -> None:
 def rows(xs: tuple[float, float, int], ys: tuple[float, float, int]) -> list[tuple[float, float]]:
     """List the places x, y of lamps in a grid; `xs` and `ys` each hold the first place, the last one and the count."""
     return [(float(x), float(y)) for x in np.linspace(*xs) for y in np.linspace(*ys)]
-
-
-def string_cable(a: Assembly, start: tuple[float, float, float], end: tuple[float, float, float], tint: Colour) -> None:
-    """A cable that hangs between two points."""
-    a.tube(hanging(start, end, 0.15), 0.008, "rubber", tint)
