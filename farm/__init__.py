@@ -3,4 +3,4 @@
 This package knows what a dataset is. It never imports Blender, nor the packages that use it.
 """
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"

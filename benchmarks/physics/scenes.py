@@ -1,8 +1,8 @@
 """The scenes that all simulators play: drawn like a dataset's, then cut or extended to a number of cables."""
 
-from importlib.metadata import version
 
 from benchmarks.bench_dataset import PUBLISHED
+from farm import __version__
 from farm.scene.cable import Cable
 from farm.scene.scene import Scene
 from farm.spec.category import Category
@@ -71,7 +71,7 @@ def _header(seed: int) -> DatasetHeader:
     nothing = "0" * 64
     description = {**PUBLISHED, "images": DRAWN_CABLES, "seed": seed}
     return DatasetHeader(
-        farm_version=version("cable-farm"),
+        farm_version=__version__,
         spec=parse_spec(merge_tables(description, {"ranges": MOST_CABLES}), source="benchmark"),
         template=TemplateRef(path=None, sha256=nothing),
         surfaces=(BuiltinSurfaceRef(name="none", recipe_version=1),),

@@ -8,6 +8,8 @@ from typing import Any
 import pytest
 import yaml
 
+from farm import __version__
+
 _ROOT = Path(__file__).parents[2]
 _DOCKER = _ROOT / "docker"
 _COMPOSE = yaml.safe_load((_DOCKER / "compose.yaml").read_text())
@@ -93,9 +95,10 @@ def test_the_gpu_file_only_adds_to_the_worker() -> None:
     assert _GPU["services"]["worker"].keys() == {"command", "environment", "deploy"}
 
 
-def test_our_images_carry_our_version() -> None:
-    """The images' tags follow pyproject.toml."""
+def test_the_package_and_the_images_carry_our_version() -> None:
+    """The images' tags and the program follow pyproject.toml."""
     version = tomllib.loads((_ROOT / "pyproject.toml").read_text())["project"]["version"]
+    assert version == __version__
     ours = {service["image"] for service in _COMPOSE["services"].values() if "build" in service}
     assert ours == {f"cable-farm-coordinator:{version}", f"cable-farm-worker:{version}"}
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from blend.build import TEMPLATE
 from blend.contract import open_template
 from blend.devices import choose_device
+from farm import __version__
 from farm.dataset.manifest import RejectedAttempt, RenderSettings
 from farm.dataset.outputs import IMAGE, OUTPUTS, Output, outputs_of
 from farm.errors import SpecError
@@ -191,7 +192,7 @@ def _chosen_settings(header: DatasetHeader, category: Category) -> ChosenSetting
 
 def _versions() -> dict[str, str]:
     return {
-        "farm": version("cable-farm"),
+        "farm": __version__,
         "blender": bpy.app.version_string,
         "numpy": np.__version__,
         "scipy": version("scipy"),

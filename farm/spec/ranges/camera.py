@@ -6,7 +6,7 @@ The published style has an ideal lens, and Blender's view transform in place of 
 import math
 from typing import Annotated, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from farm.model import Model
 from farm.scene.camera import FOCAL_LENGTH_MM, SENSOR_MM
@@ -20,10 +20,14 @@ from farm.spec.ranges.types import (
     PositiveRange,
     Range,
     StopsRange,
+    both_ends,
     in_order,
 )
 
 FNumber = Annotated[float, Field(ge=0.5, le=128)]
+FNumberRange = Annotated[
+    tuple[FNumber, FNumber], Field(strict=False), BeforeValidator(both_ends), AfterValidator(in_order)
+]
 FocalLength = Annotated[float, Field(ge=10, le=500)]
 Angle = Annotated[float, Field(ge=0, le=30)]
 Distortion = Annotated[float, Field(ge=-0.2, le=0.2)]
@@ -60,7 +64,7 @@ class CameraRanges(Model):
         0.30,
         0.33,
     )
-    f_number: Annotated[tuple[FNumber, FNumber], AfterValidator(in_order)] = (8.0, 8.0)
+    f_number: FNumberRange = (8.0, 8.0)
     focal_lengths_mm: Annotated[tuple[FocalLength, ...], Field(min_length=1)] = (FOCAL_LENGTH_MM,)
     tilt_deg: Annotated[tuple[Angle, Angle], AfterValidator(in_order)] = (0.0, 0.0)
     roll_deg: Range = (0.0, 0.0)

@@ -27,8 +27,8 @@ def _counts_in_order(bounds: tuple[int, int]) -> tuple[int, int]:
     return bounds
 
 
-def _both_ends(value: object) -> object:
-    """Turn one number into a range without width."""
+def both_ends(value: object) -> object:
+    """Turn one number into a range without width: earlier releases wrote some ranges as a number."""
     return (value, value) if isinstance(value, int | float) and not isinstance(value, bool) else value
 
 
@@ -75,10 +75,10 @@ StopsRange = Annotated[tuple[Stops, Stops], AfterValidator(in_order)]
 JpegQualityRange = Annotated[tuple[JpegQuality, JpegQuality], AfterValidator(_counts_in_order)]
 # With a BeforeValidator, pydantic takes JSON's lists for tuples only if the field is not strict.
 DiameterRange = Annotated[
-    tuple[Diameter, Diameter], Field(strict=False), BeforeValidator(_both_ends), AfterValidator(in_order)
+    tuple[Diameter, Diameter], Field(strict=False), BeforeValidator(both_ends), AfterValidator(in_order)
 ]
 CableLengthRange = Annotated[
-    tuple[CableLength, CableLength], Field(strict=False), BeforeValidator(_both_ends), AfterValidator(in_order)
+    tuple[CableLength, CableLength], Field(strict=False), BeforeValidator(both_ends), AfterValidator(in_order)
 ]
 BendRange = Annotated[tuple[Bend, Bend], AfterValidator(in_order)]
 TemperatureRange = Annotated[tuple[Temperature, Temperature], AfterValidator(in_order)]
