@@ -1,6 +1,5 @@
 """The scenes that all simulators play: drawn like a dataset's, then cut or extended to a number of cables."""
 
-
 from benchmarks.bench_dataset import PUBLISHED
 from farm import __version__
 from farm.scene.cable import Cable

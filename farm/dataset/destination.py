@@ -1,5 +1,6 @@
 """The place of a dataset: a store, and the dataset's name in it."""
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +11,8 @@ from farm.spec.job import DatasetName
 from farm.storage import refuse_credentials
 
 _NAME: TypeAdapter[str] = TypeAdapter(DatasetName)
+_NAME_IN_URL = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
+"""Pattern of a dataset's name in a bucket, where other signs mean something in URLs and listings."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,17 +42,21 @@ def parse_destination(out: str) -> Destination:
         if not store.strip("/"):
             raise DestinationError(f"{out}: names no folder for the dataset; write {kind}://BUCKET/FOLDER")
         store = f"{kind}://{store}"
-    else:
-        try:
-            path = Path(out).expanduser().resolve()
-        except (ValueError, RuntimeError, OSError) as error:
-            # A NUL byte, an unknown user's home, a ring of links.
-            raise DestinationError(f"{out!a}: no path: {error}") from error
-        store, name = str(path.parent), path.name
+        if not _NAME_IN_URL.fullmatch(name):
+            raise DestinationError(
+                f"{out}: '{name}' can't name a dataset in a bucket; use up to 100 letters, digits, '.', '_' and '-', "
+                "and begin with a letter or digit"
+            )
+        return Destination(store=store, name=name)
     try:
-        return Destination(store=store, name=_NAME.validate_python(name))
+        path = Path(out).expanduser().resolve()
+    except (ValueError, RuntimeError, OSError) as error:
+        # A NUL byte, an unknown user's home, a ring of links.
+        raise DestinationError(f"{out!a}: no path: {error}") from error
+    try:
+        return Destination(store=str(path.parent), name=_NAME.validate_python(path.name))
     except ValidationError as error:
         raise DestinationError(
-            f"{out}: '{name}' can't name a dataset; use up to 100 letters, digits, '.', '_' and '-', and begin with a "
-            "letter or digit"
+            f"{out!a}: {path.name!a} can't name a dataset; use up to 100 printable characters, and begin with a letter "
+            "or digit"
         ) from error

@@ -1,10 +1,12 @@
 """A job: one image of a dataset, and the message that asks a worker for it."""
 
+import hashlib
 import re
 from collections.abc import Mapping
 from typing import Annotated, Self
+from urllib.parse import quote
 
-from pydantic import Field, ValidationError
+from pydantic import AfterValidator, Field, ValidationError
 
 from farm.errors import MessageError
 from farm.model import Model, Sha256
@@ -13,8 +15,21 @@ from farm.spec.category import Category
 MAX_INDEX = 10**9 - 1
 """Largest index of a job in its category: an id has at most nine digits."""
 
-DatasetName = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]{0,99}$")]
-"""The name of a dataset: one folder name, which neither leaves the store nor is hidden in it."""
+
+def _one_plain_name(name: str) -> str:
+    if not name.isprintable() or name != name.strip() or name[:1] in {".", "-"} or {"/", "\\"} & set(name):
+        raise ValueError("must be one plain name: printable, without slashes, and without '.' or '-' at its start")
+    return name
+
+
+DatasetName = Annotated[str, Field(min_length=1, max_length=100), AfterValidator(_one_plain_name)]
+"""The name of a dataset: one folder name, which neither leaves the store nor is hidden in it.
+
+Copies get names such as `cables (1)` and `Kopie von Kabel`, so blanks, brackets and letters of any script may be in
+it."""
+
+_KEY_CHARACTERS = 100
+"""Most characters of a dataset's name in the keys of its run: Celery's ids have at most 250."""
 
 _MOST_KEYS = 32
 """Number of keys above which a message is refused at once, as each unknown key would cost a validation error."""
@@ -110,5 +125,13 @@ class JobMessage(Model):
 
 
 def queue_key(dataset: str, spec_sha256: str) -> str:
-    """Build the prefix of a dataset's task ids and ledger keys: its name and 12 digits of its fingerprint."""
-    return f"{dataset}:{spec_sha256[:12]}"
+    """Build the prefix of a dataset's task ids and ledger keys: its name and 12 digits of its fingerprint.
+
+    The name is percent-encoded, since Celery's ids are plain ASCII; one that is long then is shortened, and told apart
+    by its checksum.
+    """
+    name = quote(dataset, safe="")
+    if len(name) > _KEY_CHARACTERS:
+        checksum = hashlib.sha256(dataset.encode()).hexdigest()[:16]
+        name = f"{name[: _KEY_CHARACTERS - len(checksum) - 1]}~{checksum}"
+    return f"{name}:{spec_sha256[:12]}"

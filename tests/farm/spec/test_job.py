@@ -1,6 +1,7 @@
 """Job ids and messages: what they accept, and that they refuse everything else."""
 
 import json
+import re
 from contextlib import suppress
 
 import pytest
@@ -11,7 +12,7 @@ from farm.dataset.outputs import OUTPUTS
 from farm.dataset.paths import file_path, manifest_path
 from farm.errors import MessageError
 from farm.spec.category import Category
-from farm.spec.job import MAX_INDEX, Job, JobMessage
+from farm.spec.job import MAX_INDEX, Job, JobMessage, queue_key
 
 JOBS = st.builds(Job, category=st.sampled_from(Category), index=st.integers(0, MAX_INDEX))
 JSON = st.recursive(
@@ -114,8 +115,25 @@ def test_unknown_keys_are_refused(key: str, value: object) -> None:
         JobMessage.decode(GOOD | {key: value})
 
 
-@pytest.mark.parametrize("name", ["", ".", "..", "a/b", "/a", "a\\b", ".a", "-a", "a\n", "a" * 101, "a\0", "ä"])
+@pytest.mark.parametrize(
+    "name",
+    ["", ".", "..", "a/b", "/a", "a\\b", ".a", "-a", "a\n", "a" * 101, "a\0", "a\u202eb", " a", "a ", "\u2028a"],
+)
 def test_dataset_names_hold_no_path(name: str) -> None:
     """A dataset's name can't climb, hide or end in a line break."""
     with pytest.raises(MessageError):
         JobMessage.decode(GOOD | {"dataset": name})
+
+
+@pytest.mark.parametrize(
+    "name", ["cables (1)", "cables - Copy", "Kopie von Kabel", "ケーブル", "a" * 100, "é" * 100, "50%"]
+)
+def test_copies_have_names_of_their_own(name: str) -> None:
+    """Whatever a file manager calls a copy, its task ids are short and plain ASCII without blanks."""
+    message = JobMessage.decode(GOOD | {"dataset": name})
+    assert re.fullmatch(r"[!-~]{1,180}", message.task_id)
+
+
+def test_names_that_begin_alike_have_keys_of_their_own() -> None:
+    """Two long names that differ at their end don't share a queue."""
+    assert queue_key("é" * 99 + "a", "0" * 64) != queue_key("é" * 99 + "b", "0" * 64)
