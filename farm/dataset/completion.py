@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from farm.dataset.dataset import Dataset
-from farm.dataset.manifest import parse_manifest
+from farm.dataset.manifest import parse_receipt
 from farm.dataset.outputs import Output, outputs_of
 from farm.dataset.paths import QUARANTINE_FOLDER, file_path, manifest_folder, manifest_path, output_folder
 from farm.errors import DestinationError, MessageError
@@ -33,10 +33,10 @@ def is_done(dataset: Dataset, job: Job) -> bool:
         DestinationError: if the folder can't be read.
     """
     try:
-        manifest = parse_manifest(dataset.storage.read(manifest_path(job)), dataset, job)
-        return manifest is not None and all(
+        receipt = parse_receipt(dataset.storage.read(manifest_path(job)), dataset, job)
+        return receipt is not None and all(
             hashlib.sha256(dataset.storage.read(record.path)).hexdigest() == record.sha256
-            for record in manifest.files.values()
+            for record in receipt.files.values()
         )
     except FileNotFoundError:
         return False
@@ -99,11 +99,11 @@ class Completion:
 
     def _read(self, job: Job, path: str, stored: StoredFile) -> bool:
         try:
-            manifest = parse_manifest(self._dataset.storage.read(path), self._dataset, job)
+            receipt = parse_receipt(self._dataset.storage.read(path), self._dataset, job)
         except (FileNotFoundError, DestinationError):
             return False  # one that can't be read counts for nothing; the others do
-        sizes = [0 if manifest is None else manifest.files[output.folder].bytes for output in self._outputs]
-        self._seen[job.category][job.index] = (stored.bytes, stored.modified_s, manifest is not None, sizes)
+        sizes = [0 if receipt is None else receipt.files[output.folder].bytes for output in self._outputs]
+        self._seen[job.category][job.index] = (stored.bytes, stored.modified_s, receipt is not None, sizes)
         return True
 
     def audit(self) -> JobSet:

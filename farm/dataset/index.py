@@ -1,18 +1,21 @@
 """The index of a dataset: its done images in order, and the file `index.jsonl` with one line for each."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
+from typing import TypeVar
 
 from pydantic import NonNegativeInt, SerializerFunctionWrapHandler, model_serializer
 
 from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset
-from farm.dataset.manifest import Manifest, parse_manifest
+from farm.dataset.manifest import Manifest, Receipt, parse_manifest, parse_receipt
 from farm.dataset.outputs import outputs_of
 from farm.dataset.paths import INDEX_FILE, manifest_path
 from farm.model import Model, Sha256
 from farm.spec.category import Category
 from farm.spec.job import Job
+
+T = TypeVar("T")
 
 
 class IndexedFile(Model):
@@ -54,37 +57,52 @@ class IndexEntry(Model):
         return line
 
 
-def done_manifests(dataset: Dataset) -> Iterator[tuple[Job, Manifest]]:
-    """Yield the done images with their manifests, by category in order and then by index.
+def done_receipts(dataset: Dataset) -> Iterator[tuple[Job, Receipt]]:
+    """Yield the done images with the receipts in their manifests, by category in order and then by index.
 
     Raises:
         DestinationError: if the folder can't be read.
     """
+    return _parsed(dataset, parse_receipt)
+
+
+def done_manifests(dataset: Dataset) -> Iterator[tuple[Job, Manifest]]:
+    """Yield the done images with their manifests, in the same order, without those that only another release can read.
+
+    Raises:
+        DestinationError: if the folder can't be read.
+    """
+    return _parsed(dataset, parse_manifest)
+
+
+def _parsed(dataset: Dataset, parse: Callable[[bytes, Dataset, Job], T | None]) -> Iterator[tuple[Job, T]]:
     order = {category: number for number, category in enumerate(Category)}
     for job in sorted(Completion(dataset).audit(), key=lambda job: (order[job.category], job.index)):
         # It may be taken away meanwhile, as damaged.
         with suppress(FileNotFoundError):
-            manifest = parse_manifest(dataset.storage.read(manifest_path(job)), dataset, job)
-            if manifest is not None:
-                yield job, manifest
+            parsed = parse(dataset.storage.read(manifest_path(job)), dataset, job)
+            if parsed is not None:
+                yield job, parsed
 
 
-def index_entry(dataset: Dataset, job: Job, manifest: Manifest) -> IndexEntry:
-    """Make the index entry of one image of a dataset."""
-    scene = manifest.scene
-    records = {output.role: manifest.files[output.folder] for output in outputs_of(dataset.header.spec)}
+def index_entry(dataset: Dataset, job: Job, receipt: Receipt) -> IndexEntry:
+    """Make the index entry of one image of a dataset, whichever release made it."""
+    scene = receipt.scene
+    # Release 0.1.0 first had one lamp, then a list of lamps.
+    lamps = [scene["lamp"]] if scene.get("lamp") else scene.get("lamps") or ()
+    records = {output.role: receipt.files[output.folder] for output in outputs_of(dataset.header.spec)}
     return IndexEntry(
         job_id=job.id,
         category=job.category,
         index=job.index,
-        seed=manifest.seed,
+        seed=receipt.seed,
         files={role: IndexedFile(path=record.path, sha256=record.sha256) for role, record in records.items()},
-        attempt=scene.attempt,
-        cables=len(scene.cables),
-        surface=scene.floor.texture if scene.floor else None,
-        hdri=scene.hdri_world.hdri if scene.hdri_world else None,
-        lamp=scene.lamps[0].kind if scene.lamps else None,
-        camera_height_m=scene.camera.height_m,
+        attempt=scene["attempt"],
+        cables=len(scene["cables"]),
+        surface=scene["floor"]["texture"] if scene.get("floor") else None,
+        hdri=scene["hdri_world"]["hdri"] if scene.get("hdri_world") else None,
+        lamp=lamps[0]["kind"] if lamps else None,
+        camera_height_m=scene["camera"]["height_m"],
     )
 
 
@@ -97,6 +115,6 @@ def write_index(dataset: Dataset) -> int:
     Raises:
         DestinationError: if the folder can't be read or written.
     """
-    lines = [index_entry(dataset, job, manifest).model_dump_json() + "\n" for job, manifest in done_manifests(dataset)]
+    lines = [index_entry(dataset, job, receipt).model_dump_json() + "\n" for job, receipt in done_receipts(dataset)]
     dataset.storage.write(INDEX_FILE, "".join(lines).encode())
     return len(lines)

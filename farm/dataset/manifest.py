@@ -2,9 +2,9 @@
 
 import hashlib
 from collections.abc import Mapping
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from farm.dataset.dataset import Dataset
 from farm.dataset.outputs import outputs_of
@@ -116,18 +116,54 @@ class Manifest(Model):
     files: Mapping[str, FileRecord]
 
 
-def parse_manifest(content: bytes, dataset: Dataset, job: Job) -> Manifest | None:
-    """Read a manifest; None if it is damaged, or is not that of this job of this dataset."""
+class Receipt(BaseModel):
+    """The part of a manifest by which its picture is done. Every release writes it, though their scenes differ.
+
+    Attributes:
+        spec_sha256: identity of the dataset.
+        files: every file of the picture but its manifest, by the folder of its output.
+        scene: the scene as its release describes it.
+        timings_s: seconds per stage.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="ignore", strict=True, allow_inf_nan=False)
+
+    spec_sha256: Sha256
+    job_id: str
+    seed: int
+    files: Mapping[str, FileRecord]
+    scene: Mapping[str, Any]
+    timings_s: Mapping[str, Seconds] = {}
+
+    def belongs_to(self, dataset: Dataset, job: Job) -> bool:
+        """Whether it is that of this job of this dataset, whatever the dataset's folder is called."""
+        return (
+            self.job_id == job.id
+            and self.spec_sha256 == dataset.identity
+            and self.seed == dataset.header.spec.seed
+            and {folder: record.path for folder, record in self.files.items()}
+            == {output.folder: file_path(job, output) for output in outputs_of(dataset.header.spec)}
+        )
+
+
+def parse_receipt(content: bytes, dataset: Dataset, job: Job) -> Receipt | None:
+    """Read the receipt in a manifest of any release; None if it is damaged, or is not of this job of this dataset."""
     try:
-        manifest = Manifest.model_validate_json(content)
+        receipt = Receipt.model_validate_json(content)
     except ValidationError:
         return None
-    header = dataset.header
-    belongs = (
-        manifest.job_id == job.id
-        and manifest.spec_sha256 == dataset.identity  # not by name: a dataset may be renamed or copied
-        and manifest.seed == header.spec.seed
-        and {folder: record.path for folder, record in manifest.files.items()}
-        == {output.folder: file_path(job, output) for output in outputs_of(header.spec)}
-    )
-    return manifest if belongs else None
+    return receipt if receipt.belongs_to(dataset, job) else None
+
+
+def parse_manifest(content: bytes, dataset: Dataset, job: Job) -> Manifest | None:
+    """Read a whole manifest.
+
+    Returns:
+        None if it is damaged, is not of this job of this dataset, or holds a scene that only another release can read.
+    """
+    if parse_receipt(content, dataset, job) is None:
+        return None
+    try:
+        return Manifest.model_validate_json(content)
+    except ValidationError:
+        return None

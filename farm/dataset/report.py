@@ -10,7 +10,7 @@ from string import Template
 from urllib.parse import quote
 
 from farm.dataset.dataset import Dataset
-from farm.dataset.index import IndexEntry, done_manifests, index_entry, write_index
+from farm.dataset.index import IndexEntry, done_receipts, index_entry, write_index
 from farm.dataset.outputs import IMAGE, MASK
 from farm.dataset.paths import REPORT_FILE
 from farm.spec.category import Category
@@ -42,12 +42,12 @@ def write_report(dataset: Dataset, *, pictures_per_category: int = 40) -> int:
         DestinationError: if the folder can't be read or written.
     """
     sections = {category: _Section(quota) for category, quota in dataset.header.spec.quotas.items() if quota}
-    for job, manifest in done_manifests(dataset):
+    for job, receipt in done_receipts(dataset):
         section = sections[job.category]
         section.done += 1
         if len(section.shown) < pictures_per_category:
-            section.shown.append(index_entry(dataset, job, manifest))
-        for stage, seconds in manifest.timings_s.items():
+            section.shown.append(index_entry(dataset, job, receipt))
+        for stage, seconds in receipt.timings_s.items():
             section.seconds[stage].append(seconds)
     dataset.storage.write(REPORT_FILE, _page(dataset, sections).encode())
     return sum(section.done for section in sections.values())

@@ -10,7 +10,7 @@ from typing import Any
 
 from farm.dataset.completion import STALE_TEMPORARY_S
 from farm.dataset.dataset import Dataset
-from farm.dataset.manifest import FileRecord, parse_manifest
+from farm.dataset.manifest import FileRecord, parse_receipt
 from farm.dataset.outputs import find_faults, outputs_of
 from farm.dataset.paths import HEADER_FILE, INDEX_FILE, REPORT_FILE, file_path, manifest_path, quarantine_path
 from farm.dataset.quarantine import Quarantine
@@ -123,17 +123,17 @@ def _check_job_twice(dataset: Dataset, job: Job) -> Iterator[Finding]:
 def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
     path = manifest_path(job)
     try:
-        manifest = parse_manifest(dataset.storage.read(path), dataset, job)
+        receipt = parse_receipt(dataset.storage.read(path), dataset, job)
     except FileNotFoundError:
         yield Finding(fault=Fault.MISSING, path=path, detail="not rendered yet, or its manifest is lost")
         return
-    if manifest is None:
+    if receipt is None:
         yield Finding(fault=Fault.ALTERED, path=path, detail="not a manifest of this job of this dataset")
         return
     spec = dataset.header.spec
     contents: dict[str, Any] = {}
     for output in outputs_of(spec):
-        record = manifest.files[output.folder]
+        record = receipt.files[output.folder]
         read = _read_file(dataset, record)
         if isinstance(read, Finding):
             yield read
@@ -144,7 +144,7 @@ def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
         else:
             contents[output.role] = content
     for output, detail in find_faults(outputs_of(spec), contents, spec.resolution):
-        yield Finding(fault=Fault.ALTERED, path=manifest.files[output.folder].path, detail=detail)
+        yield Finding(fault=Fault.ALTERED, path=receipt.files[output.folder].path, detail=detail)
 
 
 def _read_file(dataset: Dataset, record: FileRecord) -> bytes | Finding:

@@ -83,7 +83,7 @@ def test_message_beyond_the_quota(destination: Destination, header: DatasetHeade
         open_for_message(destination.store, dataset.message(Job.from_id("far-000002")))
 
 
-@pytest.mark.parametrize("out", ["/", "..", ".hidden", "a b", "s3://bucket/.x", "ä", "x" * 101])
+@pytest.mark.parametrize("out", ["/", "..", ".hidden", "s3://bucket/a b", "s3://bucket/.x", "s3://bucket/ä", "x" * 101])
 def test_bad_names(out: str, tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
     """A place whose last part can't be a dataset's name is refused."""
     del tmp_path
