@@ -95,9 +95,11 @@ def find_dataset(destination: Destination, header: DatasetHeader) -> Dataset | N
             ) from None
         return None
     if found := difference(present, header):
+        begun_by = present.header.farm_version
+        release = "" if begun_by == header.farm_version else f", begun by cable-farm {begun_by}"
         raise ConflictError(
-            f"{destination.location}: holds another dataset: {found}; repeat the first call's options to complete it, "
-            "go on with what its dataset.json says by --continue, or choose another --out"
+            f"{destination.location}: holds another dataset{release}: {found}; repeat the first call's options to "
+            "complete it, go on with what its dataset.json says by --continue, or choose another --out"
         )
     return Dataset(destination.name, storage, present.header, present.identity)
 

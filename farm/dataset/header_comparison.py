@@ -14,10 +14,17 @@ def difference(present: WrittenHeader, asked: DatasetHeader) -> str:
     """
     if present.header.farm_version == asked.farm_version:
         return first_difference(_without_paths(present.header), _without_paths(asked))
-    spec = asked.spec.model_dump(mode="json")
-    return first_difference({"spec": present.written["spec"]}, {"spec": spec}, added=False) or first_difference(
-        _files_of_user(present.header), _files_of_user(asked)
+    decided = _as_far_as_written(present.header.spec.model_dump(mode="json"), present.written["spec"])
+    return first_difference({"spec": decided}, {"spec": asked.spec.model_dump(mode="json")}, added=False) or (
+        first_difference(_files_of_user(present.header), _files_of_user(asked))
     )
+
+
+def _as_far_as_written(parsed: object, written: object) -> object:
+    """Leave out the keys that the file does not hold: its release did not know them, so no user decided them."""
+    if isinstance(parsed, Mapping) and isinstance(written, Mapping):
+        return {key: _as_far_as_written(value, written[key]) for key, value in parsed.items() if key in written}
+    return parsed
 
 
 def _without_paths(header: DatasetHeader) -> object:
