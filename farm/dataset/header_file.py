@@ -9,6 +9,7 @@ import pydantic_core
 from pydantic import ValidationError
 
 from farm import __version__
+from farm.dataset.earlier_forms import in_todays_form
 from farm.dataset.paths import HEADER_FILE
 from farm.errors import ConflictError, SpecError
 from farm.spec.header import DatasetHeader
@@ -74,10 +75,19 @@ def parse_header(content: bytes) -> WrittenHeader:
     Raises:
         ValidationError: if it is no header that this release can read.
     """
-    header = DatasetHeader.model_validate_json(content)
-    written = pydantic_core.from_json(content)
+    written = _values(content)
+    header = DatasetHeader.model_validate_json(pydantic_core.to_json(in_todays_form(written)) if written else content)
     identity = hashlib.sha256(pydantic_core.to_json(_without_version(written))).hexdigest()
     return WrittenHeader(header, identity, written)
+
+
+def _values(content: bytes) -> Mapping[str, object]:
+    """The values of a JSON object; empty if it is none."""
+    try:
+        values = pydantic_core.from_json(content)
+    except ValueError:
+        return {}
+    return values if isinstance(values, dict) else {}
 
 
 def _without_version(written: Mapping[str, object]) -> dict[str, object]:
@@ -86,9 +96,5 @@ def _without_version(written: Mapping[str, object]) -> dict[str, object]:
 
 def _release(content: bytes) -> str:
     """Name the release that wrote a header which this one can't read."""
-    try:
-        written = pydantic_core.from_json(content)
-    except ValueError:
-        return _NO_VERSION
-    version = written.get(_VERSION_KEY) if isinstance(written, Mapping) else None
+    version = _values(content).get(_VERSION_KEY)
     return f"cable-farm {version[:40]!a}" if isinstance(version, str) else _NO_VERSION
