@@ -5,6 +5,7 @@ a cable lights nothing else.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from farm.scene.camera import NEAR_CLIP_M
 from farm.scene.light import AreaLamp, Lamp, StudioLamp
@@ -51,7 +52,7 @@ def _lamp_fault(geometry: SettledGeometry) -> str | None:
     return None
 
 
-def distances_m(lamp: Lamp, points: Points) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+def distances_m(lamp: Lamp, points: Points) -> NDArray[np.float64]:
     """Compute the distance of points (N, 3) from a lamp's surface or inside, (N,) metres; inf for an area light.
 
     An area light's height and size are the template's, which stands beside the cables.
@@ -66,6 +67,8 @@ def distances_m(lamp: Lamp, points: Points) -> np.ndarray[tuple[int], np.dtype[n
         from_middle = points - lamp.distance_m * towards
         off_plane = from_middle @ towards
         across = np.linalg.norm(from_middle - off_plane[:, None] * towards, axis=1)
-        return np.hypot(off_plane, np.maximum(across - lamp.size_m / 2, 0.0))
+        from_disc: NDArray[np.float64] = np.hypot(off_plane, np.maximum(across - lamp.size_m / 2, 0.0))
+        return from_disc
     middle = np.array([lamp.radius_m * np.cos(bearing), lamp.radius_m * np.sin(bearing), lamp.height_m])
-    return np.maximum(np.linalg.norm(points - middle, axis=1) - lamp.size_m, 0.0)
+    from_sphere: NDArray[np.float64] = np.maximum(np.linalg.norm(points - middle, axis=1) - lamp.size_m, 0.0)
+    return from_sphere

@@ -96,20 +96,19 @@ def test_the_order_of_the_start_counts_sticks_after_cables() -> None:
     assert drop_cables(over_a_stick(), RodFall()).start_order == (2, 0, 1)
 
 
-def coiled(**fall_keys: float) -> tuple[Scene, RodFall]:
-    """A coil whose turns rise as steeply as any, and settings of its fall."""
-    scene = make_scene(
+def coiled() -> Scene:
+    """A coil whose turns rise as steeply as any."""
+    return make_scene(
         ranges={
             "cable": {"count": [1, 1], "diameter_m": 0.004},
             "placement": {"coil_share": 1.0, "coil_radius_m": [0.001, 0.001]},
         }
     )
-    return scene, RodFall(**fall_keys)
 
 
 def test_the_length_error_of_a_coil_is_its_strain() -> None:
     """A coil that rises is longer than its plan, by the rise; the fall strains it by a millionth at most."""
-    scene, settings = coiled()
+    scene, settings = coiled(), RodFall()
     (cable,), (start,) = scene.cables, rods_of(scene, settings)
     laid_m = float(np.linalg.norm(np.diff(start.nodes_m, axis=0), axis=1).sum())
     assert laid_m / cable.length_m - 1 == pytest.approx(0.00178, rel=0.01)
