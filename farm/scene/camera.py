@@ -13,6 +13,13 @@ SENSOR_MM: Final = 36.0
 """Edge of the square sensor, in millimetres: the default width of a Blender sensor."""
 
 
+NEAR_CLIP_M: Final = 0.005
+"""Distance along the view, in metres, up to which the camera sees nothing: that of the farm's own template."""
+
+FAR_CLIP_M: Final = 100.0
+"""Distance along the view, in metres, from which on the camera sees nothing. The farthest camera stands at 15 m."""
+
+
 class Camera(Model):
     """A camera that looks at the origin, in focus at the origin's distance less `focus_offset_m`.
 

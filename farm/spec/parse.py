@@ -15,6 +15,7 @@ from farm.spec.dataset_spec import DEFAULT_STYLE, DatasetSpec
 from farm.spec.make_header import Inputs
 from farm.spec.quotas import split_total
 from farm.spec.styles import Style, merge_ranges
+from farm.spec.workable import check_workable
 
 _MOST_DIGITS = 12
 """Digits that a quota may have: more than any quota needs, and few enough for Python, which refuses thousands."""
@@ -140,11 +141,13 @@ def parse_spec(data: Mapping[str, object], *, source: str) -> DatasetSpec:
         SpecError: if a key or value is wrong; the text names the key, the fault and the source.
     """
     try:
-        return DatasetSpec.model_validate_json(pydantic_core.to_json(_resolve_ranges(_resolve_quotas(data))))
+        spec = DatasetSpec.model_validate_json(pydantic_core.to_json(_resolve_ranges(_resolve_quotas(data))))
+        check_workable(spec)
     except ValidationError as error:
         raise SpecError(f"{source}: {_describe(error)}") from error
     except (SpecError, pydantic_core.PydanticSerializationError) as error:
         raise SpecError(f"{source}: {error}") from error
+    return spec
 
 
 def read_toml(path: Path) -> dict[str, Any]:

@@ -48,7 +48,7 @@ class RodFall(Model):
     Attributes:
         steps_per_s: time steps per second of the fall.
         segment_radii: length of a segment over the cable's radius.
-        max_time_s: seconds after which a fall that has not come to rest is captured as it is, and fails its gate.
+        max_time_s: seconds after which a fall that has not come to rest is given up, and another scene is drawn.
     """
 
     steps_per_s: Annotated[int, Field(ge=100, le=100_000)] = 1000
@@ -60,7 +60,7 @@ class ClothFall(Model):
     """Settings of Blender's cloth.
 
     Attributes:
-        max_frames: frames after which a fall that has not come to rest is captured as it is, and fails its gate.
+        max_frames: frames after which a fall that has not come to rest is given up, and another scene is drawn.
         quality: the solver's steps in a frame.
         collision_quality: the solver's steps in a frame for collisions.
     """

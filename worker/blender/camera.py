@@ -4,7 +4,7 @@ import bpy
 from mathutils import Matrix
 
 from blend import names
-from farm.scene.camera import SENSOR_MM, Camera
+from farm.scene.camera import FAR_CLIP_M, NEAR_CLIP_M, SENSOR_MM, Camera
 from worker.camera.view import View
 
 
@@ -24,6 +24,8 @@ def set_camera(camera: Camera, view: View) -> None:
     data.type = "PERSP"
     data.lens, data.sensor_width, data.sensor_fit = camera.focal_length_mm, SENSOR_MM, "HORIZONTAL"
     data.shift_x = data.shift_y = 0.0
+    # Blender's own default would cut off what lies within 0.1 m of the lens, and labels would still show it.
+    data.clip_start, data.clip_end = NEAR_CLIP_M, FAR_CLIP_M
     data.dof.focus_distance = view.focus_m
     data.dof.aperture_fstop = camera.f_number
 

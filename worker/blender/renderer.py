@@ -20,7 +20,7 @@ from blend.devices import choose_device
 from farm import __version__
 from farm.dataset.manifest import RejectedAttempt, RenderSettings
 from farm.dataset.outputs import IMAGE, OUTPUTS, Output, outputs_of
-from farm.errors import SpecError
+from farm.errors import SceneError, SpecError
 from farm.run.worker_settings import RendererSettings
 from farm.scene.scene import Scene
 from farm.spec.category import Category
@@ -34,11 +34,13 @@ from worker.blender.asset_files import AssetLibrary, checked
 from worker.blender.build_scene import BuiltScene, build_scene
 from worker.blender.image_cache import ImageCache
 from worker.blender.render import configure_cycles, configure_eevee, configure_picture, render_scene
+from worker.clearance import find_room_fault
 from worker.geometry import SettledGeometry
 from worker.label.makers import make_labels
 from worker.sample.scene import sample_scene
 from worker.service.picture import Picture
 from worker.simulate.settle import MeasuredFall, settle
+from worker.simulate.shapes import CableShapes
 from worker.simulate.simulate import simulate
 from worker.stopwatch import Stopwatch
 
@@ -122,10 +124,19 @@ class BlenderRenderer:
         Raises:
             SceneError: if no drawn scene passes the checks.
         """
+        spec, detail = header.spec, _chosen_settings(header, job.category).settings.detail
+
+        def drop(scene: Scene) -> CableShapes:
+            shapes = simulate(scene, spec.simulator, spec.fall)
+            fault = find_room_fault(SettledGeometry(scene, shapes, detail, spec.resolution))
+            if fault is not None:
+                raise SceneError(fault)
+            return shapes
+
         return settle(
             job,
             lambda attempt: sample_scene(header, job, attempt),
-            lambda scene: simulate(scene, header.spec.simulator, header.spec.fall),
+            drop,
             header.spec.fall.max_attempts,
             watch,
         )

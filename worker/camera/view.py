@@ -157,6 +157,21 @@ class View:
         met: Points = self.position_m + (self.position_m[2] / down)[:, None] * towards
         return met
 
+    def lowest_opening_m(self, near_m: float, lens_radius_m: float) -> float:
+        """Compute the height above the floor, in metres, below which nothing is too near for the picture.
+
+        It is the lowest point of the plane at which the view begins, between the picture's corners and for every point
+        of the lens. It may be negative.
+
+        Args:
+            near_m: distance along the view at which it begins, in metres.
+            lens_radius_m: radius of the lens's aperture, in metres.
+        """
+        corners = self.floor_corners_m()
+        drop = (self.position_m[2] - corners[:, 2]) * near_m / self.depths_m(corners)
+        tilt = float(np.linalg.norm(self.rotation[2, :2]))
+        return float(self.position_m[2] - drop.max() - lens_radius_m * tilt)
+
     @property
     def steepest_slope(self) -> float:
         """Largest horizontal length of the lines of sight to the floor, over the camera's height above it.

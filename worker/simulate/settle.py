@@ -61,12 +61,22 @@ def settle(
 
     def attempt(number: int) -> MeasuredFall:
         fall = let_fall(number, draw, drop, watch)
-        fault = find_fault(fall.figures)
+        fault = find_fault(fall.figures) or find_unrest(fall.shapes)
         if fault is not None:
             raise SceneError(fault)
         return fall
 
     return first_accepted(job, attempt, max_attempts)
+
+
+def find_unrest(shapes: CableShapes) -> str | None:
+    """Find the reason why cables that were slow when they were captured did not rest; None if they did."""
+    if shapes.rested:
+        return None
+    return (
+        f"the cables did not come to rest within {shapes.fall_s:.3g} s: they paused, and would have moved on "
+        "(max_time_s or max_frames of [fall] ended the fall)"
+    )
 
 
 def let_fall(number: int, draw: Draw, drop: Drop, watch: Stopwatch) -> MeasuredFall:

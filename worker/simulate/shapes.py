@@ -24,6 +24,7 @@ class CableShapes:
         steps: number of time steps of the rod solver, or of frames of the cloth.
         sticks_m: for each stick (N, 3) metres, nodes of the axis from end to end; none if the simulator has no sticks.
         stick_radii_m: (sticks,) metres, radius of each stick.
+        rested: whether the fall ended because all rested, and not because its time was over.
     """
 
     nodes_m: tuple[Points, ...]
@@ -35,6 +36,7 @@ class CableShapes:
     steps: int
     sticks_m: tuple[Points, ...] = ()
     stick_radii_m: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
+    rested: bool = True
 
 
 def bent_rod(length_m: float, bends_per_m: tuple[float, ...], nodes: int) -> NDArray[np.float64]:

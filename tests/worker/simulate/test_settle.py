@@ -1,6 +1,7 @@
 """Attempts at a job: which scene is taken, and what is told of those before it. No simulator runs."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
@@ -55,6 +56,15 @@ def test_a_fall_that_diverges_has_the_next_scene_drawn() -> None:
     fall, rejected = settle(JOB, draw, falling(None, SOUND), 3, Stopwatch())
     assert fall.scene.attempt == 1
     assert [each.reason for each in rejected] == ["the solver diverged"]
+
+
+def test_a_fall_that_met_its_end_in_motion_has_the_next_scene_drawn() -> None:
+    """Cables may be slow at the moment of capture and move on: only those that rested are at rest."""
+    fall, rejected = settle(JOB, draw, falling(replace(SOUND, rested=False), SOUND), 3, Stopwatch())
+    assert fall.scene.attempt == 1
+    (first,) = rejected
+    assert first.reason.startswith("the cables did not come to rest within 0.5 s")
+    assert "max_time_s" in first.reason
 
 
 def test_a_job_without_a_sound_scene_ends_in_a_scene_error() -> None:

@@ -66,7 +66,7 @@ def drop_cables(scene: Scene, fall: ClothFall) -> CableShapes:
         objects = add_fall(fall_scene)
         _prepare(fall_scene, objects, strips, scene, fall)
         set_material(objects.cables, strips.slices, strip_material(scene, scale, fall))
-        vertices, speeds, frames = _step_until_rest(fall_scene, objects.cables, strips, fall, scale)
+        vertices, speeds, frames, rested = _step_until_rest(fall_scene, objects.cables, strips, fall, scale)
     return CableShapes(
         nodes_m=tuple(centreline(vertices[part]) * scale.unit_m for part in strips.slices),
         radii_m=radii,
@@ -75,6 +75,7 @@ def drop_cables(scene: Scene, fall: ClothFall) -> CableShapes:
         start_order=tuple(int(k) for k in np.argsort([cable.start_height_m for cable in scene.cables])),
         fall_s=frames * scale.frame_s,
         steps=frames,
+        rested=rested,
     )
 
 
@@ -174,7 +175,7 @@ def set_wind(wind_object: Any, wind: Wind, gain: float) -> None:
 
 def _step_until_rest(
     fall_scene: Any, cables: Any, strips: _Strips, fall: ClothFall, scale: FallScale
-) -> tuple[Points, NDArray[np.float64], int]:
+) -> tuple[Points, NDArray[np.float64], int, bool]:
     previous = strips.vertices
     quiet = 0
     speeds = np.zeros(len(previous))
@@ -190,4 +191,4 @@ def _step_until_rest(
         quiet = quiet + 1 if still and frame > REST_FRAMES else 0
         if quiet >= REST_FRAMES:
             break
-    return previous, speeds, frame
+    return previous, speeds, frame, quiet >= REST_FRAMES

@@ -34,6 +34,10 @@ class DivergedError(Exception):
     """The speeds of the rods are infinite or NaN."""
 
 
+class TooManyStepsError(Exception):
+    """The rods have not come to rest within the steps that a fall may make."""
+
+
 @dataclass(frozen=True, slots=True)
 class Energy:
     """The energy of all rods together, in joules.
@@ -149,7 +153,14 @@ class RodSimulation:
         """
         self._march(steps, NEVER_RESTS, np.inf)
 
-    def settle(self, *, rms_m_s: float, fastest_m_s: float, quiet_s: float, max_time_s: float) -> bool:
+    @property
+    def coarsest_steps_per_s(self) -> float:
+        """Number of time steps in a second at the largest time step that keeps the rods' natural curvature stable."""
+        return 2.0**self._least_halvings / self.step_s
+
+    def settle(
+        self, *, rms_m_s: float, fastest_m_s: float, quiet_s: float, max_time_s: float, max_steps: int = 1 << 40
+    ) -> bool:
         """Make time steps until the rods rest.
 
         Args:
@@ -157,14 +168,19 @@ class RodSimulation:
             fastest_m_s: speed of the fastest node up to which the rods rest, in m/s.
             quiet_s: time for which they must have rested, in seconds.
             max_time_s: time since the start at which to stop in any case, in seconds.
+            max_steps: number of steps that may be made, halved ones included.
 
         Returns:
             Whether the rods rest.
 
         Raises:
             DivergedError: if the state is no longer finite.
+            TooManyStepsError: if the steps are made before the rods rest and before the time is over.
         """
-        return self._march(1 << 40, (rms_m_s, fastest_m_s, quiet_s), max_time_s) is Outcome.RESTED
+        outcome = self._march(max_steps, (rms_m_s, fastest_m_s, quiet_s), max_time_s)
+        if outcome is not Outcome.RESTED and self.time_s < max_time_s:
+            raise TooManyStepsError(f"after {max_steps} time steps, at {self.time_s:.4g} s")
+        return outcome is Outcome.RESTED
 
     def _march(self, steps: int, rest: tuple[float, float, float], max_time_s: float) -> Outcome:
         end = self.steps + steps

@@ -12,7 +12,7 @@ from blend.build import TEMPLATE  # noqa: E402
 from blend.content import describe_content  # noqa: E402
 from blend.contract import open_template  # noqa: E402
 from farm.scene.scene import Scene  # noqa: E402
-from farm.spec.simulation import Fall, Simulator  # noqa: E402
+from farm.spec.simulation import ClothFall, Fall, Simulator  # noqa: E402
 from tests.worker.scenes import make_scene  # noqa: E402
 from worker.simulate.cloth import fall as cloth  # noqa: E402
 from worker.simulate.simulate import simulate  # noqa: E402
@@ -83,3 +83,10 @@ def test_only_the_cables_of_the_scene_are_simulated(count: int, monkeypatch: pyt
     monkeypatch.setattr(cloth, "_step_until_rest", count_vertices)
     fallen(count)
     assert counted == [count * (round(0.06 / (5 * 0.001)) + 1)]
+
+
+def test_a_fall_of_cloth_says_whether_it_came_to_rest() -> None:
+    """One that its number of frames stops in mid-air has not rested."""
+    scene = short_cables(1)
+    assert simulate(scene, Simulator.CLOTH, Fall()).rested
+    assert not simulate(scene, Simulator.CLOTH, Fall(cloth=ClothFall(max_frames=10))).rested

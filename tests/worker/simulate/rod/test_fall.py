@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from farm.errors import SceneError
 from farm.scene.clutter import StickKind
 from farm.scene.scene import Scene
 from farm.spec.simulation import RodFall
@@ -10,7 +11,9 @@ from tests.worker.clutter.things import make_stick
 from tests.worker.scenes import make_scene
 from worker.simulate.checks.accept import find_fault
 from worker.simulate.checks.measure import measure
-from worker.simulate.rod.fall import FINEST_RADII, drop_cables, rods_of, segment_m
+from worker.simulate.rod import fall
+from worker.simulate.rod.fall import FINEST_RADII, drop_cables, most_steps, rods_of, segment_m, surroundings_of
+from worker.simulate.rod.simulation import RodSimulation
 
 RADIUS_M = 0.0015
 
@@ -91,3 +94,45 @@ def test_a_scene_without_sticks_falls_as_it_did() -> None:
 def test_the_order_of_the_start_counts_sticks_after_cables() -> None:
     """The stick starts lowest of three and is numbered last."""
     assert drop_cables(over_a_stick(), RodFall()).start_order == (2, 0, 1)
+
+
+def coiled() -> Scene:
+    """A coil whose turns rise as steeply as any."""
+    return make_scene(
+        ranges={
+            "cable": {"count": [1, 1], "diameter_m": 0.004},
+            "placement": {"coil_share": 1.0, "coil_radius_m": [0.001, 0.001]},
+        }
+    )
+
+
+def test_the_length_error_of_a_coil_is_its_strain() -> None:
+    """A coil that rises is longer than its plan, by the rise; the fall strains it by a millionth at most."""
+    scene, settings = coiled(), RodFall()
+    (cable,), (start,) = scene.cables, rods_of(scene, settings)
+    laid_m = float(np.linalg.norm(np.diff(start.nodes_m, axis=0), axis=1).sum())
+    assert laid_m / cable.length_m - 1 == pytest.approx(0.00178, rel=0.01)
+    shapes = drop_cables(scene, settings)
+    assert shapes.lengths_m == pytest.approx([laid_m], rel=1e-12)
+    assert measure(shapes).length_error < 1e-6
+
+
+def test_a_fall_says_whether_it_came_to_rest() -> None:
+    """One that is stopped in mid-air has not rested, however slow its cables are."""
+    assert drop_cables(over_a_stick(), RodFall()).rested
+    assert not drop_cables(over_a_stick(), RodFall(max_time_s=0.001)).rested
+
+
+def test_a_fall_is_given_up_after_a_number_of_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The error gives the number of steps and the time that they reached."""
+    monkeypatch.setattr(fall, "MOST_STEPS_OVER_PLAN", 0.005)
+    with pytest.raises(SceneError, match=r"gave up after 20 time steps, at 0\.02 s of the fall"):
+        drop_cables(over_a_stick(), RodFall())
+
+
+@pytest.mark.parametrize(("settings", "steps"), [({}, 16_000), ({"steps_per_s": 100, "max_time_s": 0.1}, 400)])
+def test_a_fall_may_make_some_times_its_planned_steps(settings: dict[str, float], steps: int) -> None:
+    """They are those of `max_time_s`, or of a second, as a cable that is stopped early may land in many small steps."""
+    scene, rod = over_a_stick(), RodFall.model_validate(settings)
+    simulation = RodSimulation(rods_of(scene, rod), surroundings_of(scene), steps_per_s=rod.steps_per_s)
+    assert most_steps(simulation, rod) == steps

@@ -1,0 +1,1 @@
+"""The falls of a dataset's scenes, measured against the gates' targets."""
