@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from farm.scene.camera import Camera
+from farm.scene.picture_size import PictureSize
 from worker.backdrop.panorama import UPPER_WIDTH_PX, Panorama, panorama_backdrop, upper_world
 from worker.camera.lens import lens_radius_m
 from worker.camera.view import View
@@ -35,7 +36,7 @@ def spot(azimuth_deg: float, elevation_deg: float, rows: int = 256) -> Panorama:
 
 def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, resolution: int) -> NDArray[np.float32]:
     """What a camera sees of a panorama."""
-    return panorama_backdrop(panorama, turn, View.of(camera, resolution), lens_radius_m(camera))
+    return panorama_backdrop(panorama, turn, View.of(camera, PictureSize.square(resolution)), lens_radius_m(camera))
 
 
 def irradiance(panorama: Panorama) -> float:

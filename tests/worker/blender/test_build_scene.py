@@ -14,6 +14,7 @@ from blend.world import is_as_built  # noqa: E402
 from farm.cli.installed_assets import InstalledAssets  # noqa: E402
 from farm.run.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from farm.scene.camera import Camera  # noqa: E402
+from farm.scene.picture_size import PictureSize  # noqa: E402
 from farm.spec.category import Category  # noqa: E402
 from farm.spec.header import DatasetHeader  # noqa: E402
 from farm.spec.job import Job  # noqa: E402
@@ -30,7 +31,7 @@ from worker.simulate.simulate import simulate  # noqa: E402
 pytestmark = pytest.mark.blender
 
 SURFACES = ("concrete_smooth", "rusted_steel")
-RESOLUTION = 128
+RESOLUTION = PictureSize.square(128)
 
 TILTED = Camera(
     height_m=0.12,

@@ -11,6 +11,7 @@ from benchmarks.masks.reference import render_coverage  # noqa: E402
 from farm.dataset.outputs import INSTANCES  # noqa: E402
 from farm.run.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from farm.scene.camera import Camera  # noqa: E402
+from farm.scene.picture_size import PictureSize  # noqa: E402
 from farm.scene.scene import Scene  # noqa: E402
 from farm.spec.category import Category  # noqa: E402
 from farm.spec.make_header import template_ref  # noqa: E402
@@ -24,7 +25,7 @@ from worker.simulate.simulate import simulate  # noqa: E402
 
 pytestmark = pytest.mark.blender
 
-RESOLUTION = 256
+RESOLUTION = PictureSize.square(256)
 
 CAMERAS = {
     "wide": Camera(

@@ -9,10 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from farm.scene.camera import Camera
+from farm.scene.picture_size import PictureSize
 from worker.camera.view import View
 
 HEIGHT = 0.2
-RESOLUTION = 512
+RESOLUTION = PictureSize.square(512)
 
 tilts = st.floats(0, 30)
 angles = st.floats(-360, 360)
