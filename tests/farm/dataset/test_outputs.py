@@ -124,3 +124,17 @@ def test_an_agreement_with_an_output_that_the_dataset_lacks() -> None:
     found = contents(lone=np.zeros((SIZE, SIZE), np.uint8))
     assert list(find_faults((IMAGE, MASK, lone), {**found, "instances": None}, RESOLUTION)) == []
     assert list(find_faults((*OUTPUTS, lone), found, RESOLUTION)) == [(lone, "never agrees")]
+
+
+@pytest.mark.parametrize(("width", "height"), [(SIZE, SIZE // 2), (SIZE // 2, SIZE)])
+def test_width_and_height_are_told_apart(width: int, height: int) -> None:
+    """A picture that lies on its side is at fault, with its labels."""
+    instances = np.zeros((height, width), np.uint16)
+    found = {
+        "image": np.zeros((height, width, 3), np.uint8),
+        "mask": instances.astype(np.uint8),
+        "instances": instances,
+    }
+    upright, turned = PictureSize(width=width, height=height), PictureSize(width=height, height=width)
+    assert list(find_faults(OUTPUTS, found, upright)) == []
+    assert [output for output, _ in find_faults(OUTPUTS, found, turned)] == [IMAGE, MASK, INSTANCES]

@@ -142,3 +142,23 @@ def test_a_black_crop_stays_dark() -> None:
     assert not photograph_backdrop(np.zeros((256, 256, 3), np.uint8), WHOLE, size, 2.0, 1.0).any()
     nearly = photograph_backdrop(np.full((256, 256, 3), 1, np.uint8), WHOLE, size, 2.0, 1.0)
     assert nearly.mean() == pytest.approx(1 / 255 / 12.92 / DARKEST, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "zoom", "rows", "columns"),
+    [
+        (40, 30, 1.0, slice(0, 300), slice(0, 400)),
+        (30, 40, 1.0, slice(0, 300), slice(175, 400)),
+        (40, 10, 1.0, slice(200, 300), slice(0, 400)),
+        (40, 30, 0.5, slice(150, 300), slice(200, 400)),
+    ],
+)
+def test_a_part_has_the_shape_of_the_picture(width: int, height: int, zoom: float, rows: slice, columns: slice) -> None:
+    """Zoom 1 takes the largest part of the picture's shape; nothing is stretched."""
+    pixels = noise(300, 400)
+    plate = WHOLE.model_copy(update={"x": 1.0, "y": 1.0, "zoom": zoom})
+    part = np.ascontiguousarray(pixels[rows, columns])
+    size = PictureSize(width=width, height=height)
+    seen = photograph_backdrop(pixels, plate, size, 0.0, 1.0)
+    assert seen.shape == (height, width, 3)
+    np.testing.assert_array_equal(seen, photograph_backdrop(part, WHOLE, size, 0.0, 1.0))

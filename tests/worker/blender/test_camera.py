@@ -27,6 +27,8 @@ pytestmark = pytest.mark.blender
 
 RESOLUTION = PictureSize.square(256)
 
+SHAPES = {"landscape": PictureSize(width=256, height=144), "portrait": PictureSize(width=96, height=256)}
+
 CAMERAS = {
     "wide": Camera(
         height_m=0.11,
@@ -65,11 +67,13 @@ def renderer() -> BlenderRenderer:
     return open_renderer(header, RendererSettings(device=DeviceChoice.CPU))
 
 
-def seen_by(camera: Camera, settled: tuple[Scene, CableShapes]) -> SettledGeometry:
+def seen_by(
+    camera: Camera, settled: tuple[Scene, CableShapes], resolution: PictureSize = RESOLUTION
+) -> SettledGeometry:
     """The cables without a floor, before another camera."""
     scene, shapes = settled
     return SettledGeometry(
-        scene.model_copy(update={"camera": camera, "floor": None}), shapes, CableDetail(), RESOLUTION
+        scene.model_copy(update={"camera": camera, "floor": None}), shapes, CableDetail(), resolution
     )
 
 
@@ -77,18 +81,23 @@ def render_white(renderer: BlenderRenderer, geometry: SettledGeometry) -> NDArra
     """Coverage by the scene's cables as Cycles finds it."""
     settings = PictureSettings(cycles=CyclesSettings(samples=64, denoiser=Denoiser.NONE))
     renderer.build(geometry, settings.economy)
-    renderer.use_cycles(settings, RESOLUTION, seed=0)
+    renderer.use_cycles(settings, geometry.resolution, seed=0)
     return render_coverage(geometry.scene.camera, samples=128)
 
 
-@pytest.mark.parametrize("name", CAMERAS)
+@pytest.mark.parametrize(
+    ("name", "resolution"),
+    [*((name, RESOLUTION) for name in CAMERAS), ("wide", SHAPES["landscape"]), ("wide", SHAPES["portrait"])],
+    ids=str,
+)
 def test_a_mask_agrees_with_a_render_through_any_lens(
-    renderer: BlenderRenderer, settled: tuple[Scene, CableShapes], name: str
+    renderer: BlenderRenderer, settled: tuple[Scene, CableShapes], name: str, resolution: PictureSize
 ) -> None:
     """White cables on black, tilted, rolled, distorted: edges within a fifth of a pixel, area within a hundredth."""
-    geometry = seen_by(CAMERAS[name], settled)
+    geometry = seen_by(CAMERAS[name], settled, resolution)
     coverage = render_white(renderer, geometry)
     agreement = compare(renderer.label(geometry)[INSTANCES.role], coverage)
+    assert coverage.shape == resolution.shape
     assert agreement.iou > 0.97
     assert agreement.edge_error_px <= 0.2
     assert agreement.gap_pixels < 20

@@ -22,12 +22,21 @@ EDGE = np.sqrt(0.5)
 SQUARE = PictureSize.square(256)
 
 
-def border(count: int) -> NDArray[np.float64]:
+SHAPES = [SQUARE, PictureSize(width=256, height=192), PictureSize(width=96, height=256)]
+
+
+def half_edges(size: PictureSize) -> NDArray[np.float64]:
+    """Half the width and height, (2,), where a corner has radius 1."""
+    half: NDArray[np.float64] = np.array([size.width, size.height]) / np.hypot(size.width, size.height)
+    return half
+
+
+def border(count: int, size: PictureSize = SQUARE) -> NDArray[np.float64]:
     """Places along the picture's border."""
-    along = np.linspace(-EDGE, EDGE, count)
-    edge = np.full(count, EDGE)
+    along, edge = np.linspace(-1.0, 1.0, count), np.ones(count)
     sides = [np.stack(pair, axis=1) for pair in ((along, edge), (along, -edge), (edge, along), (-edge, along))]
-    return np.concatenate(sides)
+    places: NDArray[np.float64] = np.concatenate(sides) * half_edges(size)
+    return places
 
 
 def test_none_moves_nothing() -> None:
@@ -37,11 +46,11 @@ def test_none_moves_nothing() -> None:
     assert Distortion(0.0, SQUARE).distort(picture) is picture
 
 
-@given(amount=amounts)
-def test_the_picture_is_just_filled(amount: float) -> None:
+@given(amount=amounts, size=st.sampled_from(SHAPES))
+def test_the_picture_is_just_filled(amount: float, size: PictureSize) -> None:
     """The border never moves inside the picture, and somewhere it stays on the border."""
-    moved = np.abs(Distortion(amount, SQUARE).move(border(101))).max(axis=1)
-    assert moved.min() == pytest.approx(EDGE)
+    moved = (np.abs(Distortion(amount, size).move(border(101, size))) / half_edges(size)).max(axis=1)
+    assert moved.min() == pytest.approx(1.0)
 
 
 @given(amount=amounts)
@@ -59,30 +68,36 @@ def test_what_is_farther_out_stays_farther_out(amount: float, radius: float, fur
     assert far > near
 
 
+@pytest.mark.parametrize("size", SHAPES)
 @pytest.mark.parametrize("amount", [-0.2, -0.05, 0.05, 0.2])
-def test_pictures_are_distorted_as_places_are(amount: float) -> None:
+def test_pictures_are_distorted_as_places_are(amount: float, size: PictureSize) -> None:
     """The centroid of each blurred dot is where its place moves, within 0.06 pixels."""
-    size, sigma = 256, 2.0
-    places = np.array([[128.0, 128.0], [60.3, 90.7], [200.2, 50.5], [30.9, 220.1], [222.0, 222.0]])
-    moved = size * EDGE * Distortion(amount, SQUARE).move((places - size / 2) / (size * EDGE)) + size / 2
-    rows, columns = np.indices((size, size)) + 0.5
+    sigma, middle, lens = 2.0, np.array([size.width, size.height]) / 2, Distortion(amount, size)
+    shares = np.array([[0.0, 0.0], [-0.53, -0.29], [0.56, -0.61], [-0.76, 0.72], [0.73, 0.73]])
+    places = middle * (1 + shares)
+    moved = lens.corner_px * lens.move((places - middle) / lens.corner_px) + middle
+    rows, columns = np.indices(size.shape) + 0.5
     for place, expected in zip(places, moved, strict=True):
         dot = np.exp(-((columns - place[0]) ** 2 + (rows - place[1]) ** 2) / (2 * sigma**2))
-        seen = Distortion(amount, SQUARE).distort(np.repeat(dot[..., None], 3, axis=2).astype(np.float32))[..., 0]
+        seen = lens.distort(np.repeat(dot[..., None], 3, axis=2).astype(np.float32))[..., 0]
         found = np.array([np.average(columns, weights=seen), np.average(rows, weights=seen)])
         # The curvature of the distortion also moves a dot's centroid away from the place of its middle.
         assert found == pytest.approx(expected, abs=0.06)
 
 
 @pytest.mark.parametrize("amount", [-0.2, 0.2])
-@pytest.mark.parametrize(("tilt", "roll"), [(0.0, 0.0), (25.0, 40.0)])
-def test_a_mask_agrees_with_its_distorted_picture(amount: float, tilt: float, roll: float) -> None:
+@pytest.mark.parametrize(
+    ("tilt", "roll", "resolution"), [(0.0, 0.0, SQUARE), (25.0, 40.0, SQUARE), (25.0, 40.0, SHAPES[1])]
+)
+def test_a_mask_agrees_with_its_distorted_picture(
+    amount: float, tilt: float, roll: float, resolution: PictureSize
+) -> None:
     """Coverage through an undistorted lens, distorted as a picture, against that of distorted silhouettes.
 
     In each row a nearly upright cable's edges are apart by what it covers, and in their middle by its centroid.
     """
     view = View(
-        height_m=0.12, resolution=SQUARE, tilt_deg=tilt, tilt_bearing_deg=70.0, roll_deg=roll, distortion=amount
+        height_m=0.12, resolution=resolution, tilt_deg=tilt, tilt_bearing_deg=70.0, roll_deg=roll, distortion=amount
     )
     across = view.rotation[:, :2] @ [[1.0, 0.2], [0.0, 1.0]]
     across[2] = 0.001
@@ -93,9 +108,9 @@ def test_a_mask_agrees_with_its_distorted_picture(amount: float, tilt: float, ro
     ideal = covered_by(tube, view.undistorted(), 0.0, 64)
     # A renderer's pixels overlap. A step from one pixel to the next leaves nothing between them to look up.
     ideal = cv2.GaussianBlur(ideal, (0, 0), 0.7).astype(np.float32)
-    picture = Distortion(amount, SQUARE).distort(np.repeat(ideal[..., None], 3, axis=2))[..., 0]
+    picture = Distortion(amount, resolution).distort(np.repeat(ideal[..., None], 3, axis=2))[..., 0]
     quads = silhouettes(tube, view, 64).quads_px
-    mask = covered_share(quads, 256, 256)
+    mask = covered_share(quads, resolution.height, 256)
     assert mask.sum() > 1000
     columns = np.arange(256) + 0.5
     inner = slice(8, -8)

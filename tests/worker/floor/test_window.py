@@ -1,6 +1,7 @@
 """Windows on textures give the same picture from only the texels in view."""
 
 import math
+from dataclasses import replace
 
 import cv2
 import numpy as np
@@ -135,3 +136,20 @@ def test_a_turn_of_the_texture_keeps_lengths() -> None:
     """Points 10 mm apart are a fortieth of a tile of 0.4 m apart."""
     uvs = tile_coordinates(np.array([[0.0, 0.0], [0.01, 0.0]]), floor(turn=77.0), SIZE_M)
     assert math.dist(*uvs) == pytest.approx(0.025)
+
+
+@given(
+    turn=st.floats(0, 360),
+    tilt=st.sampled_from([0.0, 15.0]),
+    size=st.sampled_from([PictureSize(width=512, height=128), PictureSize(width=384, height=512)]),
+)
+def test_an_oblong_view_needs_a_part_of_a_square_ones_window(turn: float, tilt: float, size: PictureSize) -> None:
+    """All of the floor in the picture is in the window, which is no larger than the square picture's."""
+    lying = floor(turn=turn)
+    square = View(height_m=0.15, resolution=PictureSize.square(512), tilt_deg=tilt, tilt_bearing_deg=70.0)
+    view = replace(square, resolution=size)
+    window, larger = (window_on(lying, SIZE_M, seen, (SIZE,)) for seen in (view, square))
+    placed = window.place(tile_coordinates(view.floor_corners_m()[:, :2], lying, SIZE_M))
+    assert placed.min() > 0
+    assert placed.max() < 1
+    assert window.width * window.height <= larger.width * larger.height

@@ -1,5 +1,7 @@
 """Masks and instances, against known silhouettes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -150,3 +152,25 @@ def test_a_cable_that_reaches_the_camera_spoils_nothing() -> None:
     steep = np.linspace([-0.05, 0.05, RADIUS], [0.0, 0.05, 0.2], 201)
     _, instances = label(bar(), steep)
     assert (instances[126:130] == 1).all()
+
+
+@pytest.mark.parametrize(("width", "height"), [(256, 192), (192, 256), (256, 64)])
+@pytest.mark.parametrize("tilt", [0.0, 25.0])
+def test_an_oblong_picture_has_the_middle_of_a_square_ones_labels(width: int, height: int, tilt: float) -> None:
+    """With its longer edge as long, it shows the same cables at the same size, pixel for pixel."""
+    view = replace(VIEW, tilt_deg=tilt, tilt_bearing_deg=130.0, roll_deg=20.0)
+    pieces = [tubular(bar(15.0 + 45.0 * number, 0.001 * number), RADIUS, number) for number in (1, 2, 3)]
+    square = label_cables(pieces, view, SIDES)
+    oblong = label_cables(pieces, replace(view, resolution=PictureSize(width=width, height=height)), SIDES)
+    top, left = (256 - height) // 2, (256 - width) // 2
+    assert (oblong.instances == square.instances[top : top + height, left : left + width]).all()
+    assert oblong.instances.max() == 3
+
+
+def test_bands_follow_the_rows_of_a_portrait(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A picture that is higher than wide is labelled to its last row, in as many bands as it takes."""
+    view = replace(VIEW, resolution=PictureSize(width=64, height=256))
+    whole = label_cables([tubular(bar(90.0), RADIUS)], view, SIDES).mask
+    monkeypatch.setattr(worker.label.silhouette, "_BAND_PIXELS", 64 * 10)
+    assert (label_cables([tubular(bar(90.0), RADIUS)], view, SIDES).mask == whole).all()
+    assert (whole[-1] > 0).any()
