@@ -49,7 +49,7 @@ SETTLED = SettleFigures.model_validate(
 )
 
 
-def stand_in_header(*, seed: int = 0, resolution: int = 32, **quotas: int) -> DatasetHeader:
+def stand_in_header(*, seed: int = 0, resolution: int | str = 32, **quotas: int) -> DatasetHeader:
     """A header that asks for the images of each category that the quotas name."""
     wanted = quotas or {"far": 2, "close_concentrated_light": 2}
     data = {"seed": seed, "style": "published", "resolution": resolution, "quotas": wanted}
@@ -106,18 +106,18 @@ def stand_in_scene(job: Job) -> Scene:
 
 def stand_in_files(job: Job, header: DatasetHeader) -> dict[str, Any]:
     """Contents by role: noise that no other job has, one cable across it, and every other label from its maker."""
-    size = header.spec.resolution
+    rows, columns = header.spec.resolution.shape
     draw = generator(header.spec.seed, job.category, job.index, 0, Stage.CABLES)
-    instances = np.zeros((size, size), np.uint16)
-    top = int(draw.integers(1, size - 5))
+    instances = np.zeros((rows, columns), np.uint16)
+    top = int(draw.integers(1, rows - 5))
     instances[top : top + 4] = 1
     files = {
-        IMAGE.role: draw.integers(0, 256, (size, size, 3), dtype=np.uint8),
+        IMAGE.role: draw.integers(0, 256, (rows, columns, 3), dtype=np.uint8),
         MASK.role: np.where(instances > 0, 255, 0).astype(np.uint8),
         INSTANCES.role: instances,
     }
     others = [output for output in outputs_of(header.spec) if output.role not in files]
-    return files | _made_labels(job, header, others, top / size) if others else files
+    return files | _made_labels(job, header, others, top / rows) if others else files
 
 
 def _made_labels(job: Job, header: DatasetHeader, outputs: list[Output], place: float) -> dict[str, Any]:
@@ -128,10 +128,10 @@ def _made_labels(job: Job, header: DatasetHeader, outputs: list[Output], place: 
     from worker.label.makers import make_labels  # noqa: PLC0415
     from worker.simulate.shapes import CableShapes  # noqa: PLC0415
 
-    scene = stand_in_scene(job)
+    scene, rows = stand_in_scene(job), header.spec.resolution.height
     cable = scene.cables[0]
     along = np.linspace(-cable.length_m / 2, cable.length_m / 2, 51)
-    across_m = (0.5 - place) / View.of(scene.camera, resolution=1).pixels_per_m
+    across_m = (0.5 - place) * rows / View.of(scene.camera, header.spec.resolution).pixels_per_m
     shapes = CableShapes(
         nodes_m=(np.stack([along, np.full(51, across_m), np.full(51, cable.diameter_m / 2)], axis=1),),
         radii_m=np.array([cable.diameter_m / 2]),

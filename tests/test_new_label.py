@@ -20,6 +20,7 @@ from farm.dataset.paths import INDEX_FILE, file_path, manifest_path
 from farm.dataset.report import write_report
 from farm.dataset.verify import Fault, Finding, verify
 from farm.errors import RenderError
+from farm.scene.picture_size import PictureSize
 from farm.spec.job import Job
 from tests.stand_in import StandInRenderer, stand_in_scene
 from worker.geometry import SettledGeometry
@@ -39,7 +40,7 @@ def _decoded(content: bytes) -> Any:
 JSON = FileFormat("JSON", ".json", lambda value: json.dumps(value).encode(), _decoded)
 
 
-def _count_fault(content: Any, resolution: int) -> str | None:
+def _count_fault(content: Any, resolution: PictureSize) -> str | None:
     del resolution
     return None if isinstance(content, dict) and content.keys() == {"cables"} else "does not count cables alone"
 

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from farm.scene.clutter import Part, Stick
+from farm.scene.picture_size import PictureSize
 from farm.scene.scene import Scene
 from farm.spec.rendering import CableDetail
 from worker.cable.piece import Piece
@@ -29,13 +30,13 @@ class SettledGeometry:
         scene: the scene as drawn.
         shapes: its settled cables and sticks.
         detail: fineness of the models of cables.
-        resolution: pixels along an edge of the picture.
+        resolution: size of the picture, in pixels.
     """
 
     scene: Scene
     shapes: CableShapes
     detail: CableDetail
-    resolution: int
+    resolution: PictureSize
 
     @cached_property
     def curves(self) -> tuple[Points, ...]:

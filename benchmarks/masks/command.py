@@ -14,6 +14,7 @@ from benchmarks.masks.results import LabelledImage, check, table, times
 from benchmarks.terminal import bench_console, blender_writes_to
 from farm.errors import VerificationError
 from farm.run.worker_settings import DeviceChoice, RendererSettings
+from farm.scene.picture_size import PictureSize
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.header import DatasetHeader
@@ -84,7 +85,7 @@ def _label_again(made: Picture, category: Category, header: DatasetHeader) -> fl
     return 1e3 * min(taken_s)
 
 
-def _thinnest_px(scene: Scene, resolution: int) -> float:
+def _thinnest_px(scene: Scene, resolution: PictureSize) -> float:
     """Width in pixels of the scene's thinnest cable where it lies on the floor."""
     diameter_m = min(cable.diameter_m for cable in scene.cables)
     return diameter_m * View.of(scene.camera, resolution).pixels_per_m

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from blend import names
 from farm.errors import RenderError
 from farm.run.worker_settings import DeviceChoice, RendererSettings
+from farm.scene.picture_size import PictureSize
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.header import DatasetHeader
@@ -34,7 +35,7 @@ class SettledScene:
 
     def geometry(self, detail: CableDetail, resolution: int) -> SettledGeometry:
         """Its geometry in a picture of some detail and resolution."""
-        return SettledGeometry(self.scene, self.shapes, detail, resolution)
+        return SettledGeometry(self.scene, self.shapes, detail, PictureSize.square(resolution))
 
 
 def settle(header: DatasetHeader, categories: tuple[Category, ...], count: int) -> Iterator[SettledScene]:
@@ -76,7 +77,9 @@ class Stage:
         resolution = resolution or self._resolution
         geometry = settled.geometry(settings.detail, resolution)
         self._set = geometry, self._renderer.build(geometry, settings.economy)
-        self._renderer.use_cycles(settings, resolution, settled.scene.render_seed if seed is None else seed)
+        self._renderer.use_cycles(
+            settings, PictureSize.square(resolution), settled.scene.render_seed if seed is None else seed
+        )
         render = bpy.data.scenes[names.PICTURE_SCENE].render
         render.use_border = render.use_crop_to_border = share < 1.0
         render.border_min_x = render.border_min_y = 0.5 - share / 2

@@ -12,6 +12,7 @@ import typer
 
 from farm.errors import SpecError
 from farm.run.worker_settings import DeviceChoice
+from farm.scene.picture_size import read_resolution
 from farm.spec.dataset_spec import Engine
 from farm.spec.parse import Description, describe, parse_quotas
 from farm.spec.quality import read_quality
@@ -66,7 +67,12 @@ class DatasetOptions:
         typer.Option(metavar="CATEGORY=NUMBER", help="Images of one category; repeat it.", rich_help_panel=_DATASET),
     ] = None
     seed: Annotated[int | None, typer.Option(help="Decides every random value.", rich_help_panel=_DATASET)] = None
-    resolution: Annotated[int | None, typer.Option(help="Edge of a picture, px.", rich_help_panel=_DATASET)] = None
+    resolution: Annotated[
+        str | None,
+        typer.Option(
+            metavar="EDGE|WIDTHxHEIGHT", help="Size of a picture, px, such as 512 or 640x480.", rich_help_panel=_DATASET
+        ),
+    ] = None
     engine: Annotated[Engine | None, typer.Option(help="Render engine.", rich_help_panel=_DATASET)] = None
     quality: Annotated[
         str | None,
@@ -126,9 +132,11 @@ class DatasetOptions:
             raise SpecError("give either --images or --quota, not both")
         flags: dict[str, object] = {
             name: getattr(self, name)
-            for name in ("images", "seed", "resolution", "engine", "style", "simulator", "close_distributed_hdri")
+            for name in ("images", "seed", "engine", "style", "simulator", "close_distributed_hdri")
             if getattr(self, name) is not None
         }
+        if self.resolution is not None:
+            flags["resolution"] = read_resolution(self.resolution)
         if self.quality is not None:
             flags["quality"] = read_quality(self.quality)
         if self.quota:

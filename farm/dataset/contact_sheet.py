@@ -16,19 +16,20 @@ _JPEG_QUALITY = 88
 
 
 def make_contact_sheet(dataset: Dataset, *, columns: int, edge_px: int) -> bytes:
-    """Make a JPEG of the first `columns` pictures of each category that has a quota, each `edge_px` wide.
+    """Make a JPEG of the first `columns` pictures of each category that has a quota, their longer edge `edge_px` long.
 
     Raises:
         IncompleteError: if a picture is not there yet.
         DestinationError: if the dataset can't be read.
     """
     rows = [(category, min(columns, quota)) for category, quota in dataset.header.spec.quotas.items() if quota]
-    step = edge_px + _GAP_PX
-    sheet = Image.new("RGB", (step * max(count for _, count in rows) - _GAP_PX, step * len(rows) - _GAP_PX), "white")
+    width, height = (max(1, round(edge_px * share)) for share in dataset.header.spec.resolution.shares)
+    right, down = width + _GAP_PX, height + _GAP_PX
+    sheet = Image.new("RGB", (right * max(count for _, count in rows) - _GAP_PX, down * len(rows) - _GAP_PX), "white")
     for row, (category, count) in enumerate(rows):
         for column in range(count):
             picture = _read(dataset, category, column)
-            sheet.paste(picture.resize((edge_px, edge_px), Image.Resampling.LANCZOS), (column * step, row * step))
+            sheet.paste(picture.resize((width, height), Image.Resampling.LANCZOS), (column * right, row * down))
     encoded = io.BytesIO()
     sheet.save(encoded, "JPEG", quality=_JPEG_QUALITY)
     return encoded.getvalue()

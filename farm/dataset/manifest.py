@@ -10,6 +10,7 @@ from farm.dataset.dataset import Dataset
 from farm.dataset.outputs import outputs_of
 from farm.dataset.paths import file_path
 from farm.model import Model, Sha256
+from farm.scene.picture_size import PictureSize
 from farm.scene.scene import Scene
 from farm.spec.job import DatasetName, Job
 from farm.spec.rendering import PictureSettings
@@ -79,6 +80,7 @@ class RenderSettings(Model):
     """The settings that the picture was rendered with, which may differ from those that were asked for.
 
     Attributes:
+        resolution: size of the picture, in pixels.
         samples: most samples that a pixel takes.
         settings: settings that Cycles rendered with; None for another engine.
         expected_flip: mean FLIP against a picture without noise, as calibrated; None where it is not known, as for
@@ -87,7 +89,7 @@ class RenderSettings(Model):
 
     engine: str
     device: str
-    resolution: int
+    resolution: PictureSize
     samples: int
     settings: PictureSettings | None = None
     expected_flip: float | None = None

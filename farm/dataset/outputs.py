@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from farm.dataset.formats import PNG, FileFormat
+from farm.scene.picture_size import PictureSize
 from farm.spec.dataset_spec import DatasetSpec
 
 
@@ -36,7 +37,7 @@ class Output:
         role: the output's name in code and, with that of its checksum, in the index.
         folder: folder of its files below the category's. The manifest lists the file under this name.
         format: the type of its files.
-        find_fault: takes a content and the dataset's resolution in pixels; says what is wrong, or None.
+        find_fault: takes a content and the size of the dataset's pictures; says what is wrong, or None.
         agreements: checks against other outputs; one that a dataset lacks is not compared.
         maker: place of the function that makes the file's content, as `module:function`; None if the renderer makes it.
             See `worker.label.makers.Maker`.
@@ -45,7 +46,7 @@ class Output:
     role: str
     folder: str
     format: FileFormat
-    find_fault: Callable[[Any, int], str | None]
+    find_fault: Callable[[Any, PictureSize], str | None]
     agreements: tuple[Agreement, ...] = ()
     maker: str | None = None
 
@@ -57,19 +58,19 @@ def array_fault(pixels: NDArray[np.generic], shape: tuple[int, ...], kind: DType
     return f"{pixels.shape} {pixels.dtype}, expected {shape} {np.dtype(kind)}"
 
 
-def _image_fault(pixels: NDArray[np.generic], resolution: int) -> str | None:
-    return array_fault(pixels, (resolution, resolution, 3), np.uint8)
+def _image_fault(pixels: NDArray[np.generic], resolution: PictureSize) -> str | None:
+    return array_fault(pixels, (*resolution.shape, 3), np.uint8)
 
 
-def _binary_fault(pixels: NDArray[np.generic], resolution: int) -> str | None:
-    fault = array_fault(pixels, (resolution, resolution), np.uint8)
+def _binary_fault(pixels: NDArray[np.generic], resolution: PictureSize) -> str | None:
+    fault = array_fault(pixels, resolution.shape, np.uint8)
     if fault is None and not ((pixels == 0) | (pixels == 255)).all():
         fault = "has other values than 0, 255"
     return fault
 
 
-def _instances_fault(pixels: NDArray[np.generic], resolution: int) -> str | None:
-    return array_fault(pixels, (resolution, resolution), np.uint16)
+def _instances_fault(pixels: NDArray[np.generic], resolution: PictureSize) -> str | None:
+    return array_fault(pixels, resolution.shape, np.uint16)
 
 
 def _instances_fill_mask(instances: NDArray[np.uint16], mask: NDArray[np.uint8]) -> str | None:
@@ -103,14 +104,14 @@ def outputs_of(spec: DatasetSpec) -> tuple[Output, ...]:
 
 
 def find_faults(
-    outputs: Iterable[Output], contents: Mapping[str, Any], resolution: int
+    outputs: Iterable[Output], contents: Mapping[str, Any], resolution: PictureSize
 ) -> Iterator[tuple[Output, str]]:
     """Check the contents of one picture's files, each alone and then those without a fault against each other.
 
     Args:
         outputs: the outputs that the picture must have.
         contents: contents by role; roles that are not there are not checked.
-        resolution: pixels along an edge of the dataset's pictures.
+        resolution: size of the dataset's pictures.
 
     Yields:
         An output and what is wrong with its content.

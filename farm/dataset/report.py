@@ -68,7 +68,7 @@ def _page(dataset: Dataset, sections: Mapping[Category, _Section]) -> str:
     facts = {
         "images": f"{sum(section.done for section in sections.values())} of {spec.total}",
         "seed": str(spec.seed),
-        "size": f"{spec.resolution} x {spec.resolution} px",
+        "size": f"{spec.resolution.width} x {spec.resolution.height} px",
         "engine": f"{spec.engine}, {spec.quality}",
         "surfaces": str(len(dataset.header.surfaces)),
         "HDRIs": str(len(dataset.header.hdris)),
@@ -77,6 +77,7 @@ def _page(dataset: Dataset, sections: Mapping[Category, _Section]) -> str:
     template = Template((files("farm.dataset") / "report_template.html").read_text(encoding="utf-8"))
     return template.substitute(
         title=escape(dataset.name),
+        shape=f"{spec.resolution.width} / {spec.resolution.height}",
         facts="".join(f"<div><dt>{escape(name)}</dt><dd>{escape(value)}</dd></div>" for name, value in facts.items()),
         table=_table(sections),
         navigation=" ".join(f'<a href="#{category}">{escape(_words(category))}</a>' for category in sections),

@@ -8,13 +8,13 @@ from farm.model import Model
 
 
 class Plate(Model):
-    """A square part of one of the user's photographs, shown behind the cables.
+    """A part of one of the user's photographs, shown behind the cables.
 
     Attributes:
         name: name of the photograph in the dataset's header.
-        x: position of the square in the photograph, from the left (0) to the right (1).
-        y: position of the square in the photograph, from the top (0) to the bottom (1).
-        zoom: edge of the square, as a share of the photograph's shorter side.
+        x: position of the part in the photograph, from the left (0) to the right (1).
+        y: position of the part in the photograph, from the top (0) to the bottom (1).
+        zoom: width of the part, as a share of that of the largest part of the picture's shape.
         mirror: whether left and right are swapped.
         blur_px: radius of the blur disc, in pixels of the picture.
     """

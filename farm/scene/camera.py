@@ -10,7 +10,7 @@ FOCAL_LENGTH_MM: Final = 50.0
 """Focal length of the lens in the published style, in millimetres."""
 
 SENSOR_MM: Final = 36.0
-"""Edge of the square sensor, in millimetres: the default width of a Blender sensor."""
+"""Longer edge of the sensor, in millimetres: that of 35 mm film, and the default of a Blender sensor."""
 
 
 NEAR_CLIP_M: Final = 0.005
@@ -26,7 +26,7 @@ class Camera(Model):
     Attributes:
         height_m: distance from the origin, in metres; without tilt the height above the floor.
         f_number: focal length over the diameter of the aperture.
-        focal_length_mm: focal length on a sensor of 36 mm.
+        focal_length_mm: focal length on a sensor whose longer edge is 36 mm.
         tilt_deg: angle between the view and straight down, in degrees.
         tilt_bearing_deg: bearing of the side to which a tilted camera stands, in degrees from the x axis.
         roll_deg: rotation about the view, in degrees, counter-clockwise seen from above.
@@ -46,7 +46,7 @@ class Camera(Model):
 
     @property
     def seen_m(self) -> float:
-        """Width of the floor in the picture, in metres, for an untilted lens without distortion."""
+        """Length of the floor along the picture's longer edge, in metres, without tilt and distortion."""
         return self.height_m * SENSOR_MM / self.focal_length_mm
 
 

@@ -4,9 +4,10 @@ from collections.abc import Iterator, Mapping
 from enum import StrEnum
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from farm.model import Model
+from farm.scene.picture_size import PictureSize, can_be_made
 from farm.spec.category import Category
 from farm.spec.job import Job
 from farm.spec.quality import Preset, Quality, settings_for
@@ -34,7 +35,7 @@ class DatasetSpec(Model):
         version: version of this format.
         seed: seed of every random value in the dataset.
         quotas: number of images of each of the six categories; `parse_spec` fills it in from a total.
-        resolution: edge of the square pictures, in pixels.
+        resolution: size of the pictures, in pixels.
         engine: Blender's render engine.
         quality: preset, or mean FLIP that the pictures keep to.
         close_distributed_hdri: name of the HDRI that lights all pictures over a floor without a lamp, if
@@ -48,7 +49,7 @@ class DatasetSpec(Model):
     version: Literal[1] = 1
     seed: Annotated[int, Field(ge=0, lt=2**64)] = 0
     quotas: Mapping[Category, Quota]
-    resolution: Annotated[int, Field(ge=32, le=8192)] = 512
+    resolution: Annotated[PictureSize, AfterValidator(can_be_made)] = PictureSize.square(512)
     engine: Engine = Engine.CYCLES
     quality: Quality = Preset.STANDARD
     close_distributed_hdri: str | None = None

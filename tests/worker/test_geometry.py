@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from farm.scene.clutter import PartKind, StickKind
+from farm.scene.picture_size import PictureSize
 from farm.spec.category import Category
 from farm.spec.rendering import CableDetail
 from tests.worker.clutter.things import make_part, make_stick
@@ -14,7 +15,7 @@ from tests.worker.settled import rod, shapes
 from worker.cable.piece import Tubular
 from worker.geometry import SettledGeometry
 
-RESOLUTION = 64
+RESOLUTION = PictureSize.square(64)
 
 
 def geometry(detail: CableDetail | None = None, distortion: float = 0.0, *, sticks: int = 0) -> SettledGeometry:

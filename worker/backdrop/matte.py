@@ -63,11 +63,11 @@ def covered_by(pieces: Sequence[Piece], view: View, lens_radius_m: float, sides:
     """
     highest = max(piece.top_m for piece in pieces)
     places = list(_on_disc(min(_MOST_RINGS, round(lens_radius_m * blur_px_per_m(view, highest) / _RING_PX))))
-    covered = np.zeros((view.resolution, view.resolution), np.float32)
+    covered = np.zeros(view.resolution.shape, np.float32)
     for x, y in places:
         through = replace(view, pinhole_m=(lens_radius_m * x, lens_radius_m * y))
         for rows, quads, _ in silhouettes(pieces, through, sides).bands(through):
-            covered[rows] += covered_share(quads, rows.stop - rows.start, view.resolution)
+            covered[rows] += covered_share(quads, rows.stop - rows.start, view.resolution.width)
     covered /= np.float32(len(places))
     return covered
 

@@ -68,19 +68,21 @@ def panorama_backdrop(
     Returns:
         (H, W, 3) of linear light, the top row first.
     """
-    pixel = SENSOR_MM / view.focal_length_mm / view.resolution
+    pixel = SENSOR_MM / view.focal_length_mm / view.resolution.longer
     lens_disc = disc(lens_radius_m / view.focus_m / pixel)
     margin = lens_disc.shape[0] // 2
     fine = _samples_per_pixel(pixel, panorama.shape[1])
-    edge = view.resolution + 2 * margin
-    offset = ((np.arange(edge * fine) + 0.5) / fine - edge / 2) * pixel
-    towards = np.empty((edge * fine, edge * fine, 3), np.float32)
-    towards[..., 0], towards[..., 1], towards[..., 2] = offset[None, :], -offset[:, None], -1.0
+    rows, columns = (edge + 2 * margin for edge in view.resolution.shape)
+    right, down = (((np.arange(edge * fine) + 0.5) / fine - edge / 2) * pixel for edge in (columns, rows))
+    towards = np.empty((rows * fine, columns * fine, 3), np.float32)
+    towards[..., 0], towards[..., 1], towards[..., 2] = right[None, :], -down[:, None], -1.0
     sharp = _look_up(panorama, towards @ (turn @ view.rotation).T.astype(np.float32))
     if fine > 1:
-        sharp = cv2.resize(sharp, (edge, edge), interpolation=cv2.INTER_AREA).astype(np.float32, copy=False)
+        sharp = cv2.resize(sharp, (columns, rows), interpolation=cv2.INTER_AREA).astype(np.float32, copy=False)
     blurred = cv2.filter2D(sharp, -1, lens_disc)
-    seen: NDArray[np.float32] = blurred[margin : edge - margin, margin : edge - margin].astype(np.float32, copy=False)
+    seen: NDArray[np.float32] = blurred[margin : rows - margin, margin : columns - margin].astype(
+        np.float32, copy=False
+    )
     return seen
 
 

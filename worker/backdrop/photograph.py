@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 
 from assets.colour import REC709_LUMINANCE
 from farm.scene.backdrop import Plate
+from farm.scene.picture_size import PictureSize
 from worker.backdrop.panorama import disc
 from worker.colour import light_of
 
@@ -17,23 +18,23 @@ _STRIP_ROWS = 512
 
 
 def photograph_backdrop(
-    pixels: NDArray[np.uint8], plate: Plate, resolution: int, blur_px: float, luminance: float
+    pixels: NDArray[np.uint8], plate: Plate, resolution: PictureSize, blur_px: float, luminance: float
 ) -> NDArray[np.float32]:
-    """Cut a square out of a photograph, blur it, and scale it to a mean luminance.
+    """Cut a part out of a photograph, blur it, and scale it to a mean luminance.
 
     The computation is in linear light. At the edges the blur sees the picture mirrored.
 
     Args:
         pixels: (H, W, 3) of sRGB, the top row first.
-        plate: the square to take.
-        resolution: pixels along an edge of the picture.
+        plate: the part to take.
+        resolution: size of the picture.
         blur_px: radius of the lens's disc, in pixels of the picture.
         luminance: mean luminance of the result, in scene-linear units; a crop darker than `DARKEST` stays darker.
 
     Returns:
-        (resolution, resolution, 3) of linear light, the top row first.
+        (H, W, 3) of linear light, of the picture's size, the top row first.
     """
-    light = _resample(_crop(pixels, plate), resolution)
+    light = _resample(_crop(pixels, plate, resolution), resolution)
     if plate.mirror:
         light = light[:, ::-1]
     blurred = cv2.filter2D(light, -1, disc(blur_px), borderType=cv2.BORDER_REFLECT_101)
@@ -42,35 +43,38 @@ def photograph_backdrop(
     return scaled
 
 
-def _crop(pixels: NDArray[np.uint8], plate: Plate) -> NDArray[np.uint8]:
+def _crop(pixels: NDArray[np.uint8], plate: Plate, resolution: PictureSize) -> NDArray[np.uint8]:
     height, width = pixels.shape[:2]
-    edge = max(1, round(plate.zoom * min(height, width)))
-    top, left = round(plate.y * (height - edge)), round(plate.x * (width - edge))
-    return pixels[top : top + edge, left : left + edge]
+    across, along = resolution.shares
+    longer = plate.zoom * min(width / across, height / along)
+    columns, rows = (max(1, round(longer * share)) for share in (across, along))
+    top, left = round(plate.y * (height - rows)), round(plate.x * (width - columns))
+    return pixels[top : top + rows, left : left + columns]
 
 
-def _resample(square: NDArray[np.uint8], resolution: int) -> NDArray[np.float32]:
-    """Resample to (resolution, resolution, 3) of linear light: means of areas, or cubic between pixels."""
-    light = _shrunk(square, max(1, len(square) // (2 * resolution)))
-    edge = len(light)
-    if edge == resolution:
+def _resample(part: NDArray[np.uint8], resolution: PictureSize) -> NDArray[np.float32]:
+    """Resample to (H, W, 3) of linear light, of the picture's size: means of areas, or cubic between pixels."""
+    rows, columns = resolution.shape
+    light = _shrunk(part, max(1, min(part.shape[0] // (2 * rows), part.shape[1] // (2 * columns))))
+    if light.shape[:2] == resolution.shape:
         return light
-    method = cv2.INTER_AREA if edge > resolution else cv2.INTER_CUBIC
-    resized = cv2.resize(light, (resolution, resolution), interpolation=method)
+    is_finer = light.shape[0] * light.shape[1] > rows * columns
+    method = cv2.INTER_AREA if is_finer else cv2.INTER_CUBIC
+    resized = cv2.resize(light, (columns, rows), interpolation=method)
     # Beside a bright line the cubic falls below 0.
     return np.maximum(resized, 0.0).astype(np.float32, copy=False)
 
 
-def _shrunk(square: NDArray[np.uint8], factor: int) -> NDArray[np.float32]:
+def _shrunk(part: NDArray[np.uint8], factor: int) -> NDArray[np.float32]:
     """Means of factor x factor pixels, a strip at a time, since a large photograph takes a gigabyte in floats.
 
     Rows and columns at the end that fill no such block are left out.
     """
-    edge = len(square) // factor
-    shrunk = np.empty((edge, edge, 3), np.float32)
-    rows = max(1, _STRIP_ROWS // factor)
-    for first in range(0, edge, rows):
-        last = min(edge, first + rows)
-        strip = light_of(square[first * factor : last * factor, : edge * factor])
-        shrunk[first:last] = cv2.resize(strip, (edge, last - first), interpolation=cv2.INTER_AREA)
+    rows, columns = part.shape[0] // factor, part.shape[1] // factor
+    shrunk = np.empty((rows, columns, 3), np.float32)
+    at_once = max(1, _STRIP_ROWS // factor)
+    for first in range(0, rows, at_once):
+        last = min(rows, first + at_once)
+        strip = light_of(part[first * factor : last * factor, : columns * factor])
+        shrunk[first:last] = cv2.resize(strip, (columns, last - first), interpolation=cv2.INTER_AREA)
     return shrunk

@@ -22,7 +22,7 @@ def set_camera(camera: Camera, view: View) -> None:
     camera_object.scale = (1.0, 1.0, 1.0)
     data = camera_object.data
     data.type = "PERSP"
-    data.lens, data.sensor_width, data.sensor_fit = camera.focal_length_mm, SENSOR_MM, "HORIZONTAL"
+    data.lens, data.sensor_width, data.sensor_fit = camera.focal_length_mm, SENSOR_MM, "AUTO"
     data.shift_x = data.shift_y = 0.0
     # Blender's own default would cut off what lies within 0.1 m of the lens, and labels would still show it.
     data.clip_start, data.clip_end = NEAR_CLIP_M, FAR_CLIP_M

@@ -13,6 +13,7 @@ from assets.scan.float_image import read_float_image
 from blend import names
 from farm.errors import AssetError, RenderError
 from farm.scene.camera import Development
+from farm.scene.picture_size import PictureSize
 from farm.spec.rendering import CyclesSettings, Denoiser, Pattern, PictureSettings
 from worker.backdrop.matte import Matte, lay_over
 from worker.blender.build_scene import BuiltScene
@@ -27,11 +28,11 @@ ADAPTIVE_LEAST_SAMPLES = 4
 _NOTHING_WRITTEN = "Blender ended a render without writing a picture; see the worker's log"
 
 
-def configure_picture(resolution: int, threads: int) -> Any:
+def configure_picture(resolution: PictureSize, threads: int) -> Any:
     """Set everything about a render that does not depend on the engine.
 
     Args:
-        resolution: pixels along an edge.
+        resolution: size of the picture.
         threads: CPU threads; 0 takes one for each core.
 
     Returns:
@@ -39,7 +40,7 @@ def configure_picture(resolution: int, threads: int) -> Any:
     """
     scene = bpy.data.scenes[names.PICTURE_SCENE]
     render = scene.render
-    render.resolution_x = render.resolution_y = resolution
+    render.resolution_x, render.resolution_y = resolution.width, resolution.height
     render.resolution_percentage = 100
     render.pixel_aspect_x = render.pixel_aspect_y = 1.0
     render.use_border = False
@@ -143,7 +144,7 @@ def render_picture(
         light = _render_light(scene, matte, Path(folder))
         if development is not None:
             return develop(light, development, distortion=distortion, lit_by=lit_by)
-        return _view(scene, Distortion(distortion).distort(light), Path(folder))
+        return _view(scene, Distortion(distortion, PictureSize.of_array(light.shape)).distort(light), Path(folder))
 
 
 def render_scene(built: BuiltScene) -> NDArray[np.uint8]:

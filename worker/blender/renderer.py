@@ -22,6 +22,7 @@ from farm.dataset.manifest import RejectedAttempt, RenderSettings
 from farm.dataset.outputs import IMAGE, OUTPUTS, Output, outputs_of
 from farm.errors import SceneError, SpecError
 from farm.run.worker_settings import RendererSettings
+from farm.scene.picture_size import PictureSize
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.dataset_spec import DatasetSpec, Engine
@@ -149,17 +150,17 @@ class BlenderRenderer:
         """
         return build_scene(geometry, self._library, self._image_cache, economy)
 
-    def use_cycles(self, settings: PictureSettings, resolution: int, seed: int) -> None:
+    def use_cycles(self, settings: PictureSettings, resolution: PictureSize, seed: int) -> None:
         """Let the next renders be Cycles'.
 
         Args:
             settings: all of its settings.
-            resolution: pixels along an edge.
+            resolution: size of the picture.
             seed: number that starts the sampling pattern.
         """
         configure_cycles(configure_picture(resolution, self._threads), settings, self._device, seed)
 
-    def use_eevee(self, quality: Quality, resolution: int) -> None:
+    def use_eevee(self, quality: Quality, resolution: PictureSize) -> None:
         """Let the next renders be Eevee's."""
         configure_eevee(configure_picture(resolution, self._threads), eevee.samples_of(quality))
 

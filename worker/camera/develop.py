@@ -1,7 +1,7 @@
 """Develops light to the picture that a camera saves, in the steps of a camera. Pure numpy and OpenCV.
 
-Light is (H, H, 3) float32, linear Rec. 709; 1 fills the sensor's wells. The tone curve turns it into levels, which are
-(H, H, 3) float32, sRGB between 0 and 1.
+Light is (H, W, 3) float32, linear Rec. 709; 1 fills the sensor's wells. The tone curve turns it into levels, which are
+(H, W, 3) float32, sRGB between 0 and 1.
 """
 
 import math
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from assets.colour import REC709_LUMINANCE, srgb_of_light
 from farm.errors import RenderError
 from farm.scene.camera import UNCOMPRESSED_FROM, Development
+from farm.scene.picture_size import PictureSize
 from worker.camera.distortion import Distortion
 from worker.camera.illuminant import NEUTRAL
 from worker.colour import luminance
@@ -67,13 +68,13 @@ def develop(
     """Develop a picture.
 
     Args:
-        light: (H, H, 3) linear Rec. 709, rendered through a lens without distortion; NaN and negative values are black.
+        light: (H, W, 3) linear Rec. 709, rendered through a lens without distortion; NaN and negative values are black.
         development: settings of the camera.
         distortion: radial distortion of the camera's lens; see `farm.scene.camera.Camera`.
         lit_by: (3,) linear Rec. 709, colour of the scene's light, which the white balance mostly removes.
 
     Returns:
-        (H, H, 3) uint8 sRGB.
+        (H, W, 3) uint8 sRGB.
 
     Raises:
         RenderError: if OpenCV can't compress the picture.
@@ -82,7 +83,8 @@ def develop(
     light = balance(light, development.white_balance, lit_by)
     light = np.minimum(bleed(vignette(light, development.vignetting)), np.float32(MOST_LIGHT))
     larger = development.chromatic_aberration
-    light = Distortion(distortion).distort(light, (1.0 + larger, 1.0, 1.0 - larger))
+    lens = Distortion(distortion, PictureSize.of_array(light.shape))
+    light = lens.distort(light, (1.0 + larger, 1.0, 1.0 - larger))
     rng = np.random.default_rng(development.seed)
     light = add_noise(light, development.full_well, development.read_noise, rng)
     levels = saturate(tone(light, development.contrast), development.saturation)
@@ -102,12 +104,12 @@ def expose(light: Light, key: float, exposure_ev: float) -> Light:
     mean, which holes and shadows hardly sway. A black picture stays black.
 
     Args:
-        light: (H, H, 3) linear Rec. 709.
+        light: (H, W, 3) linear Rec. 709.
         key: wanted mean, 0 to 1.
         exposure_ev: error of the exposure, in stops.
 
     Returns:
-        (H, H, 3) exposed light.
+        (H, W, 3) exposed light.
     """
     metered = slice(_METERED_STEP // 2, None, _METERED_STEP)
     seen = luminance(np.ascontiguousarray(light[metered, metered]))
@@ -128,12 +130,12 @@ def balance(light: Light, error: tuple[float, float], lit_by: NDArray[np.float64
     """Remove most of the colour of the scene's light, with an error. A grey object keeps its luminance.
 
     Args:
-        light: (H, H, 3) linear Rec. 709.
+        light: (H, W, 3) linear Rec. 709.
         error: gains of red and blue.
         lit_by: (3,) linear Rec. 709, colour of the scene's light.
 
     Returns:
-        (H, H, 3) balanced light.
+        (H, W, 3) balanced light.
     """
     lit_by = np.maximum(lit_by, _LEAST_LIT * lit_by.max())
     left = lit_by ** (1.0 - ADAPTED) * [error[0], 1.0, error[1]]
@@ -146,23 +148,27 @@ def vignette(light: Light, lost: float) -> Light:
     """Darken a picture towards its corners by cos^4 of the angle at which light meets the sensor, like a simple lens.
 
     Args:
-        light: (H, H, 3) linear Rec. 709.
+        light: (H, W, 3) linear Rec. 709.
         lost: share of the light that the corners lose, 0 to 1, which sets the angle there.
 
     Returns:
-        (H, H, 3) light.
+        (H, W, 3) light.
     """
     if lost == 0.0:
         return light
     corner = 1.0 / math.sqrt(max(1.0 - lost, 1e-4)) - 1.0  # tan^2 of the angle at the corners
-    place = (2 * np.arange(len(light), dtype=np.float32) + 1) / len(light) - 1
-    squared = np.float32(corner / 2) * place**2
-    left = 1.0 / (1.0 + squared[:, None] + squared[None, :]) ** 2
+    rows, columns = light.shape[:2]
+    down, right = (
+        np.float32(corner * (edge**2 / (rows**2 + columns**2)))
+        * ((2 * np.arange(edge, dtype=np.float32) + 1) / edge - 1) ** 2
+        for edge in (rows, columns)
+    )
+    left = 1.0 / (1.0 + down[:, None] + right[None, :]) ** 2
     return light * left[:, :, None]
 
 
 def bleed(light: Light) -> Light:
-    """Add a share of the brightest channel's light above 1 to all channels of (H, H, 3): a sensor's filters overlap.
+    """Add a share of the brightest channel's light above 1 to all channels of (H, W, 3): a sensor's filters overlap.
 
     A strongly coloured light becomes paler the brighter it is, and finally white.
     """
@@ -174,13 +180,13 @@ def add_noise(light: Light, full_well: float, read_noise: float, rng: np.random.
     """Add shot noise and read noise, whose variance at light x is x / full_well + (read_noise / full_well)^2.
 
     Args:
-        light: (H, H, 3) linear Rec. 709, 0 or more; 1 fills the wells.
+        light: (H, W, 3) linear Rec. 709, 0 or more; 1 fills the wells.
         full_well: electrons of a full well; 0 adds no noise.
         read_noise: standard deviation of the read noise, in electrons.
         rng: random generator of the noise.
 
     Returns:
-        (H, H, 3) light, 0 or more; without noise it is the light itself.
+        (H, W, 3) light, 0 or more; without noise it is the light itself.
     """
     if full_well == 0.0:
         return light
@@ -227,7 +233,7 @@ def curve(light: NDArray[np.float64], contrast: float) -> NDArray[np.float64]:
 
 
 def saturate(levels: Levels, saturation: float) -> Levels:
-    """Multiply the distance of levels (H, H, 3) from the grey of the same luminance by `saturation`."""
+    """Multiply the distance of levels (H, W, 3) from the grey of the same luminance by `saturation`."""
     if saturation == 1.0:
         return levels
     grey = luminance(levels)[:, :, None]
@@ -235,7 +241,7 @@ def saturate(levels: Levels, saturation: float) -> Levels:
 
 
 def sharpen(levels: Levels, amount: float) -> Levels:
-    """Sharpen levels (H, H, 3) by an unsharp mask on their luminance, with the strength `amount`; 0 changes nothing."""
+    """Sharpen levels (H, W, 3) by an unsharp mask on their luminance, with the strength `amount`; 0 changes nothing."""
     if amount == 0.0:
         return levels
     grey = luminance(levels)

@@ -1,6 +1,6 @@
 """The radial distortion of a lens, a map of the picture's plane onto itself, and its inverse. Pure numpy and OpenCV.
 
-Places are relative to the picture's middle, in units in which the corners of the square picture have radius 1.
+Places are relative to the picture's middle, in units in which the picture's corners have radius 1.
 """
 
 import math
@@ -10,8 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-_EDGE = math.sqrt(0.5)
-"""Radius of the middle of a picture's edge, where the corners have radius 1."""
+from farm.scene.picture_size import PictureSize
 
 _STEPS = 8
 """Number of steps of Newton's method: enough to go from an error of 20 % to the last bit."""
@@ -26,14 +25,27 @@ class Distortion:
     r_u is the radius without distortion, r_d the radius with it. The polynomial goes from the distorted to the
     undistorted radius, the direction in which a picture is looked up; places are moved by its inverse. Beyond the
     corners a straight line continues it, so that it rises everywhere and nothing from outside is folded into the
-    picture. The scale is the smallest with which an undistorted square fills the picture: a barrel keeps the corners in
-    their place, a pincushion the middles of the edges.
+    picture. The scale is the smallest with which an undistorted picture fills the distorted one: a barrel keeps the
+    corners in their place, a pincushion the middles of the longer edges, which are the nearest.
 
     Attributes:
         at_corner: share by which a corner lies farther from the middle, before the scale; negative is a barrel.
+        size: size of the picture.
     """
 
     at_corner: float
+    size: PictureSize
+
+    @property
+    def corner_px(self) -> float:
+        """Distance of the picture's corners from its middle, in pixels."""
+        width, height, longer = self.size.width, self.size.height, self.size.longer
+        return longer * math.sqrt((width**2 + height**2) / (2 * longer) ** 2)
+
+    @property
+    def _nearest(self) -> float:
+        """Radius of the middle of the longer edges."""
+        return math.sqrt(self.size.shorter**2 / (self.size.width**2 + self.size.height**2))
 
     @property
     def _cubic(self) -> float:
@@ -42,8 +54,9 @@ class Distortion:
 
     @property
     def _scale(self) -> float:
-        edge = float(self._outwards(np.array([_EDGE]))[0])
-        return max(1.0 / (1.0 + self.at_corner), _EDGE / edge)
+        nearest = self._nearest
+        moved = float(self._outwards(np.array([nearest]))[0])
+        return max(1.0 / (1.0 + self.at_corner), nearest / moved)
 
     def move(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
         """Move places (N, 2) in a picture without distortion to where the lens shows them."""
@@ -67,11 +80,11 @@ class Distortion:
         """Distort a picture, with cubic interpolation between pixels.
 
         Args:
-            light: (H, H, 3) linear, from a lens without distortion.
+            light: (H, W, 3) linear, of the picture's size, from a lens without distortion.
             enlarged: further scale of each channel, for lateral chromatic aberration.
 
         Returns:
-            (H, H, 3) linear, 0 or more, as the lens shows it.
+            (H, W, 3) linear, 0 or more, as the lens shows it.
         """
         if self.at_corner == 0.0 and enlarged == (1.0, 1.0, 1.0):
             return light
@@ -86,17 +99,16 @@ class Distortion:
         return np.stack(list(channels), axis=-1)
 
     def _look_up(self, light: Light, enlarged: float) -> Light:
-        half = len(light) / 2
         scale = 1.0 / (self._scale * enlarged)
-        offset = ((np.arange(len(light)) + 0.5 - half) * scale).astype(np.float32)
-        # In pixels the corner's radius is half a diagonal, the square root of twice the square of half an edge.
-        squared = offset**2 * np.float32(self._cubic / (2 * half**2))
-        farther = 1 + squared[:, None] + squared[None, :]
-        middle = np.float32(half - 0.5)
+        down, right = (((np.arange(edge) + 0.5 - edge / 2) * scale).astype(np.float32) for edge in self.size.shape)
+        # In pixels the corner's radius is half a diagonal.
+        bend = np.float32(self._cubic / ((self.size.width**2 + self.size.height**2) / 4))
+        farther = 1 + (down**2 * bend)[:, None] + (right**2 * bend)[None, :]
+        below, beside = (np.float32(edge / 2 - 0.5) for edge in self.size.shape)
         found: Light = cv2.remap(
             light,
-            farther * offset[None, :] + middle,
-            farther * offset[:, None] + middle,
+            farther * right[None, :] + beside,
+            farther * down[:, None] + below,
             cv2.INTER_CUBIC,
             borderMode=cv2.BORDER_REPLICATE,
         ).astype(np.float32, copy=False)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from farm.scene.camera import FOCAL_LENGTH_MM, SENSOR_MM, Camera
+from farm.scene.picture_size import PictureSize
 from worker.camera.distortion import Distortion
 from worker.curves import Points
 
@@ -24,9 +25,9 @@ class View:
 
     Attributes:
         height_m: distance from the origin along the view, in metres; without tilt the height above the floor.
-        resolution: edge of the square picture, in pixels.
+        resolution: size of the picture, in pixels.
         pinhole_m: point of the lens, to the right and up from its middle, in metres.
-        focal_length_mm: focal length on a sensor of 36 mm.
+        focal_length_mm: focal length on a sensor whose longer edge is 36 mm.
         tilt_deg: angle between the view and straight down, in degrees.
         tilt_bearing_deg: bearing of the side to which a tilted camera stands, in degrees from the x axis.
         roll_deg: rotation about the view, in degrees, counter-clockwise seen from above.
@@ -35,7 +36,7 @@ class View:
     """
 
     height_m: float
-    resolution: int
+    resolution: PictureSize
     pinhole_m: tuple[float, float] = (0.0, 0.0)
     focal_length_mm: float = FOCAL_LENGTH_MM
     tilt_deg: float = 0.0
@@ -45,12 +46,12 @@ class View:
     distortion: float = 0.0
 
     @classmethod
-    def of(cls, camera: Camera, resolution: int) -> Self:
+    def of(cls, camera: Camera, resolution: PictureSize) -> Self:
         """Make the view through the middle of a camera's lens.
 
         Args:
             camera: camera of a scene.
-            resolution: edge of the square picture, in pixels.
+            resolution: size of the picture, in pixels.
         """
         return cls(
             height_m=camera.height_m,
@@ -105,7 +106,7 @@ class View:
     @property
     def focal_length_px(self) -> float:
         """Focal length in pixels."""
-        return self.resolution * self.focal_length_mm / SENSOR_MM
+        return self.resolution.longer * self.focal_length_mm / SENSOR_MM
 
     @property
     def pixels_per_m(self) -> float:
@@ -134,9 +135,9 @@ class View:
         in_focus = np.multiply(self.pinhole_m, 1.0 - nearer) + nearer * seen[:, :2]
         from_middle = self.focal_length_px / self.focus_m * in_focus * [1.0, -1.0]
         if self.distortion:
-            corner = self.resolution * math.sqrt(0.5)
-            from_middle = corner * Distortion(self.distortion).move(from_middle / corner)
-        placed: NDArray[np.float64] = self.resolution / 2 + from_middle
+            lens = Distortion(self.distortion, self.resolution)
+            from_middle = lens.corner_px * lens.move(from_middle / lens.corner_px)
+        placed: NDArray[np.float64] = np.array([self.resolution.width / 2, self.resolution.height / 2]) + from_middle
         return placed
 
     def floor_corners_m(self, margin: float = 0.0) -> Points:
@@ -145,13 +146,13 @@ class View:
         A distorted picture shows no more than this; see `worker.camera.distortion`.
 
         Args:
-            margin: margin on each side, as a share of the picture's width.
+            margin: margin on each side, as a share of the picture's longer edge.
 
         Returns:
             (4, 3) metres.
         """
-        reach = (0.5 + margin) * SENSOR_MM / self.focal_length_mm
-        rays = np.array([[x, y, -1.0] for x, y in ((-reach, -reach), (reach, -reach), (reach, reach), (-reach, reach))])
+        right, up = ((0.5 * share + margin) * SENSOR_MM / self.focal_length_mm for share in self.resolution.shares)
+        rays = np.array([[x, y, -1.0] for x, y in ((-right, -up), (right, -up), (right, up), (-right, up))])
         towards = rays @ self.rotation.T
         down = np.maximum(-towards[:, 2], _LEVEL * np.linalg.norm(towards, axis=1))
         met: Points = self.position_m + (self.position_m[2] / down)[:, None] * towards

@@ -59,7 +59,7 @@ def label_cables(pieces: Sequence[Piece], view: View, sides: int) -> Labels:
         The binary mask and the instances.
     """
     seen = silhouettes(pieces, view, sides)
-    labels = np.zeros((view.resolution, view.resolution), np.uint16)
+    labels = np.zeros(view.resolution.shape, np.uint16)
     for rows, quads, instances in seen.bands(view):
-        labels[rows] = cover(quads, instances, rows.stop - rows.start, view.resolution)
+        labels[rows] = cover(quads, instances, rows.stop - rows.start, view.resolution.width)
     return Labels(mask=(labels > 0) * np.uint8(255), instances=labels)

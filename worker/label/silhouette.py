@@ -38,9 +38,9 @@ class Silhouettes:
             The rows; the quads (M, 4, 2), counted from the band's top; their instances (M,).
         """
         top, bottom = self.quads_px[:, :, 1].min(axis=1), self.quads_px[:, :, 1].max(axis=1)
-        band = max(1, _BAND_PIXELS // view.resolution)
-        for start in range(0, view.resolution, band):
-            end = min(start + band, view.resolution)
+        band = max(1, _BAND_PIXELS // view.resolution.width)
+        for start in range(0, view.resolution.height, band):
+            end = min(start + band, view.resolution.height)
             here = (bottom > start) & (top < end)
             yield slice(start, end), self.quads_px[here] - [0.0, float(start)], self.instances[here]
 

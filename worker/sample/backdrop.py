@@ -31,7 +31,7 @@ def sample_plate(header: DatasetHeader, rng: np.random.Generator) -> Plate | Non
         y=float(rng.random()),
         zoom=uniform(rng, ranges.zoom),
         mirror=chance(rng, 0.5),
-        blur_px=uniform(rng, ranges.blur_px) * header.spec.resolution / 512,
+        blur_px=uniform(rng, ranges.blur_px) * header.spec.resolution.longer / 512,
     )
 
 

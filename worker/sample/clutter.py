@@ -2,14 +2,15 @@
 
 import numpy as np
 
-from farm.model import Rgb
+from farm.model import Rgb, Vector2
 from farm.scene.clutter import Part, PartKind, Sheet, SheetKind, Stick, StickKind
 from farm.spec.ranges.clutter import ClutterRanges
 from farm.spec.ranges.placement import SPACING_DIAMETERS
 from worker.sample.values import chance, level, log_uniform, pattern_seed, rgb, uniform
 
 _REACH = 0.45
-"""Largest distance of an object's middle from the picture's middle, along each axis, as a share of the width."""
+"""Largest distance of an object's middle from the picture's middle, along each axis, as a share of the picture's edge
+along that axis."""
 
 _SHEET_SIZES_M: dict[SheetKind, tuple[tuple[float, float], tuple[float, float]]] = {
     SheetKind.TAPE: ((0.05, 0.5), (0.010, 0.050)),
@@ -36,12 +37,12 @@ _SLENDER = 9.0
 """Least length of a stick, in its diameters: a shorter one would not look like a cable."""
 
 
-def sample_sticks(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Stick, ...]:
+def sample_sticks(ranges: ClutterRanges, seen_m: Vector2, rng: np.random.Generator) -> tuple[Stick, ...]:
     """Sample sticks that start one above the other, from the floor up.
 
     Args:
         ranges: ranges of the style.
-        seen_m: width of the picture on the floor, in metres.
+        seen_m: width and height of the picture on the floor, in metres.
         rng: random generator of the clutter.
     """
     sticks: list[Stick] = []
@@ -49,14 +50,14 @@ def sample_sticks(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator
     for _ in range(level(rng, ranges.sticks)):
         kind = list(StickKind)[int(rng.integers(len(StickKind)))]
         # A stick thicker than a tenth of the picture would look like a wall.
-        diameter = min(log_uniform(rng, ranges.stick_diameter_m), 0.1 * seen_m)
+        diameter = min(log_uniform(rng, ranges.stick_diameter_m), 0.1 * min(seen_m))
         sticks.append(
             Stick(
                 kind=kind,
                 diameter_m=diameter,
                 length_m=max(uniform(rng, ranges.stick_length_m), _SLENDER * diameter),
-                x_m=_place(seen_m, rng),
-                y_m=_place(seen_m, rng),
+                x_m=_place(seen_m[0], rng),
+                y_m=_place(seen_m[1], rng),
                 start_height_m=start,
                 rotation_deg=float(rng.uniform(0.0, 360.0)),
                 colour=rgb(rng, (0, 255)),
@@ -67,7 +68,7 @@ def sample_sticks(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator
     return tuple(sticks)
 
 
-def sample_sheets(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Sheet, ...]:
+def sample_sheets(ranges: ClutterRanges, seen_m: Vector2, rng: np.random.Generator) -> tuple[Sheet, ...]:
     """Sample flat objects, the lowest first; the arguments are those of `sample_sticks`."""
     sheets: list[Sheet] = []
     for _ in range(level(rng, ranges.sheets)):
@@ -76,8 +77,8 @@ def sample_sheets(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator
         sheets.append(
             Sheet(
                 kind=kind,
-                x_m=_place(seen_m, rng),
-                y_m=_place(seen_m, rng),
+                x_m=_place(seen_m[0], rng),
+                y_m=_place(seen_m[1], rng),
                 rotation_deg=float(rng.uniform(0.0, 360.0)),
                 length_m=uniform(rng, lengths),
                 width_m=log_uniform(rng, widths),
@@ -88,7 +89,7 @@ def sample_sheets(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator
     return tuple(sheets)
 
 
-def sample_parts(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator) -> tuple[Part, ...]:
+def sample_parts(ranges: ClutterRanges, seen_m: Vector2, rng: np.random.Generator) -> tuple[Part, ...]:
     """Sample small objects; the arguments are those of `sample_sticks`."""
     parts: list[Part] = []
     for _ in range(level(rng, ranges.parts)):
@@ -96,8 +97,8 @@ def sample_parts(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator)
         parts.append(
             Part(
                 kind=kind,
-                x_m=_place(seen_m, rng),
-                y_m=_place(seen_m, rng),
+                x_m=_place(seen_m[0], rng),
+                y_m=_place(seen_m[1], rng),
                 rotation_deg=float(rng.uniform(0.0, 360.0)),
                 size_m=log_uniform(rng, _PART_SIZES_M[kind]),
                 colour=rgb(rng, (0, 255)),
@@ -107,8 +108,8 @@ def sample_parts(ranges: ClutterRanges, seen_m: float, rng: np.random.Generator)
     return tuple(parts)
 
 
-def _place(seen_m: float, rng: np.random.Generator) -> float:
-    return float(rng.uniform(-_REACH, _REACH)) * seen_m
+def _place(edge_m: float, rng: np.random.Generator) -> float:
+    return float(rng.uniform(-_REACH, _REACH)) * edge_m
 
 
 def _sheet_colour(kind: SheetKind, rng: np.random.Generator) -> Rgb:

@@ -43,10 +43,12 @@ def sample_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
     )
     substances = sample_substances(ranges.cable, count, counts)
     camera = sample_camera(ranges.camera, streams(Stage.CAMERA))
+    across, along = header.spec.resolution.shares
+    seen_m = (across * camera.seen_m, along * camera.seen_m)
     is_floor = traits.background is Background.FLOOR
     clutter_rng = streams(Stage.CLUTTER)
     cluttered = chance(clutter_rng, ranges.clutter.share) and is_floor
-    sticks = sample_sticks(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else ()
+    sticks = sample_sticks(ranges.clutter, seen_m, clutter_rng) if cluttered else ()
     is_lamp = traits.light is Light.CONCENTRATED
     lighting = sample_lamps(ranges.lamp, ranges.studio, streams(Stage.LIGHT)) if is_lamp else NO_LAMPS
     floor = sample_floor(ranges.floor, header, streams(Stage.FLOOR), streams(Stage.WEAR)) if is_floor else None
@@ -71,8 +73,8 @@ def sample_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         hdri_world=None if lighting.lamps else sample_world(header, traits.background, streams(Stage.WORLD)),
         plate=None if is_floor else sample_plate(header, streams(Stage.PLATE)),
         sticks=sticks,
-        sheets=sample_sheets(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else (),
-        parts=sample_parts(ranges.clutter, camera.seen_m, clutter_rng) if cluttered else (),
+        sheets=sample_sheets(ranges.clutter, seen_m, clutter_rng) if cluttered else (),
+        parts=sample_parts(ranges.clutter, seen_m, clutter_rng) if cluttered else (),
         camera=camera,
         development=sample_development(
             ranges.development, streams(Stage.DEVELOPMENT), over_light_floor=_is_light(header, floor)

@@ -52,5 +52,8 @@ class Ranges(Model):
 
 
 def seen_width_m(height_m: float) -> float:
-    """Compute the width of the floor, in metres, that a lens of `FOCAL_LENGTH_MM` sees from a height in metres."""
+    """Compute the length of the floor, in metres, that a lens of `FOCAL_LENGTH_MM` sees from a height in metres.
+
+    It is that along the picture's longer edge.
+    """
     return height_m * SENSOR_MM / FOCAL_LENGTH_MM

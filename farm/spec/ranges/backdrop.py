@@ -31,8 +31,8 @@ class PlateRanges(Model):
 
     Attributes:
         share: share of the far pictures that show a photograph, if the dataset has any.
-        zoom: edge of the visible square, as a share of the photograph's shorter side.
-        blur_px: radius of the blur disc, in pixels of a picture of 512 px.
+        zoom: width of the visible part, as a share of that of the largest part of the picture's shape.
+        blur_px: radius of the blur disc, in pixels of a picture whose longer edge is 512 px.
     """
 
     share: Fraction = 0.5

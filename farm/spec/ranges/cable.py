@@ -135,8 +135,8 @@ class CableRanges(Model):
         count: number of cables in a picture.
         count_draws: number of uniform draws of which the largest is taken: three draws from 1 to 8 give 6.5 on average.
         diameter_m: diameter in metres, sampled log-uniformly; one number stands for a range without width.
-        narrowest_share: smallest diameter, as a share of the picture's width on the floor.
-        widest_share: largest diameter, as a share of the picture's width on the floor.
+        narrowest_share: smallest diameter, as a share of the picture's longer edge on the floor.
+        widest_share: largest diameter, as a share of the picture's longer edge on the floor.
         length_m: length of a cable, in metres; one number stands for a range without width.
         far_length_m: length of a cable in far pictures, in metres; None is `length_m`. A far picture shows no floor, so
             a cable that ends in it seems to float.
@@ -183,7 +183,7 @@ class CableRanges(Model):
         return self
 
     def diameters_m(self, seen_m: float) -> tuple[float, float]:
-        """Compute the range of diameters, in metres, in a picture whose width on the floor is `seen_m` metres."""
+        """Compute the range of diameters, in metres, in a picture whose longer edge on the floor is `seen_m` metres."""
         narrowest, widest = self.narrowest_share * seen_m, self.widest_share * seen_m
         low, high = (min(max(end, narrowest), widest) for end in self.diameter_m)
         return low, high

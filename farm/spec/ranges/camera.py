@@ -41,8 +41,8 @@ class CameraRanges(Model):
 
     Attributes:
         heights_m: heights of a 50 mm lens above the floor, in metres, of which a picture has one; they set the cables'
-            size in pixels. Another lens stands at the distance that keeps the picture's width. Above 1.5 m a picture
-            would show the edge of the floor.
+            size in pixels. Another lens stands at the distance that keeps what the picture's longer edge sees. Above
+            1.5 m a picture would show the edge of the floor.
         f_number: focal length over the diameter of the aperture, sampled log-uniformly.
         focal_lengths_mm: focal lengths, in millimetres, of which a picture has one.
         tilt_deg: angle between the camera's view and straight down.

@@ -29,6 +29,7 @@ def write_toml(folder: Path, text: str) -> str:
         ([], ["number of images"]),
         (["--images", "1", "--seed", "-1"], ["seed"]),
         (["--images", "1", "--resolution", "3"], ["resolution"]),
+        (["--images", "1", "--resolution", "640*480"], ["resolution", "640x480", "not '640*480'"]),
         (["--images", "1", "--close-distributed-hdri", "moon"], ["moon", "there is no HDRI"]),
     ],
 )

@@ -20,12 +20,14 @@ from farm.dataset.outputs import (
     outputs_of,
 )
 from farm.dataset.paths import file_path, manifest_folder
+from farm.scene.picture_size import PictureSize
 from farm.spec.category import Category
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 
 JOB = Job.from_id("far-000001")
 SIZE = 8
+RESOLUTION = PictureSize.square(SIZE)
 
 
 def contents(**changed: Any) -> dict[str, Any]:
@@ -38,7 +40,7 @@ def contents(**changed: Any) -> dict[str, Any]:
 
 def faulty(found: dict[str, Any]) -> list[str]:
     """Roles of the outputs at fault."""
-    return [output.role for output, _ in find_faults(OUTPUTS, found, SIZE)]
+    return [output.role for output, _ in find_faults(OUTPUTS, found, RESOLUTION)]
 
 
 def test_the_published_layout() -> None:
@@ -116,9 +118,23 @@ def test_an_agreement_with_an_output_that_the_dataset_lacks() -> None:
         "lone",
         "lone",
         PNG,
-        lambda pixels, resolution: array_fault(pixels, (resolution, resolution), np.uint8),
+        lambda pixels, resolution: array_fault(pixels, resolution.shape, np.uint8),
         agreements=(Agreement(INSTANCES.role, lambda *_: "never agrees"),),
     )
     found = contents(lone=np.zeros((SIZE, SIZE), np.uint8))
-    assert list(find_faults((IMAGE, MASK, lone), {**found, "instances": None}, SIZE)) == []
-    assert list(find_faults((*OUTPUTS, lone), found, SIZE)) == [(lone, "never agrees")]
+    assert list(find_faults((IMAGE, MASK, lone), {**found, "instances": None}, RESOLUTION)) == []
+    assert list(find_faults((*OUTPUTS, lone), found, RESOLUTION)) == [(lone, "never agrees")]
+
+
+@pytest.mark.parametrize(("width", "height"), [(SIZE, SIZE // 2), (SIZE // 2, SIZE)])
+def test_width_and_height_are_told_apart(width: int, height: int) -> None:
+    """A picture that lies on its side is at fault, with its labels."""
+    instances = np.zeros((height, width), np.uint16)
+    found = {
+        "image": np.zeros((height, width, 3), np.uint8),
+        "mask": instances.astype(np.uint8),
+        "instances": instances,
+    }
+    upright, turned = PictureSize(width=width, height=height), PictureSize(width=height, height=width)
+    assert list(find_faults(OUTPUTS, found, upright)) == []
+    assert [output for output, _ in find_faults(OUTPUTS, found, turned)] == [IMAGE, MASK, INSTANCES]

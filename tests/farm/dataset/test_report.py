@@ -7,12 +7,13 @@ from urllib.parse import unquote
 
 import pytest
 
-from farm.dataset.dataset import Dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.dataset.index import done_manifests, write_index
 from farm.dataset.manifest import Manifest
 from farm.dataset.paths import INDEX_FILE, REPORT_FILE
 from farm.dataset.report import write_report
-from tests.stand_in import StandInRenderer
+from tests.stand_in import StandInRenderer, stand_in_header
 from worker.service.upload import upload
 
 
@@ -78,6 +79,16 @@ def test_page_shows_every_picture_with_its_mask(made: Dataset) -> None:
     pictures = [unquote(reference) for reference in page.references if not reference.startswith("#")]
     assert set(pictures) <= made.storage.files().keys()
     assert page.tags.count("img") == 8
+
+
+@pytest.mark.parametrize(("resolution", "shape", "size"), [(32, "32 / 32", "32 x 32"), ("64x32", "64 / 32", "64 x 32")])
+def test_page_shows_pictures_in_their_shape(tmp_path: Path, resolution: int | str, shape: str, size: str) -> None:
+    """The cards have the shape of the dataset's pictures, and the facts tell its size."""
+    shaped = create_dataset(Destination(str(tmp_path), "shaped"), stand_in_header(resolution=resolution))
+    write_report(shaped)
+    page = shaped.storage.read(REPORT_FILE).decode()
+    assert f"aspect-ratio: {shape};" in page
+    assert f"<dd>{size} px</dd>" in page
 
 
 def test_page_stands_alone(made: Dataset) -> None:

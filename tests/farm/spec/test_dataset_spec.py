@@ -91,3 +91,21 @@ def test_seeds(seed: object) -> None:
     """A seed is a whole number that fits in 64 bits."""
     with pytest.raises(SpecError, match="seed"):
         parse_spec({"images": 1, "seed": seed}, source="test")
+
+
+@pytest.mark.parametrize("resolution", ["640x", "0x480", 31, 8193, -640, 10**20, "5120x32", 640.0, [640, 480, 3]])
+def test_sizes_that_no_dataset_has(resolution: object) -> None:
+    """The error names the key in one line."""
+    with pytest.raises(SpecError, match=r"^spec\.toml: resolution: expected [^\n]*$"):
+        parse_spec({"images": 1, "resolution": resolution}, source="spec.toml")
+
+
+@pytest.mark.parametrize(("resolution", "same"), [("512x512", 512), ([96, 96], 96), ([640, 480], "640x480")])
+def test_a_size_is_the_same_however_it_is_given(resolution: object, same: object) -> None:
+    """A dataset is what it was whichever way its size is written; a square's header has a number."""
+    given, other = (
+        parse_spec({"images": 1, "resolution": size}, source="test").model_dump(mode="json")
+        for size in (resolution, same)
+    )
+    assert given == other
+    assert given["resolution"] == same

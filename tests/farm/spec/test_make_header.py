@@ -182,7 +182,7 @@ def test_flags_override_the_file(tmp_path: Path) -> None:
     file = tmp_path / "cables.toml"
     file.write_text('images = 3\nseed = 4\nresolution = 64\ntemplate = "mine.blend"')
     found = describe(file, {"seed": 5, "quotas": {"far": 2}}, {"template": Path("yours.blend")})
-    assert (found.spec.seed, found.spec.resolution, found.spec.total) == (5, 64, 2)
+    assert (found.spec.seed, found.spec.resolution.width, found.spec.total) == (5, 64, 2)
     assert found.inputs.template == Path("yours.blend")
 
 

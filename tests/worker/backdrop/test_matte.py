@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from farm.scene.picture_size import PictureSize
 from tests.worker.scenes import tubular
 from worker.backdrop.matte import Matte, covered_by, lay_over
 from worker.camera.view import View
@@ -11,7 +12,7 @@ from worker.curves import Points
 
 RADIUS = 0.001
 SIDES = 64
-VIEW = View(height_m=0.12, resolution=128)
+VIEW = View(height_m=0.12, resolution=PictureSize.square(128))
 
 
 def bar(z: float = RADIUS, shift: float = 0.0) -> Points:
@@ -27,14 +28,14 @@ def covered(curve: Points, lens_radius_m: float) -> NDArray[np.float32]:
 
 def profile(curve: Points, lens_radius_m: float) -> NDArray[np.float32]:
     """The coverage across a cable that runs down the picture."""
-    across: NDArray[np.float32] = covered(curve, lens_radius_m)[VIEW.resolution // 2]
+    across: NDArray[np.float32] = covered(curve, lens_radius_m)[VIEW.resolution.height // 2]
     return across
 
 
 def test_a_pinhole_sees_the_width_of_a_cylinder() -> None:
     """A cylinder of radius r at distance d is f 2 r / sqrt(d^2 - r^2) pixels wide; edge pixels hold their share."""
     distance = VIEW.height_m - RADIUS
-    width = VIEW.resolution * 50 / 36 * 2 * RADIUS / np.sqrt(distance**2 - RADIUS**2)
+    width = VIEW.resolution.width * 50 / 36 * 2 * RADIUS / np.sqrt(distance**2 - RADIUS**2)
     assert profile(bar(shift=0.0003), 0.0).sum() == pytest.approx(width, rel=2e-3)
 
 
@@ -44,7 +45,7 @@ def test_a_lens_blurs_by_its_disc(height: float) -> None:
 
     Across a straight cable that is the disc's width, 2 sqrt(1 - s^2) at s of its radius.
     """
-    lens, radius, view = 0.002, 0.004, View(height_m=0.12, resolution=512)
+    lens, radius, view = 0.002, 0.004, View(height_m=0.12, resolution=PictureSize.square(512))
     sharp, blurred = (covered_by([tubular(bar(height), radius)], view, a, SIDES)[256] for a in (0.0, lens))
     disc_px = lens * height / (view.height_m - height) * view.pixels_per_m
     reach = int(np.ceil(disc_px))
@@ -94,7 +95,7 @@ def test_ragged_samples_leave_the_edge_straight(matte: Matte) -> None:
     """Edge pixels of which all samples or none met the cable, row by row, come out between, and nearer each other."""
     colour = np.array([0.2, 0.1, 0.4], np.float32)
     edge = (matte.covered > 0.0) & (matte.covered < 1.0)
-    found = np.where(edge, np.arange(VIEW.resolution)[:, None] % 2, matte.covered)
+    found = np.where(edge, np.arange(VIEW.resolution.height)[:, None] % 2, matte.covered)
     laid = lay_over((found[:, :, None] * colour).astype(np.float32), matte)
     column = np.flatnonzero(edge[64])[0]
     share = matte.covered[64, column]

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from farm.scene.camera import Camera
+from farm.scene.picture_size import PictureSize
 from worker.backdrop.panorama import UPPER_WIDTH_PX, Panorama, panorama_backdrop, upper_world
 from worker.camera.lens import lens_radius_m
 from worker.camera.view import View
@@ -35,7 +36,7 @@ def spot(azimuth_deg: float, elevation_deg: float, rows: int = 256) -> Panorama:
 
 def backdrop(panorama: Panorama, turn: NDArray[np.float64], camera: Camera, resolution: int) -> NDArray[np.float32]:
     """What a camera sees of a panorama."""
-    return panorama_backdrop(panorama, turn, View.of(camera, resolution), lens_radius_m(camera))
+    return panorama_backdrop(panorama, turn, View.of(camera, PictureSize.square(resolution)), lens_radius_m(camera))
 
 
 def irradiance(panorama: Panorama) -> float:
@@ -115,3 +116,15 @@ def test_a_far_point_is_blurred_to_the_lenss_disc() -> None:
     sharp_spread, spread = (np.average((place - 127.5) ** 2, weights=light.sum(axis=0)) for light in (sharp, seen))
     radius = 0.5 * 0.0625 * 256 / 0.72
     assert spread - sharp_spread == pytest.approx(radius**2 / 4, rel=0.03)
+
+
+@pytest.mark.parametrize(("width", "height"), [(64, 48), (48, 64), (64, 16)])
+def test_an_oblong_picture_sees_the_middle_of_what_a_square_one_sees(width: int, height: int) -> None:
+    """Also out of focus, and looking askew."""
+    camera = Camera(height_m=0.2, f_number=8.0, tilt_deg=20.0, tilt_bearing_deg=50.0, roll_deg=15.0)
+    panorama = np.random.default_rng(0).random((64, 128, 3), np.float32)
+    size = PictureSize(width=width, height=height)
+    seen = panorama_backdrop(panorama, QUARTER_TURN, View.of(camera, size), lens_radius_m(camera))
+    top, left = (64 - height) // 2, (64 - width) // 2
+    square = backdrop(panorama, QUARTER_TURN, camera, 64)
+    assert seen == pytest.approx(square[top : top + height, left : left + width], abs=1e-5)

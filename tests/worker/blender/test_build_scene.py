@@ -14,6 +14,7 @@ from blend.world import is_as_built  # noqa: E402
 from farm.cli.installed_assets import InstalledAssets  # noqa: E402
 from farm.run.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from farm.scene.camera import Camera  # noqa: E402
+from farm.scene.picture_size import PictureSize  # noqa: E402
 from farm.spec.category import Category  # noqa: E402
 from farm.spec.header import DatasetHeader  # noqa: E402
 from farm.spec.job import Job  # noqa: E402
@@ -30,7 +31,8 @@ from worker.simulate.simulate import simulate  # noqa: E402
 pytestmark = pytest.mark.blender
 
 SURFACES = ("concrete_smooth", "rusted_steel")
-RESOLUTION = 128
+RESOLUTION = PictureSize.square(128)
+PORTRAIT = PictureSize(width=80, height=128)
 
 TILTED = Camera(
     height_m=0.12,
@@ -65,14 +67,15 @@ def set_up(
     samples: int,
     economy: Economy,
     camera: Camera | None = None,
+    resolution: PictureSize = RESOLUTION,
 ) -> BuiltScene:
     """Make a job's scene ready to render, as seen by another camera if one is given."""
     scene = sample_scene(header, job, 0)
     scene = scene.model_copy(update={"camera": camera or scene.camera})
     shapes = simulate(scene, header.spec.simulator, header.spec.fall)
     settings = PictureSettings(cycles=CyclesSettings(samples=samples, denoiser=Denoiser.NONE), economy=economy)
-    built = renderer.build(SettledGeometry(scene, shapes, settings.detail, RESOLUTION), economy)
-    renderer.use_cycles(settings, RESOLUTION, scene.render_seed)
+    built = renderer.build(SettledGeometry(scene, shapes, settings.detail, resolution), economy)
+    renderer.use_cycles(settings, resolution, scene.render_seed)
     return built
 
 
@@ -83,9 +86,10 @@ def picture(
     samples: int,
     economy: Economy,
     camera: Camera | None = None,
+    resolution: PictureSize = RESOLUTION,
 ) -> NDArray[np.float64]:
     """The first picture of a category, levels 0 to 255."""
-    built = set_up(header, renderer, Job(category=category, index=0), samples, economy, camera)
+    built = set_up(header, renderer, Job(category=category, index=0), samples, economy, camera, resolution)
     return renderer.render(built).astype(np.float64)
 
 
@@ -106,13 +110,17 @@ def test_what_is_out_of_view_is_not_missed(
     assert psnr_db(less, more) > 45
 
 
-@pytest.mark.parametrize("camera", [None, TILTED], ids=["down", "tilted"])
+@pytest.mark.parametrize(
+    ("camera", "resolution"),
+    [(None, RESOLUTION), (TILTED, RESOLUTION), (TILTED, PORTRAIT)],
+    ids=["down", "tilted", "portrait"],
+)
 def test_what_is_behind_is_what_paths_would_find(
-    header: DatasetHeader, renderer: BlenderRenderer, camera: Camera | None
+    header: DatasetHeader, renderer: BlenderRenderer, camera: Camera | None, resolution: PictureSize
 ) -> None:
     """A far picture with the HDRI looked up is that of 256 samples to 35 dB, which leaves their noise."""
-    looked_up = picture(header, renderer, Category.FAR, 64, Economy(), camera)
-    sampled = picture(header, renderer, Category.FAR, 256, REFERENCE.economy, camera)
+    looked_up = picture(header, renderer, Category.FAR, 64, Economy(), camera, resolution)
+    sampled = picture(header, renderer, Category.FAR, 256, REFERENCE.economy, camera, resolution)
     assert psnr_db(looked_up, sampled) > 35
     assert looked_up.mean() == pytest.approx(sampled.mean(), rel=0.01)
 

@@ -11,6 +11,7 @@ from benchmarks.masks.reference import render_coverage  # noqa: E402
 from farm.dataset.outputs import INSTANCES  # noqa: E402
 from farm.run.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from farm.scene.camera import Camera  # noqa: E402
+from farm.scene.picture_size import PictureSize  # noqa: E402
 from farm.scene.scene import Scene  # noqa: E402
 from farm.spec.category import Category  # noqa: E402
 from farm.spec.make_header import template_ref  # noqa: E402
@@ -24,7 +25,9 @@ from worker.simulate.simulate import simulate  # noqa: E402
 
 pytestmark = pytest.mark.blender
 
-RESOLUTION = 256
+RESOLUTION = PictureSize.square(256)
+
+SHAPES = {"landscape": PictureSize(width=256, height=144), "portrait": PictureSize(width=96, height=256)}
 
 CAMERAS = {
     "wide": Camera(
@@ -64,11 +67,13 @@ def renderer() -> BlenderRenderer:
     return open_renderer(header, RendererSettings(device=DeviceChoice.CPU))
 
 
-def seen_by(camera: Camera, settled: tuple[Scene, CableShapes]) -> SettledGeometry:
+def seen_by(
+    camera: Camera, settled: tuple[Scene, CableShapes], resolution: PictureSize = RESOLUTION
+) -> SettledGeometry:
     """The cables without a floor, before another camera."""
     scene, shapes = settled
     return SettledGeometry(
-        scene.model_copy(update={"camera": camera, "floor": None}), shapes, CableDetail(), RESOLUTION
+        scene.model_copy(update={"camera": camera, "floor": None}), shapes, CableDetail(), resolution
     )
 
 
@@ -76,18 +81,23 @@ def render_white(renderer: BlenderRenderer, geometry: SettledGeometry) -> NDArra
     """Coverage by the scene's cables as Cycles finds it."""
     settings = PictureSettings(cycles=CyclesSettings(samples=64, denoiser=Denoiser.NONE))
     renderer.build(geometry, settings.economy)
-    renderer.use_cycles(settings, RESOLUTION, seed=0)
+    renderer.use_cycles(settings, geometry.resolution, seed=0)
     return render_coverage(geometry.scene.camera, samples=128)
 
 
-@pytest.mark.parametrize("name", CAMERAS)
+@pytest.mark.parametrize(
+    ("name", "resolution"),
+    [*((name, RESOLUTION) for name in CAMERAS), ("wide", SHAPES["landscape"]), ("wide", SHAPES["portrait"])],
+    ids=str,
+)
 def test_a_mask_agrees_with_a_render_through_any_lens(
-    renderer: BlenderRenderer, settled: tuple[Scene, CableShapes], name: str
+    renderer: BlenderRenderer, settled: tuple[Scene, CableShapes], name: str, resolution: PictureSize
 ) -> None:
     """White cables on black, tilted, rolled, distorted: edges within a fifth of a pixel, area within a hundredth."""
-    geometry = seen_by(CAMERAS[name], settled)
+    geometry = seen_by(CAMERAS[name], settled, resolution)
     coverage = render_white(renderer, geometry)
     agreement = compare(renderer.label(geometry)[INSTANCES.role], coverage)
+    assert coverage.shape == resolution.shape
     assert agreement.iou > 0.97
     assert agreement.edge_error_px <= 0.2
     assert agreement.gap_pixels < 20

@@ -13,6 +13,7 @@ from farm.cli.installed_assets import InstalledAssets  # noqa: E402
 from farm.run.worker_settings import DeviceChoice, RendererSettings  # noqa: E402
 from farm.scene.clutter import PartKind, SheetKind, StickKind  # noqa: E402
 from farm.scene.floor import Wear  # noqa: E402
+from farm.scene.picture_size import PictureSize  # noqa: E402
 from farm.scene.scene import Scene  # noqa: E402
 from farm.spec.category import Category  # noqa: E402
 from farm.spec.header import DatasetHeader  # noqa: E402
@@ -30,7 +31,7 @@ from worker.simulate.simulate import simulate  # noqa: E402
 
 pytestmark = pytest.mark.blender
 
-RESOLUTION = 96
+RESOLUTION = PictureSize.square(96)
 NEUTRAL = Wear(
     brightness=1.0,
     tint=(1.0, 1.0, 1.0),

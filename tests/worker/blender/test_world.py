@@ -13,6 +13,7 @@ from blend.build import TEMPLATE  # noqa: E402
 from blend.contract import open_template  # noqa: E402
 from farm.scene.camera import Camera  # noqa: E402
 from farm.scene.light import AreaLamp, GreyWorld, StudioLamp  # noqa: E402
+from farm.scene.picture_size import PictureSize  # noqa: E402
 from farm.spec.rendering import CyclesSettings, Denoiser, PictureSettings  # noqa: E402
 from worker.blender.camera import set_camera  # noqa: E402
 from worker.blender.render import configure_cycles, configure_picture, render_picture  # noqa: E402
@@ -53,8 +54,8 @@ def white_floor() -> None:
     tree.links.new(white.outputs["BSDF"], output.inputs["Surface"])
     bpy.data.objects[names.CABLE].hide_render = True
     camera = Camera(height_m=0.1, f_number=8.0)
-    set_camera(camera, View.of(camera, RESOLUTION))
-    scene = configure_picture(RESOLUTION, 0)
+    set_camera(camera, View.of(camera, PictureSize.square(RESOLUTION)))
+    scene = configure_picture(PictureSize.square(RESOLUTION), 0)
     scene.view_settings.view_transform = "Raw"
     settings = PictureSettings(cycles=CyclesSettings(samples=64, denoiser=Denoiser.NONE, diffuse_bounces=0))
     configure_cycles(scene, settings, "cpu", 0)

@@ -210,3 +210,21 @@ def test_a_distorted_picture_is_filled() -> None:
     fringed = PLAIN.model_copy(update={"chromatic_aberration": 0.002})
     for distortion in (-0.2, 0.2):
         assert (develop(even(0.7), fringed, distortion=distortion) == 118).all()
+
+
+@pytest.mark.parametrize("shape", [(301, 401), (401, 133)])
+def test_the_corners_of_any_picture_lose_their_share(shape: tuple[int, int]) -> None:
+    """The corners lose the share that was asked for, and the loss depends on the distance from the middle alone."""
+    seen = steps.vignette(np.ones((*shape, 3), np.float32), 0.35)[..., 0]
+    corner, (row, column) = 0.65, (shape[0] // 2, shape[1] // 2)
+    assert seen[[0, 0, -1, -1], [0, -1, 0, -1]] == pytest.approx(np.full(4, corner), abs=0.01)
+    assert seen[row, column + 60] == pytest.approx(seen[row + 60, column], rel=1e-6)
+
+
+@pytest.mark.parametrize("shape", [(48, 64), (64, 48)])
+def test_every_step_keeps_the_shape(shape: tuple[int, int]) -> None:
+    """A picture of any shape goes through the whole camera."""
+    changes = {"vignetting": 0.3, "chromatic_aberration": 0.002, "sharpening": 0.5, "jpeg_quality": 80}
+    light = np.full((*shape, 3), 0.5, np.float32)
+    seen = steps.develop(light, NOISY.model_copy(update=changes), distortion=-0.05)
+    assert seen.shape == (*shape, 3)

@@ -9,10 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from farm.scene.camera import Camera
+from farm.scene.picture_size import PictureSize
 from worker.camera.view import View
 
 HEIGHT = 0.2
-RESOLUTION = 512
+RESOLUTION = PictureSize.square(512)
 
 tilts = st.floats(0, 30)
 angles = st.floats(-360, 360)
@@ -101,3 +102,43 @@ def test_the_steepest_slope_is_that_to_the_farthest_corner() -> None:
     assert turned(focal_length_mm=24.0).steepest_slope == pytest.approx(reach)
     tilted = turned(15.0, 45.0, focal_length_mm=24.0).steepest_slope
     assert tilted == pytest.approx(math.tan(math.atan(reach) + math.radians(15)))
+
+
+OBLONG = [PictureSize(width=512, height=170), PictureSize(width=170, height=512), PictureSize(width=512, height=384)]
+
+
+@given(tilt=tilts, bearing=angles, roll=angles, size=st.sampled_from(OBLONG))
+def test_an_oblong_picture_is_the_middle_of_a_square_one(
+    tilt: float, bearing: float, roll: float, size: PictureSize
+) -> None:
+    """With its longer edge as long, it shows things as large, at the same distance from the middle."""
+    square = turned(tilt, bearing, roll)
+    oblong = replace(square, resolution=size)
+    places = np.array([[0.0, 0.0, 0.0], [0.03, -0.02, 0.01], [-0.05, 0.01, 0.0]])
+    middle = np.array([size.width, size.height]) / 2
+    assert oblong.project(places) - middle == pytest.approx(square.project(places) - 256)
+    assert oblong.pixels_per_m == square.pixels_per_m
+
+
+@given(tilt=tilts, bearing=angles, roll=angles, size=st.sampled_from(OBLONG))
+def test_the_floor_that_an_oblong_picture_sees(tilt: float, bearing: float, roll: float, size: PictureSize) -> None:
+    """The corners of the seen floor are the picture's, and a square picture sees all of it."""
+    square = turned(tilt, bearing, roll)
+    corners = replace(square, resolution=size).floor_corners_m()
+    width, height = size.width, size.height
+    seen = replace(square, resolution=size).project(corners)
+    assert seen == pytest.approx(np.array([[0, height], [width, height], [width, 0], [0, 0]]), abs=1e-6)
+    inside = square.project(corners)
+    assert inside.min() > -1e-6
+    assert inside.max() < 512 + 1e-6
+
+
+@pytest.mark.parametrize("size", OBLONG)
+@pytest.mark.parametrize("distortion", [-0.2, 0.2])
+def test_distortion_is_told_at_the_corner_of_any_picture(size: PictureSize, distortion: float) -> None:
+    """The corner moves by 1 + the distortion against the middle, which stays in the middle."""
+    view = replace(turned(distortion=distortion), resolution=size)
+    corner = replace(view, distortion=0.0).floor_corners_m()[1:2]
+    middle = np.array([size.width, size.height]) / 2
+    far, near = (view.project(share * corner)[0] - middle for share in (1.0, 1e-6))
+    assert far / near * 1e-6 == pytest.approx(np.full(2, 1.0 + distortion), rel=1e-6)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from farm.scene.clutter import StickKind
+from farm.scene.picture_size import PictureSize
 from tests.worker.clutter.test_solid import volume_m3
 from tests.worker.clutter.things import make_stick
 from tests.worker.scenes import tubular
@@ -43,7 +44,7 @@ def test_a_label_of_the_outline_covers_the_rendered_mesh(kind: StickKind, seed: 
     turn = np.radians(35.0)
     ends = 0.045 + 0.03 * np.outer([-1, 1], [np.cos(turn), np.sin(turn)])
     nodes = np.column_stack([ends, np.full(2, stick.diameter_m / 2)])
-    view = View(height_m=0.2, resolution=512)
+    view = View(height_m=0.2, resolution=PictureSize.square(512))
     solid, _ = stick_solid(stick)
     axes, origin = placed_on(nodes)
     corners = view.project(solid.turned(axes).moved(origin).vertices_m)[solid.corners]

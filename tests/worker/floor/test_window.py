@@ -1,6 +1,7 @@
 """Windows on textures give the same picture from only the texels in view."""
 
 import math
+from dataclasses import replace
 
 import cv2
 import numpy as np
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from farm.scene.floor import Floor
+from farm.scene.picture_size import PictureSize
 from worker.camera.view import View
 from worker.floor.window import TextureWindow, texels_to_floor, tile_coordinates, window_on
 
@@ -44,7 +46,7 @@ def test_a_window_shows_what_the_whole_texture_shows(
 ) -> None:
     """Every place in view has the same texel as in the tile, wherever the texture lies."""
     lying = floor(x=x, y=y, turn=turn, scale=scale)
-    window = window_on(lying, SIZE_M, View(height_m=height, resolution=512), (SIZE,))
+    window = window_on(lying, SIZE_M, View(height_m=height, resolution=PictureSize.square(512)), (SIZE,))
     half = 0.5 * height * 36 / 50
     points = np.random.default_rng(1).uniform(-half, half, (200, 2))
     uvs = tile_coordinates(points, lying, SIZE_M)
@@ -60,7 +62,7 @@ def test_a_window_shows_what_the_whole_texture_shows(
 def test_texels_know_where_on_the_floor_they_lie(x: float, y: float, turn: float, scale: float) -> None:
     """The middle of a window's texel, taken to the floor and back to the window, is itself."""
     lying = floor(x=x, y=y, turn=turn, scale=scale)
-    window = window_on(lying, SIZE_M, View(height_m=0.33, resolution=512), (SIZE,), 4.0)
+    window = window_on(lying, SIZE_M, View(height_m=0.33, resolution=PictureSize.square(512)), (SIZE,), 4.0)
     rows, columns = window.cut(TILE, colour=True).shape[:2]
     to_floor = texels_to_floor(window, rows, columns, lying, SIZE_M)
     places = np.array([[0.0, 0.0], [columns - 1.0, 0.0], [3.0, rows - 1.0]])
@@ -73,7 +75,7 @@ def test_texels_know_where_on_the_floor_they_lie(x: float, y: float, turn: float
 def test_a_window_of_many_tiles_repeats_none_of_its_texels() -> None:
     """A tile of 0.12 m under a view of 0.24 m gives a window wider than the tile, with the tile's own texels."""
     lying = floor(turn=0.0, scale=0.3)
-    view = View(height_m=0.33, resolution=512)
+    view = View(height_m=0.33, resolution=PictureSize.square(512))
     window = window_on(lying, SIZE_M, view, (SIZE,), 4.0)
     assert window.width > 2.0
     assert window_on(lying, SIZE_M, view, (SIZE,)).width == 1.0
@@ -84,13 +86,15 @@ def test_a_window_of_many_tiles_repeats_none_of_its_texels() -> None:
 
 def test_a_near_camera_needs_few_texels() -> None:
     """At 0.09 m, 65 mm of 400 are in view: less than a tenth of the tile, even turned by 45 degrees."""
-    window = window_on(floor(turn=45.0), SIZE_M, View(height_m=0.09, resolution=512), ((2048, 2048),))
+    window = window_on(
+        floor(turn=45.0), SIZE_M, View(height_m=0.09, resolution=PictureSize.square(512)), ((2048, 2048),)
+    )
     assert window.width * window.height < 0.1
 
 
 def test_texels_finer_than_pixels_are_averaged() -> None:
     """128 pixels across 238 mm are 1.86 mm each: they get two texels of 0.93 mm instead of 9.5 of 0.195 mm."""
-    window = window_on(floor(), SIZE_M, View(height_m=0.33, resolution=128), ((2048, 2048),))
+    window = window_on(floor(), SIZE_M, View(height_m=0.33, resolution=PictureSize.square(128)), ((2048, 2048),))
     assert window.coarser == pytest.approx((0.33 * 36 / 50 / 128) / 2 / (SIZE_M / 2048))
     part = window.cut(np.full((2048, 2048, 3), 77, np.uint8), colour=True)
     assert part.shape[0] == round(window.height * 2048 / window.coarser)
@@ -109,7 +113,7 @@ def test_colours_are_averaged_as_light() -> None:
 def test_maps_of_different_sizes_share_a_window() -> None:
     """A map of half the size, made from the larger one, shows the same part."""
     small = cv2.resize(TILE, (128, 128), interpolation=cv2.INTER_AREA).astype(np.uint8)
-    window = window_on(floor(), SIZE_M, View(height_m=0.09, resolution=512), (SIZE, (128, 128)))
+    window = window_on(floor(), SIZE_M, View(height_m=0.09, resolution=PictureSize.square(512)), (SIZE, (128, 128)))
     large_part, small_part = window.cut(TILE, colour=False), window.cut(small, colour=False)
     assert large_part.shape[0] == 2 * small_part.shape[0]
     again = cv2.resize(large_part, small_part.shape[1::-1], interpolation=cv2.INTER_AREA)
@@ -118,13 +122,13 @@ def test_maps_of_different_sizes_share_a_window() -> None:
 
 def test_maps_whose_sizes_do_not_fit_are_taken_whole() -> None:
     """Sizes of 1000 and 1023 texels share no grid fine enough for a window."""
-    view = View(height_m=0.09, resolution=512)
+    view = View(height_m=0.09, resolution=PictureSize.square(512))
     assert window_on(floor(), SIZE_M, view, ((1000, 1000), (1023, 1023))) == TextureWindow.whole()
 
 
 def test_a_tile_smaller_than_the_view_is_taken_whole_and_repeats() -> None:
     """No window is larger than a tile, so that the texture repeats beyond it."""
-    window = window_on(floor(), 0.05, View(height_m=0.33, resolution=512), ((256, 256),))
+    window = window_on(floor(), 0.05, View(height_m=0.33, resolution=PictureSize.square(512)), ((256, 256),))
     assert (window.width, window.height) == (1.0, 1.0)
 
 
@@ -132,3 +136,20 @@ def test_a_turn_of_the_texture_keeps_lengths() -> None:
     """Points 10 mm apart are a fortieth of a tile of 0.4 m apart."""
     uvs = tile_coordinates(np.array([[0.0, 0.0], [0.01, 0.0]]), floor(turn=77.0), SIZE_M)
     assert math.dist(*uvs) == pytest.approx(0.025)
+
+
+@given(
+    turn=st.floats(0, 360),
+    tilt=st.sampled_from([0.0, 15.0]),
+    size=st.sampled_from([PictureSize(width=512, height=128), PictureSize(width=384, height=512)]),
+)
+def test_an_oblong_view_needs_a_part_of_a_square_ones_window(turn: float, tilt: float, size: PictureSize) -> None:
+    """All of the floor in the picture is in the window, which is no larger than the square picture's."""
+    lying = floor(turn=turn)
+    square = View(height_m=0.15, resolution=PictureSize.square(512), tilt_deg=tilt, tilt_bearing_deg=70.0)
+    view = replace(square, resolution=size)
+    window, larger = (window_on(lying, SIZE_M, seen, (SIZE,)) for seen in (view, square))
+    placed = window.place(tile_coordinates(view.floor_corners_m()[:, :2], lying, SIZE_M))
+    assert placed.min() > 0
+    assert placed.max() < 1
+    assert window.width * window.height <= larger.width * larger.height

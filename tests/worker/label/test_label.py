@@ -1,11 +1,14 @@
 """Masks and instances, against known silhouettes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
 import worker.label.silhouette
+from farm.scene.picture_size import PictureSize
 from tests.worker.scenes import tubular
 from worker.cable.piece import OCCLUDER, Convex, Plain, Substance
 from worker.cable.tube import sweep
@@ -15,7 +18,7 @@ from worker.label.label import label_cables
 
 RADIUS = 0.001
 SIDES = 20
-VIEW = View(height_m=0.15, resolution=256)
+VIEW = View(height_m=0.15, resolution=PictureSize.square(256))
 
 
 def bar(angle_deg: float = 0.0, z: float = RADIUS, shift: float = 0.0, length: float = 0.4) -> Points:
@@ -36,7 +39,7 @@ def test_the_area_of_a_straight_cable_is_its_width_times_its_length(angle: float
     """A cylinder of radius r at distance d is f 2 r / sqrt(d^2 - r^2) wide, within 2 % (0.15 px)."""
     mask, _ = label(bar(angle))
     distance = VIEW.height_m - RADIUS
-    width = VIEW.resolution * 50 / 36 * 2 * RADIUS / np.sqrt(distance**2 - RADIUS**2)
+    width = VIEW.resolution.width * 50 / 36 * 2 * RADIUS / np.sqrt(distance**2 - RADIUS**2)
     middle = 128 / max(abs(np.cos(np.radians(angle))), abs(np.sin(np.radians(angle))))
     assert np.count_nonzero(mask) == pytest.approx(width * 2 * middle, rel=0.02)
 
@@ -75,7 +78,7 @@ def test_an_end_in_the_picture_is_cut_flat() -> None:
     """A cable of 20 mm with both ends in view has a mask 20 mm long, within a pixel."""
     mask, _ = label(bar(length=0.02))
     columns = np.flatnonzero(mask.any(axis=0))
-    expected = VIEW.resolution * 50 / 36 * 0.02 / (VIEW.height_m - RADIUS)
+    expected = VIEW.resolution.width * 50 / 36 * 0.02 / (VIEW.height_m - RADIUS)
     assert columns.max() - columns.min() + 1 == pytest.approx(expected, abs=1.0)
 
 
@@ -92,7 +95,7 @@ def test_what_hides_a_cable_is_background() -> None:
 @pytest.mark.parametrize("tilt", [0.0, 15.0, 30.0])
 def test_what_leans_on_the_camera_s_side_of_a_thick_thing_is_before_it(tilt: float) -> None:
     """At the height of a stick's axis, seen from the side, no part of the stick is in front."""
-    view = View(0.24, 256, focal_length_mm=24.0, tilt_deg=tilt, tilt_bearing_deg=180.0)
+    view = View(0.24, VIEW.resolution, focal_length_mm=24.0, tilt_deg=tilt, tilt_bearing_deg=180.0)
     along = np.linspace(-0.05, 0.05, 51)
     stick, cable = (
         np.stack([np.full_like(along, x), along, np.full_like(along, 0.006)], axis=1) for x in (0.12, 0.113)
@@ -111,7 +114,7 @@ def test_a_solid_covers_the_hull_of_its_corners() -> None:
     wide = tubular(bar(z=0.005), 0.01)
     open_px = np.count_nonzero(label_cables([wide], VIEW, SIDES).mask)
     left_px = np.count_nonzero(label_cables([wide, box], VIEW, SIDES).mask)
-    expected = 0.02 * 0.01 * (VIEW.resolution * 50 / 36 / (VIEW.height_m - 0.0102)) ** 2
+    expected = 0.02 * 0.01 * (VIEW.resolution.width * 50 / 36 / (VIEW.height_m - 0.0102)) ** 2
     assert open_px - left_px == pytest.approx(expected, rel=0.03)
 
 
@@ -149,3 +152,25 @@ def test_a_cable_that_reaches_the_camera_spoils_nothing() -> None:
     steep = np.linspace([-0.05, 0.05, RADIUS], [0.0, 0.05, 0.2], 201)
     _, instances = label(bar(), steep)
     assert (instances[126:130] == 1).all()
+
+
+@pytest.mark.parametrize(("width", "height"), [(256, 192), (192, 256), (256, 64)])
+@pytest.mark.parametrize("tilt", [0.0, 25.0])
+def test_an_oblong_picture_has_the_middle_of_a_square_ones_labels(width: int, height: int, tilt: float) -> None:
+    """With its longer edge as long, it shows the same cables at the same size, pixel for pixel."""
+    view = replace(VIEW, tilt_deg=tilt, tilt_bearing_deg=130.0, roll_deg=20.0)
+    pieces = [tubular(bar(15.0 + 45.0 * number, 0.001 * number), RADIUS, number) for number in (1, 2, 3)]
+    square = label_cables(pieces, view, SIDES)
+    oblong = label_cables(pieces, replace(view, resolution=PictureSize(width=width, height=height)), SIDES)
+    top, left = (256 - height) // 2, (256 - width) // 2
+    assert (oblong.instances == square.instances[top : top + height, left : left + width]).all()
+    assert oblong.instances.max() == 3
+
+
+def test_bands_follow_the_rows_of_a_portrait(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A picture that is higher than wide is labelled to its last row, in as many bands as it takes."""
+    view = replace(VIEW, resolution=PictureSize(width=64, height=256))
+    whole = label_cables([tubular(bar(90.0), RADIUS)], view, SIDES).mask
+    monkeypatch.setattr(worker.label.silhouette, "_BAND_PIXELS", 64 * 10)
+    assert (label_cables([tubular(bar(90.0), RADIUS)], view, SIDES).mask == whole).all()
+    assert (whole[-1] > 0).any()

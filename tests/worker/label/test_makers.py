@@ -8,6 +8,7 @@ import pytest
 
 from farm.dataset.formats import PNG
 from farm.dataset.outputs import IMAGE, INSTANCES, MASK, OUTPUTS, Output
+from farm.scene.picture_size import PictureSize
 from farm.spec.rendering import CableDetail
 from tests.worker.scenes import make_scene
 from worker.geometry import SettledGeometry
@@ -38,7 +39,7 @@ def straight_inputs() -> SettledGeometry:
         fall_s=0.0,
         steps=0,
     )
-    return SettledGeometry(scene, shapes, CableDetail(), 64)
+    return SettledGeometry(scene, shapes, CableDetail(), PictureSize.square(64))
 
 
 @pytest.mark.parametrize("name", sorted({output.maker for output in OUTPUTS if output.maker is not None}))

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from farm.scene.clutter import StickKind
+from farm.scene.picture_size import PictureSize
 from farm.spec.category import Category
 from farm.spec.rendering import CableDetail
 from tests.worker.clutter.things import make_stick
@@ -41,9 +42,9 @@ def settled(stick_height_m: float) -> CableShapes:
 def labelled(shapes: CableShapes, category: Category = Category.CLOSE_CONCENTRATED) -> NDArray[np.bool_]:
     """The pixels in which a picture of the cable and the pipe shows the cable."""
     scene = make_scene(category).model_copy(update={"sticks": (make_stick(StickKind.PIPE, length_m=0.1),)})
-    hiding = hiding_pieces(SettledGeometry(scene, shapes, CableDetail(), 256))
+    hiding = hiding_pieces(SettledGeometry(scene, shapes, CableDetail(), PictureSize.square(256)))
     pieces = [tubular(shapes.nodes_m[0], 0.001), *hiding]
-    return label_cables(pieces, View(height_m=0.2, resolution=256), 20).mask > 0
+    return label_cables(pieces, View(height_m=0.2, resolution=PictureSize.square(256)), 20).mask > 0
 
 
 def test_a_stick_above_a_cable_cuts_its_label() -> None:

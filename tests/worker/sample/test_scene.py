@@ -1,6 +1,7 @@
 """Sampling scenes: within the ranges, and from the job's own streams alone."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -138,3 +139,24 @@ def test_close_pictures_without_a_lamp_share_one_hdri() -> None:
     ]
     assert {world.hdri for world in scenes if world} == {"night"}
     assert {world.tilt_deg for world in scenes if world} == {0.0, 90.0}
+
+
+@pytest.mark.parametrize("category", Category)
+@pytest.mark.parametrize(("resolution", "across", "along"), [("512x384", 1.0, 0.75), ("128x512", 0.25, 1.0)])
+def test_the_shape_of_the_picture_decides_only_where_clutter_lies(
+    category: Category, resolution: str, across: float, along: float
+) -> None:
+    """Cables, camera, floor and light are those of the square picture; clutter lies in what the picture shows."""
+    cluttered = {"clutter": {"share": 1.0}}
+    clutter = {"sticks", "sheets", "parts"}
+    for index in range(10):
+        square = make_scene(category, index, style="wide", ranges=cluttered, resolution=512)
+        oblong = make_scene(category, index, style="wide", ranges=cluttered, resolution=resolution)
+        # Cables start above the sticks, which are thinner in a narrow picture.
+        other: dict[str, Any] = {**dict.fromkeys(clutter, True), "cables": {"__all__": {"start_height_m"}}}
+        assert oblong.model_dump(exclude=other) == square.model_dump(exclude=other)
+        for kind in clutter:
+            for thing, same in zip(getattr(oblong, kind), getattr(square, kind), strict=True):
+                assert thing.x_m == pytest.approx(across * same.x_m)
+                assert thing.y_m == pytest.approx(along * same.y_m)
+        assert all(stick.diameter_m <= 0.1 * min(across, along) * oblong.camera.seen_m for stick in oblong.sticks)
