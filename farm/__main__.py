@@ -1,6 +1,6 @@
 """`python -m farm`: the same as the command `farm`."""
 
-from farm.cli import main
+from farm.start import run_command
 
 if __name__ == "__main__":
-    main()
+    run_command()

@@ -17,6 +17,7 @@ from assets.surfaces.baked import load_baked, surface_directory
 from assets.surfaces.catalogue import SURFACES
 from farm.cli.display import console
 from farm.cli.options import AsJson
+from farm.environment import own_environment
 from farm.errors import AssetError, MachineError
 from farm.local.redis_server import find_redis_server
 from farm.machine import memory_bytes, usable_cores
@@ -163,10 +164,16 @@ def _blender() -> Check:
     if importlib.util.find_spec("bpy") is None:
         remedy = "pip install 'cable-farm[worker]'"
         return Check(name=name, ok=False, needed=True, detail="not installed", remedy=remedy)
-    program = "import bpy; print('version', bpy.app.version_string)"
+    # It looks where this process looks, which may have been put in order.
+    program = f"import sys; sys.path[:] = {sys.path!r}; import bpy; print('version', bpy.app.version_string)"
     try:
         result = subprocess.run(  # noqa: S603 - our own program
-            [sys.executable, "-P", "-c", program], capture_output=True, text=True, check=False, timeout=_BLENDER_S
+            [sys.executable, "-I", "-c", program],
+            env=own_environment(),
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=_BLENDER_S,
         )
     except subprocess.TimeoutExpired:
         return Check(

@@ -9,6 +9,7 @@ import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from farm.environment import own_environment
 from farm.errors import MachineError, RenderError, error_of
 from farm.local.workers import WORKER_COMMAND
 from farm.run.queue.broker import BROKER_VARIABLE
@@ -36,7 +37,7 @@ def become_worker(settings: WorkerSettings, broker_url: str) -> None:
     command = [*WORKER_COMMAND, *settings.serve_arguments()]
     sys.stdout.flush()
     sys.stderr.flush()
-    environment = {**os.environ, BROKER_VARIABLE: broker_url}
+    environment = {**own_environment(), BROKER_VARIABLE: broker_url}
     os.execve(command[0], command, environment)  # noqa: S606 - no shell is wanted
 
 
@@ -75,7 +76,11 @@ def ask_worker(
     # Errors go into a file: a pipe could fill up while the lines of the other are read.
     with tempfile.TemporaryFile() as errors:
         with subprocess.Popen(  # noqa: S603 - our own program and arguments
-            command, stdin=subprocess.PIPE, stdout=None if told is None else subprocess.PIPE, stderr=errors
+            command,
+            env=own_environment(),
+            stdin=subprocess.PIPE,
+            stdout=None if told is None else subprocess.PIPE,
+            stderr=errors,
         ) as process:
             _hand_over(process, b"" if header is None else header.model_dump_json().encode())
             for line in process.stdout or ():
