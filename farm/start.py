@@ -26,14 +26,14 @@ def program(module: str) -> tuple[str, ...]:
     return (sys.executable, "-I", "-X", f"utf8={sys.flags.utf8_mode}", str(ROOT / "farm" / "start.py"), module)
 
 
-def become(module: str, arguments: Sequence[str]) -> NoReturn:
-    """Run one of the farm's own modules in place of this process, in the farm's own environment."""
+def become(module: str, arguments: Sequence[str], **more: str) -> NoReturn:
+    """Run one of the farm's own modules in place of this process, in the farm's own environment with `more` variables."""
     from farm.environment import own_environment  # noqa: PLC0415 - the path must be in order first
 
     sys.stdout.flush()
     sys.stderr.flush()
     command = [*program(module), *arguments]
-    os.execve(command[0], command, own_environment())  # noqa: S606 - no shell is wanted
+    os.execve(command[0], command, {**own_environment(), **more})  # noqa: S606 - no shell is wanted
 
 
 def prepare() -> None:

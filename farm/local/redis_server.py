@@ -82,7 +82,9 @@ class PrivateRedis:
         arguments += ["--logfile", str(log)]
         self._process = subprocess.Popen(  # noqa: S603 - our own program and arguments
             tied([str(self._program), *arguments]),
-            env=own_environment(), stdin=subprocess.DEVNULL, start_new_session=True
+            env=own_environment(),
+            stdin=subprocess.DEVNULL,
+            start_new_session=True,
         )
         _wait(self.url, self._process, log)
 
