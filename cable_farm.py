@@ -6,8 +6,12 @@ from pathlib import Path
 
 def main() -> None:
     """Run the command line with the packages that lie beside this file."""
-    # Before all that the user has put there, and after the script's own folder, which comes first unless it is unsafe.
-    sys.path.insert(0 if sys.flags.safe_path else 1, str(Path(__file__).resolve().parent))
-    from farm.start import run_command  # noqa: PLC0415 - found in the folder above
-
+    sys.path.insert(0, str(Path(__file__).resolve().parent))
+    try:
+        from farm.start import run_command  # noqa: PLC0415 - found in the folder above
+    except ImportError:
+        # Something that ran before has imported another package of this name; its code is 14, that of MachineError.
+        found = getattr(sys.modules.get("farm"), "__file__", None)
+        sys.stderr.write(f"farm: {found}: stands in the place of the farm's own package; take it off Python's path\n")
+        sys.exit(14)
     run_command()

@@ -27,7 +27,7 @@ def program(module: str) -> tuple[str, ...]:
 
 
 def become(module: str, arguments: Sequence[str], **more: str) -> NoReturn:
-    """Run one of the farm's own modules in place of this process, in the farm's own environment with `more` variables."""
+    """Run one of the farm's own modules in place of this process, in the farm's own environment and `more`."""
     from farm.environment import own_environment  # noqa: PLC0415 - the path must be in order first
 
     sys.stdout.flush()
@@ -84,8 +84,9 @@ def _foreign() -> list[str]:
     given = os.environ.get("PYTHONPATH", "").split(os.pathsep)
     entries = [str(Path(entry).absolute()) for entry in given if entry]
     if not sys.flags.safe_path and sys.path:
-        # The folder of the script, or the working folder.
-        entries.append(str(Path(sys.path[0]).absolute()))
+        # The folder of the script, or the working folder; `cable_farm` may have put the root before it.
+        first = next((entry for entry in sys.path if entry != str(ROOT)), "")
+        entries.append(str(Path(first).absolute()))
     if site.ENABLE_USER_SITE:
         entries.append(site.getusersitepackages())
     # The programs that this one starts are isolated: they find these entries here.

@@ -41,7 +41,7 @@ _MEANINGS = (
         "this server lacks a command that the farm needs; take a Redis of version 5 or newer",
     ),
 )
-"""Patterns of Redis's words, also as a script or a pipeline repeats them, with their meaning; the first match counts."""
+"""Patterns of Redis's words, also as a script or pipeline repeats them, with their meaning; the first match counts."""
 
 
 def meaning(error: Exception) -> str | None:
