@@ -1,5 +1,6 @@
 """The farm's programs find the farm's own packages."""
 
+import json
 import os
 import subprocess
 import sys
@@ -8,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from farm.errors import MachineError
-from farm.start import ROOT, arranged, program
+from farm.start import PACKAGES, ROOT, arranged, program
 
 NAMESAKES = ("worker", "blend", "assets", "farm", "celery", "redis", "numpy", "pydantic", "queue", "calendar")
 
@@ -16,7 +17,7 @@ NAMESAKES = ("worker", "blend", "assets", "farm", "celery", "redis", "numpy", "p
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
     """A project of somebody that has modules of the farm's and its libraries' names; each of them tells of itself."""
-    for name in NAMESAKES:
+    for name in (*NAMESAKES, "only_here"):
         (tmp_path / f"{name}.py").write_text(f"print('the {name} of a project')\n")
     (tmp_path / "usercustomize.py").write_text("print('a customised Python')\n")
     return tmp_path
@@ -28,20 +29,23 @@ def run(command: list[str], folder: Path, **more: str) -> "subprocess.CompletedP
     return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
 
-@pytest.mark.parametrize(
-    ("module", "arguments"), [("worker.__main__", ["--help"]), ("farm.cli.flower", ["--help"]), ("farm.cli", [])]
-)
-def test_programs_find_their_own(project: Path, module: str, arguments: list[str]) -> None:
-    """A program of the farm runs whatever modules the working folder and PYTHONPATH hold."""
-    if module == "farm.cli":
-        starter = "import sys; sys.argv[1:] = ['--version']; import cable_farm; cable_farm.main()"
-        command = [sys.executable, "-P", "-c", starter]
-        found = run(command, project, PYTHONPATH=os.pathsep.join([".", str(ROOT)]))
-    else:
-        found = run([*program(module), *arguments], project)
+def test_programs_find_their_own(project: Path) -> None:
+    """A program of the farm finds no module of the working folder or of PYTHONPATH that has another home."""
+    found = run([*program("tests.farm.found_modules"), *NAMESAKES, "only_here"], project, OCIO="/nowhere")
+    assert found.returncode == 0, found.stderr
+    told = json.loads(found.stdout)
+    places = {name: Path(place).parent for name, place in told["origins"].items()}
+    assert [name for name, place in places.items() if place == project] == ["only_here"]
+    assert {places[name] for name in PACKAGES} == {ROOT / name for name in PACKAGES}
+    assert "OCIO" not in told["environment"]
+
+
+def test_the_command_finds_its_own(project: Path) -> None:
+    """The command `farm` runs in a project that has modules of all its names."""
+    starter = "import sys; sys.argv[1:] = ['--version']; import cable_farm; cable_farm.main()"
+    found = run([sys.executable, "-P", "-c", starter], project, PYTHONPATH=os.pathsep.join([".", str(ROOT)]))
     assert found.returncode == 0, found.stderr
     assert "of a project" not in found.stdout + found.stderr
-    assert "customised" not in found.stdout
 
 
 @pytest.mark.parametrize("name", ["worker", "farm"])

@@ -54,7 +54,7 @@ class CeleryQueue:
                     count += 1
         except (BatchPublishError, OperationalError, redis.RedisError, OSError) as error:
             raise BrokerError(
-                f"Redis failed after about {count} jobs were queued: {explained(error)}; submit again, nothing is doubled"
+                f"Redis failed after about {count} queued jobs: {explained(error)}; submit again, nothing is doubled"
             ) from error
         return count
 

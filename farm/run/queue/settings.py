@@ -46,6 +46,10 @@ class _App(Celery):  # type: ignore[misc]  # celery is untyped
         super().__init__("farm", broker=broker_url, loader=_Loader, fixups=(), set_as_current=False)
         self._farm_broker_url = broker_url
 
+    def connection(self, url: str | None = None, **options: Any) -> Any:
+        """Connect to the farm's Redis."""
+        return super().connection(url or self._farm_broker_url, **options)
+
     def connection_for_read(self, url: str | None = None, **options: Any) -> Any:
         """Connect to the farm's Redis."""
         return super().connection_for_read(url or self._farm_broker_url, **options)
