@@ -22,7 +22,7 @@ _MEANINGS = (
     (r"LOADING|loading the dataset in memory", "this Redis still loads its data; repeat the command in a moment"),
     (
         r"NOAUTH|WRONGPASS|Authentication required|invalid (username-)?password|invalid username|without any password"
-        r"|wrong number of arguments for 'auth'",
+        r"|wrong number of arguments for 'auth'|client already authenticated",
         "this Redis refuses the user or the password, or lack of them; write redis://USER:PASSWORD@HOST:PORT/NUMBER",
     ),
     (

@@ -30,7 +30,7 @@ def servers(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]
         urls = {name: stack.enter_context(refusing_redis(name, tmp_path_factory.mktemp(name))) for name in REFUSING}
         # All places of keys are at this one, so that it refuses only what spans two of them.
         cluster = redis.Redis.from_url(urls["cluster"])
-        cluster.execute_command("CLUSTER", "ADDSLOTS", *range(16384))
+        cluster.execute_command("CLUSTER", "ADDSLOTS", *range(16384))  # type: ignore[no-untyped-call]  # redis is typed in parts
         yield urls
 
 
@@ -74,7 +74,7 @@ def test_a_number_that_no_database_has(redis_url: str) -> None:
     [
         (
             "MISCONF Redis is configured to save RDB snapshots, but it's currently unable to persist to disk.",
-            "its disk",
+            "own disk",
         ),
         ("Redis is loading the dataset in memory", "still loads"),
         ("WRONGPASS invalid username-password pair or user is disabled.", "refuses the user"),
