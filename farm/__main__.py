@@ -1,6 +1,9 @@
 """`python -m farm`: the same as the command `farm`."""
 
-from farm.start import run_command
+from farm.start import prepare
 
 if __name__ == "__main__":
-    run_command()
+    prepare()
+    from farm.cli import main
+
+    main()

@@ -101,14 +101,6 @@ def _as_written(entries: Iterable[str], path: Iterable[str]) -> list[str]:
     return [entry for entry in path if entry and entry not in wanted and str(Path(entry).absolute()) in wanted]
 
 
-def run_command() -> None:
-    """Run the command `farm`."""
-    prepare()
-    from farm.cli import main  # noqa: PLC0415 - the path had to be in order first
-
-    main()
-
-
 if __name__ == "__main__":
     _, wanted, *words = sys.argv
     prepare()

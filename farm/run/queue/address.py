@@ -108,7 +108,9 @@ def _with_certificate_check(url: str, query: str) -> str:
             "ssl_ca_certs=FILE instead"
         )
     if unknown := sorted({key for key, _ in options} - _TLS_OPTIONS - {"ssl_cert_reqs"}):
-        raise BrokerError(f"'{masked(url)}': unknown option {unknown[0]!a}; TLS has {', '.join(sorted(_TLS_OPTIONS))}")
+        raise BrokerError(
+            f"'{masked(url)}': unknown option {ascii(unknown[0])[1:-1]}; TLS has {', '.join(sorted(_TLS_OPTIONS))}"
+        )
     # Celery knows the long word, redis-py the short one alone.
     spelt = url.replace("ssl_cert_reqs=CERT_REQUIRED", "ssl_cert_reqs=required")
     return spelt if checks else f"{url}{'&' if query else '?'}ssl_cert_reqs=required"
