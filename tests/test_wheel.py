@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
+COMMAND = "cable_farm.py"
 PACKAGES = ("assets", "blend", "farm", "worker")
 DATA = (".toml", ".json", ".html", ".lua", ".blend", ".typed")
 
@@ -19,7 +20,7 @@ def shipped(tmp_path_factory: pytest.TempPathFactory) -> set[str]:
     source, out = tmp_path_factory.mktemp("source"), tmp_path_factory.mktemp("wheel")
     for folder in (*PACKAGES, "benchmarks", "tests"):
         shutil.copytree(ROOT / folder, source / folder, ignore=shutil.ignore_patterns("__pycache__"))
-    for name in ("pyproject.toml", "README.md", "LICENSE"):
+    for name in ("pyproject.toml", "README.md", "LICENSE", COMMAND):
         shutil.copy(ROOT / name, source)
     command = [sys.executable, "-m", "pip", "wheel", "--quiet", "--disable-pip-version-check", "--no-deps"]
     command += ["--no-build-isolation", "--no-index", "--wheel-dir", str(out), str(source)]
@@ -30,8 +31,8 @@ def shipped(tmp_path_factory: pytest.TempPathFactory) -> set[str]:
 
 
 def test_benchmarks_and_tests_stay_out(shipped: set[str]) -> None:
-    """The wheel holds the four packages of the product, and nothing else."""
-    assert {name.partition("/")[0] for name in shipped} == set(PACKAGES)
+    """The wheel holds the four packages of the product and the module of its command, and nothing else."""
+    assert {name.partition("/")[0] for name in shipped} == {*PACKAGES, COMMAND}
 
 
 def test_modules_and_data_are_all_there(shipped: set[str]) -> None:

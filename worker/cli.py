@@ -61,10 +61,17 @@ def _parser() -> argparse.ArgumentParser:
     rooms.add_argument("--name", action="append", help="environment to render, by default all; may be repeated")
 
     one = commands.add_parser("preview", parents=[once], help="make one picture; the dataset's header comes by stdin")
-    one.add_argument("--job", required=True, help="id of the picture's job")
+    one.add_argument("--job", type=_read(_job), required=True, help="id of the picture's job")
     one.add_argument("--out", type=Path, required=True, help="file for the picture")
     one.add_argument("--mask", type=Path, help="file for its mask")
     return parser
+
+
+def _job(text: str) -> Job:
+    try:
+        return Job.from_id(text)
+    except MessageError as error:
+        raise ValueError(str(error)) from error
 
 
 def _read(convert: Callable[[str], T]) -> Callable[[str], T]:
@@ -141,7 +148,7 @@ def _environments(options: argparse.Namespace) -> int:
 
 
 def _preview(options: argparse.Namespace, open_renderer: OpenRenderer) -> int:
-    header, job = _read_header(), Job.from_id(options.job)
+    header, job = _read_header(), options.job
     with _output_in(options.logs / "preview.log"):
         made = open_renderer(header, options.renderer).make(job, header)
     # Both are encoded before the first is written, so that a failure leaves nothing.

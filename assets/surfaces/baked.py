@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from assets.files import read_bounded, sha256
 from assets.surfaces.recipe import SurfaceFamily
 from farm.errors import AssetError
-from farm.machine import cache_folder
+from farm.machine import cache_folder, expanded
 
 RECORD_NAME = "surface.json"
 """Name of the file with a surface's record, beside its maps; a surface without it counts as not baked."""
@@ -93,7 +93,7 @@ def surface_directory() -> Path:
     """Choose the folder of the surfaces: FARM_ASSETS, or `cable-farm/surfaces` in the user's cache folder."""
     chosen = os.environ.get("FARM_ASSETS")
     if chosen:
-        return Path(chosen).expanduser()
+        return expanded(chosen)
     return cache_folder() / "surfaces"
 
 

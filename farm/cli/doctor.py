@@ -16,18 +16,22 @@ from rich.markup import escape
 from assets.surfaces.baked import load_baked, surface_directory
 from assets.surfaces.catalogue import SURFACES
 from farm.cli.display import console
-from farm.cli.options import AsJson
-from farm.errors import AssetError, MachineError
+from farm.cli.options import AsJson, Broker
+from farm.environment import own_environment
+from farm.errors import AssetError, BrokerError, MachineError
 from farm.local.redis_server import find_redis_server
 from farm.machine import memory_bytes, usable_cores
 from farm.model import Model
+from farm.run.queue.broker import as_broker_error, broker_url, connect_to_write, is_named, policy_of
 
 
-def doctor(as_json: AsJson = False) -> None:
+def doctor(broker: Broker = None, as_json: AsJson = False) -> None:
     """Tell what this machine has and lacks, and the command that installs what is missing."""
     screen = console(results=True)
     with console().status("looking"):
         checks = examine(Path.cwd())
+        if broker is not None or is_named():
+            checks.append(examine_redis(broker))
     if as_json:
         typer.echo(to_json([check.model_dump() for check in checks], indent=1).decode())
     else:
@@ -163,10 +167,16 @@ def _blender() -> Check:
     if importlib.util.find_spec("bpy") is None:
         remedy = "pip install 'cable-farm[worker]'"
         return Check(name=name, ok=False, needed=True, detail="not installed", remedy=remedy)
-    program = "import bpy; print('version', bpy.app.version_string)"
+    # It looks where this process looks, which may have been put in order.
+    program = f"import sys; sys.path[:] = {sys.path!r}; import bpy; print('version', bpy.app.version_string)"
     try:
         result = subprocess.run(  # noqa: S603 - our own program
-            [sys.executable, "-P", "-c", program], capture_output=True, text=True, check=False, timeout=_BLENDER_S
+            [sys.executable, "-I", "-c", program],
+            env=own_environment(),
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=_BLENDER_S,
         )
     except subprocess.TimeoutExpired:
         return Check(
@@ -185,6 +195,31 @@ def _redis_server() -> Check:
     detail = str(found) if found else "not found; farm run needs it"
     # Only `farm run` starts a Redis; workers and coordinators of a cluster get the address of one.
     return Check(name="redis-server", ok=found is not None, needed=False, detail=detail, remedy=remedy)
+
+
+def examine_redis(broker: str | None) -> Check:
+    """Check the Redis that a farm of many machines shares.
+
+    Args:
+        broker: its address; None for that of the environment.
+
+    Returns:
+        Whether it takes writes, and forgets none of them by itself.
+    """
+    name = "Redis"
+    try:
+        with connect_to_write(broker_url(broker)) as client, as_broker_error():
+            policy = policy_of(client)
+    except BrokerError as error:
+        return Check(name=name, ok=False, needed=False, detail=str(error), remedy="see docs/operations.md, Addresses")
+    if policy is None:
+        detail = "takes writes; its access list hides what it does when it is full"
+        return Check(name=name, ok=True, needed=False, detail=detail)
+    if policy != "noeviction":
+        detail = f"takes writes, but when it is full it forgets keys, and jobs with them (maxmemory-policy {policy})"
+        remedy = "redis-cli CONFIG SET maxmemory-policy noeviction"
+        return Check(name=name, ok=False, needed=False, detail=detail, remedy=remedy)
+    return Check(name=name, ok=True, needed=False, detail="takes writes, and keeps them when it is full")
 
 
 def _surfaces() -> Check:

@@ -3,14 +3,18 @@
 import importlib.util
 import ipaddress
 import os
-import sys
 from typing import Annotated
 
 import typer
 
 from farm.cli.options import Broker
 from farm.errors import MachineError, SpecError
-from farm.run.queue.broker import broker_url, connect
+from farm.run.queue.broker import BROKER_VARIABLE, broker_url, connect
+from farm.run.queue.settings import make_app
+from farm.start import become
+
+_OF_CELERYS_COMMAND = ("APP", "BROKER_URL", "RESULT_BACKEND", "LOADER", "CONFIG_MODULE", "WORKDIR", "SKIP_CHECKS")
+"""Variables that Celery's command takes for its options. Their names are so common that other programs set them."""
 
 _PASSWORD_VARIABLE = "FLOWER_BASIC_AUTH"  # noqa: S105 - a name, no password
 
@@ -30,11 +34,21 @@ def flower(
         raise MachineError("Flower is not installed; run: pip install 'cable-farm[flower]'")
     url = broker_url(broker)
     connect(url).close()
-    command = [sys.executable, "-P", "-m", "celery", "flower", f"--address={address}", f"--port={port}"]
     typer.echo(f"Flower: http://{address}:{port}")
-    sys.stdout.flush()
-    # Celery reads the broker's address from the environment: every user sees arguments, and a password in them.
-    os.execve(command[0], command, {**os.environ, "BROKER_URL": url})  # noqa: S606 - no shell is wanted
+    # The broker's address goes by the environment: every user sees arguments, and a password in them.
+    become("farm.cli.flower", [f"--address={address}", f"--port={port}"], **{BROKER_VARIABLE: url})
+
+
+def main(arguments: list[str]) -> None:
+    """Run Flower in this process; `farm.start` calls it.
+
+    Args:
+        arguments: Flower's own options.
+    """
+    for name in _OF_CELERYS_COMMAND:
+        os.environ.pop(name, None)
+    # Flower would run a file of settings that lies in the working folder.
+    make_app(broker_url(None)).start(["flower", f"--conf={os.devnull}", *arguments])
 
 
 def _check_password(address: str) -> None:

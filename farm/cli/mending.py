@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from farm.cli.connection import handle_if_reachable, handle_of
-from farm.cli.options import Broker, DatasetPlace
+from farm.cli.options import Broker, DatasetPlace, job_of
 from farm.dataset.dataset import Dataset, open_dataset
 from farm.dataset.destination import parse_destination
 from farm.dataset.paths import manifest_path
@@ -16,7 +16,6 @@ from farm.errors import SpecError
 from farm.run.coordinator import Coordinator
 from farm.run.progress import RunHandle
 from farm.run.registry.port import RunState
-from farm.spec.job import Job
 
 
 def repair(
@@ -44,6 +43,8 @@ def retry(
     broker: Broker = None,
 ) -> None:
     """Take images out of quarantine, and queue them; without Redis the next farm run makes them."""
+    for job_id in jobs or []:
+        job_of(job_id)
     dataset = open_dataset(parse_destination(place))
     handle = handle_if_reachable(dataset, broker)
     quarantine = Quarantine(dataset)
@@ -68,7 +69,6 @@ def _tell_if_paused(handle: RunHandle) -> None:
 
 def _chosen(dataset: Dataset, given_up: Mapping[str, str], asked: list[str]) -> list[str]:
     for job_id in asked:
-        Job.from_id(job_id)
         if job_id not in given_up:
             raise SpecError(f"{job_id}: not in quarantine; farm status {dataset.storage.location} lists those that are")
     return asked or list(given_up)

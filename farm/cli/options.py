@@ -2,7 +2,6 @@
 
 import functools
 import inspect
-import os
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -10,10 +9,13 @@ from typing import Annotated, Any
 
 import typer
 
-from farm.errors import SpecError
+from farm.errors import MessageError, SpecError
+from farm.machine import state_folder
 from farm.run.worker_settings import DeviceChoice
 from farm.scene.picture_size import read_resolution
+from farm.spec.category import Category
 from farm.spec.dataset_spec import Engine
+from farm.spec.job import Job
 from farm.spec.parse import Description, describe, parse_quotas
 from farm.spec.quality import read_quality
 from farm.spec.simulation import Simulator
@@ -45,8 +47,33 @@ def log_folder(given: Path | None) -> Path:
     """Choose the folder for logs: the one given, else one below the user's folder for programs' state."""
     if given is not None:
         return given.resolve()
-    state = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
-    return Path(state) / "cable-farm" / "logs"
+    return state_folder() / "logs"
+
+
+def job_of(job_id: str) -> Job:
+    """Read the argument JOB of a command.
+
+    Raises:
+        typer.BadParameter: if it is not the id of an image; the command ends as with any wrong argument.
+    """
+    try:
+        return Job.from_id(job_id)
+    except MessageError:
+        number = job_id.rpartition("-")[2]
+        nearest = f"{job_id.rpartition('-')[0]}-{int(number):06d}" if number.isascii() and number.isdecimal() else ""
+        meant = f"; do you mean {nearest}?" if _is_job_id(nearest) else f"; categories are {', '.join(Category)}"
+        raise typer.BadParameter(
+            f"{job_id[:80]!a} is no id of an image; write CATEGORY-NUMBER with six digits, as in far-000042{meant}",
+            param_hint="'JOB'",
+        ) from None
+
+
+def _is_job_id(text: str) -> bool:
+    try:
+        Job.from_id(text)
+    except MessageError:
+        return False
+    return True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,7 +10,7 @@ from farm.cli.baking import bake_for
 from farm.cli.display import console
 from farm.cli.installed_assets import InstalledAssets
 from farm.cli.options import Assets, DatasetOptions, Device, Logs, log_folder, takes_dataset_options
-from farm.cli.worker_program import ask_worker, require_blender
+from farm.cli.worker_program import PictureFiles, make_picture, require_blender
 from farm.errors import DestinationError, SpecError
 from farm.run.worker_settings import DeviceChoice, RendererSettings
 from farm.spec.category import Category
@@ -46,8 +46,7 @@ def preview(
     require_blender()
     bake_for(header, assets, console())
     job = Job(category=category, index=index)
-    arguments = ["preview", "--job", job.id, "--out", str(out), "--mask", str(mask)]
     renderer = RendererSettings(device=device, threads=threads, assets=assets)
     with console().status(f"making {job.id}"):
-        ask_worker(arguments, header, log_folder(logs), renderer=renderer)
+        make_picture(header, job, PictureFiles(out, mask), renderer, log_folder(logs))
     typer.echo(f"{out} and {mask}")

@@ -7,13 +7,12 @@ import typer
 
 from farm.cli.baking import bake_for
 from farm.cli.display import console
-from farm.cli.options import Assets, DatasetPlace, Device, Logs, log_folder
-from farm.cli.worker_program import ask_worker, require_blender
+from farm.cli.options import Assets, DatasetPlace, Device, Logs, job_of, log_folder
+from farm.cli.worker_program import PictureFiles, make_picture, require_blender
 from farm.dataset.dataset import open_dataset
 from farm.dataset.destination import parse_destination
 from farm.errors import DestinationError, SpecError
 from farm.run.worker_settings import DeviceChoice, RendererSettings
-from farm.spec.job import Job
 
 
 def replay(
@@ -26,17 +25,18 @@ def replay(
     logs: Logs = None,
 ) -> None:
     """Make one of a dataset's images again, in another folder: the dataset does not change."""
+    job = job_of(job_id)
     dataset = open_dataset(parse_destination(place))
-    job = Job.from_id(job_id)
     if not dataset.asks_for(job):
         raise SpecError(f"{job.id}: outside the quotas of {dataset.storage.location}")
+    if out.exists() and not out.is_dir():
+        raise DestinationError(f"{out}: this is a file; name a folder with --out")
     if not out.is_dir():
         raise DestinationError(f"{out}: no such folder; make it first")
     require_blender()
     bake_for(dataset.header, assets, console())
-    picture, mask = out / f"{job.id}.png", out / f"{job.id}-mask.png"
-    arguments = ["preview", "--job", job.id, "--out", str(picture), "--mask", str(mask)]
+    files = PictureFiles.in_folder(out, job)
     renderer = RendererSettings(device=device, threads=threads, assets=assets)
     with console().status(f"making {job.id}"):
-        ask_worker(arguments, dataset.header, log_folder(logs), renderer=renderer)
-    typer.echo(f"{picture} and {mask}")
+        make_picture(dataset.header, job, files, renderer, log_folder(logs))
+    typer.echo(f"{files.picture} and {files.mask}")

@@ -13,7 +13,8 @@ from farm.dataset.report import write_overview
 from farm.errors import IncompleteError
 from farm.run.coordinator import Coordinator
 from farm.run.progress import Progress, on_disk, with_handle
-from farm.run.queue.broker import broker_url, masked
+from farm.run.queue.address import masked
+from farm.run.queue.broker import broker_url
 from farm.run.registry.port import RunState, WorkerReport
 
 

@@ -13,7 +13,7 @@ from farm.cli.worker_program import ask_worker, blender_is_installed
 from farm.dataset.dataset import create_dataset
 from farm.dataset.destination import parse_destination
 from farm.run.coordinator import Coordinator
-from farm.run.queue.broker import broker_url, connect
+from farm.run.queue.broker import broker_url, connect_to_write
 from farm.run.registry.port import Priority
 from farm.spec.make_header import make_header
 
@@ -33,7 +33,8 @@ def submit(
     destination = parse_destination(out)
     description = options.describe()
     header = make_header(description.spec, description.inputs, InstalledAssets())
-    connect(broker_url(broker)).close()
+    # Before the header: a Redis that takes no jobs leaves no dataset without them.
+    connect_to_write(broker_url(broker)).close()
     if description.inputs.template is not None and blender_is_installed():
         ask_worker(["check"], header, log_folder(logs))
     dataset = create_dataset(destination, header)

@@ -1,7 +1,6 @@
 """`farm worker`: take jobs and make their pictures until told to stop."""
 
 import os
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -11,7 +10,7 @@ from farm.cli.baking import bake
 from farm.cli.display import console
 from farm.cli.options import Assets, Broker, Device, Logs, MinFree, log_folder
 from farm.cli.worker_program import become_worker, check_device, require_blender
-from farm.machine import usable_cores
+from farm.machine import expanded, usable_cores
 from farm.run.queue.broker import broker_url, wait_for
 from farm.run.worker_settings import (
     HARD_LIMIT_S,
@@ -56,7 +55,7 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
     require_blender()
     url = broker_url(broker)
     wait_for(url, broker_wait_s)
-    store = store if "://" in store else str(Path(store).expanduser().resolve())
+    store = store if "://" in store else str(expanded(store).resolve())
     open_storage(store).is_empty()  # it may be empty or not there yet, but must be readable
     check_device(device, log_folder(logs))
     bake(SURFACES, assets, console())

@@ -7,13 +7,17 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
 
+from farm.environment import own_environment
 from farm.errors import MachineError, RenderError, error_of
 from farm.local.workers import WORKER_COMMAND
 from farm.run.queue.broker import BROKER_VARIABLE
 from farm.run.worker_settings import DeviceChoice, RendererSettings, WorkerSettings
 from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
 
 
 def blender_is_installed() -> bool:
@@ -36,7 +40,7 @@ def become_worker(settings: WorkerSettings, broker_url: str) -> None:
     command = [*WORKER_COMMAND, *settings.serve_arguments()]
     sys.stdout.flush()
     sys.stderr.flush()
-    environment = {**os.environ, BROKER_VARIABLE: broker_url}
+    environment = {**own_environment(), BROKER_VARIABLE: broker_url}
     os.execve(command[0], command, environment)  # noqa: S606 - no shell is wanted
 
 
@@ -48,6 +52,42 @@ def check_device(device: DeviceChoice, logs: Path) -> None:
         DestinationError: if the log folder can't be written.
     """
     ask_worker(["device"], None, logs, renderer=RendererSettings(device=device))
+
+
+@dataclass(frozen=True, slots=True)
+class PictureFiles:
+    """The files that take one picture and its mask."""
+
+    picture: Path
+    mask: Path
+
+    @classmethod
+    def in_folder(cls, folder: Path, job: Job) -> Self:
+        """Name the files of a job's picture in a folder."""
+        return cls(folder / f"{job.id}.png", folder / f"{job.id}-mask.png")
+
+
+def make_picture(header: DatasetHeader, job: Job, files: PictureFiles, renderer: RendererSettings, logs: Path) -> None:
+    """Have the worker's program make one picture.
+
+    Raises:
+        FarmError: the kind that belongs to the program's exit code.
+        RenderError: if the program ended well and a file is not there, or is the one that was there before.
+    """
+    before = [_identity(path) for path in (files.picture, files.mask)]
+    arguments = ["preview", "--job", job.id, "--out", str(files.picture), "--mask", str(files.mask)]
+    ask_worker(arguments, header, logs, renderer=renderer)
+    for path, former in zip((files.picture, files.mask), before, strict=True):
+        if _identity(path) in {None, former}:
+            raise RenderError(f"{path}: the worker's program told no error but wrote no picture; see the log in {logs}")
+
+
+def _identity(path: Path) -> tuple[int, int] | None:
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_ino, found.st_mtime_ns
 
 
 def ask_worker(
@@ -75,7 +115,11 @@ def ask_worker(
     # Errors go into a file: a pipe could fill up while the lines of the other are read.
     with tempfile.TemporaryFile() as errors:
         with subprocess.Popen(  # noqa: S603 - our own program and arguments
-            command, stdin=subprocess.PIPE, stdout=None if told is None else subprocess.PIPE, stderr=errors
+            command,
+            env=own_environment(),
+            stdin=subprocess.PIPE,
+            stdout=None if told is None else subprocess.PIPE,
+            stderr=errors,
         ) as process:
             _hand_over(process, b"" if header is None else header.model_dump_json().encode())
             for line in process.stdout or ():

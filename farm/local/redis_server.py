@@ -11,6 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+from farm.environment import own_environment
 from farm.errors import BrokerError, MachineError
 from farm.local.processes import stop
 from farm.local.tied import tied
@@ -80,7 +81,10 @@ class PrivateRedis:
         arguments += ["--dir", self._folder.name, "--save", "", "--appendonly", "no", "--daemonize", "no"]
         arguments += ["--logfile", str(log)]
         self._process = subprocess.Popen(  # noqa: S603 - our own program and arguments
-            tied([str(self._program), *arguments]), stdin=subprocess.DEVNULL, start_new_session=True
+            tied([str(self._program), *arguments]),
+            env=own_environment(),
+            stdin=subprocess.DEVNULL,
+            start_new_session=True,
         )
         _wait(self.url, self._process, log)
 

@@ -1,4 +1,4 @@
-"""Ties a process to its parent's life. As a program: `python -m farm.local.tied PARENT PROGRAM ARGUMENTS...`.
+"""Ties a process to its parent's life. As a program: `python -I .../tied.py PARENT PROGRAM ARGUMENTS...`.
 
 A coordinator that is killed by SIGKILL can't end its children. On Linux the kernel ends them; elsewhere they go on.
 """
@@ -7,6 +7,7 @@ import ctypes
 import os
 import signal
 import sys
+from pathlib import Path
 
 _PR_SET_PDEATHSIG = 1  # from linux/prctl.h
 
@@ -31,7 +32,8 @@ def die_with_parent(parent: int) -> None:
 
 def tied(command: list[str]) -> list[str]:
     """Build the command that runs `command` as a child tied to the calling process."""
-    return [sys.executable, "-P", "-m", "farm.local.tied", str(os.getpid()), *command]
+    # Named by its path, it needs no package; isolated, it is the same whatever the environment that it hands on.
+    return [sys.executable, "-I", str(Path(__file__).resolve()), str(os.getpid()), *command]
 
 
 def main(arguments: list[str]) -> None:

@@ -1,8 +1,6 @@
 """Worker processes on this machine: started, restarted when they die, ended."""
 
-import os
 import subprocess
-import sys
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,13 +8,15 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+from farm.environment import own_environment
 from farm.errors import BrokerError, DestinationError, MachineError, error_of
 from farm.local.processes import stop
 from farm.local.tied import tied
 from farm.run.queue.broker import BROKER_VARIABLE
 from farm.run.worker_settings import WorkerSettings
+from farm.start import program
 
-WORKER_COMMAND = (sys.executable, "-P", "-m", "worker")
+WORKER_COMMAND = program("worker.__main__")
 """Start of the command that runs the worker's program; `farm` never imports it."""
 
 _SOON_S = 20.0
@@ -86,7 +86,7 @@ class LocalWorkers:
         with self.log_of(name).open("ab") as log:
             return subprocess.Popen(  # noqa: S603 - our own program and arguments
                 tied([*self._command, *settings.serve_arguments()]),
-                env={**os.environ, BROKER_VARIABLE: self._broker_url},
+                env={**own_environment(), BROKER_VARIABLE: self._broker_url},
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,

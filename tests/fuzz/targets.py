@@ -24,7 +24,8 @@ from farm.dataset.manifest import parse_manifest
 from farm.dataset.outputs import OUTPUTS
 from farm.dataset.paths import HEADER_FILE, file_path, manifest_path
 from farm.errors import FarmError
-from farm.run.queue.broker import broker_url, masked
+from farm.run.queue.address import masked
+from farm.run.queue.broker import broker_url
 from farm.run.queue.wire import ENVELOPE_BYTES, checked_envelope, decode_json
 from farm.spec.job import Job, JobMessage
 from farm.spec.parse import describe, parse_quotas

@@ -5,42 +5,43 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from urllib.parse import parse_qsl
+from typing import cast
 
 import redis
 from redis.backoff import NoBackoff
 from redis.retry import Retry
 
 from farm.errors import BrokerError
+from farm.run.queue.address import checked, masked
+from farm.run.queue.refusals import explained, meaning
 
 DEFAULT_BROKER_URL = "redis://localhost:6379/0"
 BROKER_VARIABLE = "FARM_BROKER_URL"
 BROKER_FILE_VARIABLE = "FARM_BROKER_URL_FILE"
 """Variable that names a file with the address: containers get their secrets as files."""
 
+_PROBE = "farm:probe"
+"""Key that is written to see whether a Redis takes writes."""
+
 _CONNECT_S = 2.0
 _ANSWER_S = 10.0
-_KINDS = ("redis", "rediss", "redis+socket")
-
-_TLS_OPTIONS = frozenset({"ssl_ca_certs", "ssl_certfile", "ssl_keyfile"})
-"""Options of TLS that an address may have, besides `ssl_cert_reqs`, which has one value."""
 
 
 def broker_url(given: str | None) -> str:
     """Choose the given address, else that of the environment, of the file that it names, or `DEFAULT_BROKER_URL`.
 
-    Celery takes `rediss://` without options for TLS with any certificate, so the check is always spelt out here.
-
     Raises:
         BrokerError: if it is not the address of a Redis, or asks for TLS without a check of the certificate.
     """
-    url = given or os.environ.get(BROKER_VARIABLE) or _from_file() or DEFAULT_BROKER_URL
-    kind = url.partition("://")[0]
-    if kind not in _KINDS:
-        raise BrokerError(
-            f"'{masked(url)}' is no Redis address; write redis://HOST:PORT/NUMBER, or redis+socket:///PATH for a socket"
-        )
-    return _with_certificate_check(url, kind)
+    if given is not None and not given.strip():
+        # Such as that of an unset variable of a shell: the default would be another person's Redis.
+        raise BrokerError("--broker is empty; name a Redis, as in redis://HOST:PORT/NUMBER, or leave the option out")
+    return checked(given or os.environ.get(BROKER_VARIABLE) or _from_file() or DEFAULT_BROKER_URL)
+
+
+def is_named() -> bool:
+    """Whether the environment names a Redis."""
+    return any(os.environ.get(name) for name in (BROKER_VARIABLE, BROKER_FILE_VARIABLE))
 
 
 def _from_file() -> str | None:
@@ -52,42 +53,6 @@ def _from_file() -> str | None:
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "is no text"
         raise BrokerError(f"{path}: can't read the broker's address: {reason}; see {BROKER_FILE_VARIABLE}") from None
-
-
-def _with_certificate_check(url: str, kind: str) -> str:
-    # Read as Celery and redis-py read it: all from the first question mark, to a fragment.
-    query = url.partition("?")[2]
-    options = [(key, value) for key, value in parse_qsl(query, keep_blank_values=True) if key.startswith("ssl")]
-    if kind != "rediss":
-        if options:
-            raise BrokerError(f"'{masked(url)}' has options of TLS but is no address with TLS; write rediss://")
-        return url
-    if "#" in url:
-        raise BrokerError(f"'{masked(url)}' holds a #; write %23 for one in a password")
-    checks = {value for key, value in options if key == "ssl_cert_reqs"}
-    if not checks <= {"required", "CERT_REQUIRED"}:
-        raise BrokerError(
-            f"'{masked(url)}' asks for TLS without a check of the certificate; name your own authority with "
-            "ssl_ca_certs=FILE instead"
-        )
-    if unknown := sorted({key for key, _ in options} - _TLS_OPTIONS - {"ssl_cert_reqs"}):
-        raise BrokerError(f"'{masked(url)}': unknown option {unknown[0]}; TLS has {', '.join(sorted(_TLS_OPTIONS))}")
-    # Celery knows the long word, redis-py the short one alone.
-    spelt = url.replace("ssl_cert_reqs=CERT_REQUIRED", "ssl_cert_reqs=required")
-    return spelt if checks else f"{url}{'&' if query else '?'}ssl_cert_reqs=required"
-
-
-def masked(url: str) -> str:
-    """Mask an address for messages: leave out the part before the last `@` and the query, which may hold passwords.
-
-    It is not parsed: a password may hold any sign, and an address that can't be parsed must not be shown whole.
-    """
-    kind, separator, rest = url.partition("://")
-    if not separator:
-        return "(no address)"
-    _, at, place = rest.rpartition("@")
-    shown = place.partition("?")[0].partition("#")[0]
-    return f"{kind}://***@{shown}" if at else f"{kind}://{shown}"
 
 
 def connect(url: str) -> "redis.Redis":
@@ -112,16 +77,49 @@ def connect(url: str) -> "redis.Redis":
             # One retry, as a connection may have been lost since its last use. Callers know how long to wait.
             retry=Retry(NoBackoff(), 1),
         )
-    except ValueError:
+    except (ValueError, TypeError):
         # The parser's own words may quote a part of the password.
         raise BrokerError(
             f"no Redis at {masked(url)}: not a readable address; percent-encode signs like / # ? @ in a password"
         ) from None
     except (redis.RedisError, OSError) as error:
+        if meaning(error) is not None:
+            raise BrokerError(f"{masked(url)}: {explained(error)}") from error
         raise BrokerError(
             f"no Redis at {masked(url)}: {_one_line(error)}; start one, or name it with --broker or {BROKER_VARIABLE}"
         ) from error
     return client
+
+
+def connect_to_write(url: str) -> "redis.Redis":
+    """Make a client of a Redis once it has taken a write, as a farm needs it: before anything else is written.
+
+    Raises:
+        BrokerError: if Redis is not there, or is a replica, a node of a cluster, full, or otherwise refuses.
+    """
+    client = connect(url)
+    try:
+        with client.pipeline(transaction=False) as probe:
+            probe.set(_PROBE, "", ex=1)
+            # Two keys, which a cluster keeps on different servers.
+            probe.delete(_PROBE, f"{_PROBE}:2")
+            probe.execute()
+    except (redis.RedisError, OSError) as error:
+        client.close()
+        raise BrokerError(f"{masked(url)}: {explained(error)}") from error
+    return client
+
+
+def policy_of(client: "redis.Redis") -> str | None:
+    """Ask a Redis which keys it forgets when its memory is full; None if this user may not ask.
+
+    A Redis without a limit of its memory never forgets: `noeviction`.
+    """
+    try:
+        memory = cast(dict[str, object], client.info("memory"))
+    except redis.ResponseError:
+        return None
+    return str(memory.get("maxmemory_policy")) if memory.get("maxmemory") else "noeviction"
 
 
 @contextmanager
@@ -134,19 +132,21 @@ def as_broker_error() -> Iterator[None]:
     try:
         yield
     except (redis.RedisError, UnicodeDecodeError) as error:
+        if isinstance(error, redis.RedisError) and meaning(error) is not None:
+            raise BrokerError(explained(error)) from error
         raise BrokerError(f"Redis refused, went away or holds what is no text: {error}") from error
 
 
 def wait_for(url: str, patience_s: float) -> None:
-    """Wait until a Redis answers.
+    """Wait until a Redis takes writes.
 
     Raises:
-        BrokerError: if it does not answer within `patience_s` seconds; it is asked at least once.
+        BrokerError: if it does not within `patience_s` seconds; it is asked at least once.
     """
     give_up_s = time.monotonic() + patience_s
     while True:
         try:
-            connect(url).close()
+            connect_to_write(url).close()
             return
         except BrokerError:
             if time.monotonic() >= give_up_s:

@@ -9,6 +9,7 @@ from kombu.exceptions import BatchPublishError, OperationalError
 
 from farm.errors import BrokerError, MessageError
 from farm.run.queue.broker import as_broker_error
+from farm.run.queue.refusals import explained
 from farm.run.queue.settings import TASK_NAME, queue_name
 from farm.run.registry.port import PRIORITY_STEPS, Run
 from farm.spec.job import Job, JobMessage
@@ -53,7 +54,7 @@ class CeleryQueue:
                     count += 1
         except (BatchPublishError, OperationalError, redis.RedisError, OSError) as error:
             raise BrokerError(
-                f"Redis went away after about {count} jobs were queued: {error}; submit again, nothing is doubled"
+                f"Redis failed after about {count} queued jobs: {explained(error)}; submit again, nothing is doubled"
             ) from error
         return count
 

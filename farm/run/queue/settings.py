@@ -3,6 +3,7 @@
 from typing import Any
 
 from celery import Celery
+from celery.loaders.app import AppLoader
 from kombu.entity import Queue
 
 from farm.run.registry.port import PRIORITY_STEPS, Priority
@@ -25,9 +26,42 @@ def queue_name(run_key: str) -> str:
     return f"{QUEUE}.{run_key}"
 
 
+class _Loader(AppLoader):  # type: ignore[misc]  # celery is untyped
+    """Reads no module of settings: CELERY_CONFIG_MODULE names that of another program."""
+
+    def read_configuration(self, env: str = "") -> dict[str, object]:
+        """Find no settings."""
+        del env
+        return {}
+
+
+class _App(Celery):  # type: ignore[misc]  # celery is untyped
+    """An application that keeps to its broker: Celery's own puts CELERY_BROKER_URL before every setting."""
+
+    # Without results there is no backend, whatever CELERY_RESULT_BACKEND says.
+    backend_cls = "disabled://"
+
+    def __init__(self, broker_url: str) -> None:
+        # A fix-up would import the Django site that DJANGO_SETTINGS_MODULE names.
+        super().__init__("farm", broker=broker_url, loader=_Loader, fixups=(), set_as_current=False)
+        self._farm_broker_url = broker_url
+
+    def connection(self, url: str | None = None, **options: Any) -> Any:
+        """Connect to the farm's Redis."""
+        return super().connection(url or self._farm_broker_url, **options)
+
+    def connection_for_read(self, url: str | None = None, **options: Any) -> Any:
+        """Connect to the farm's Redis."""
+        return super().connection_for_read(url or self._farm_broker_url, **options)
+
+    def connection_for_write(self, url: str | None = None, **options: Any) -> Any:
+        """Connect to the farm's Redis."""
+        return super().connection_for_write(url or self._farm_broker_url, **options)
+
+
 def make_app(broker_url: str) -> Any:
     """Make a Celery application that sends and takes the farm's one task; nothing is connected yet."""
-    app = Celery("farm", broker=broker_url, set_as_current=False)
+    app = _App(broker_url)
     app.conf.update(
         accept_content=["json"],
         task_serializer="json",

@@ -9,10 +9,10 @@ from farm.dataset.dataset import Dataset
 from farm.dataset.outputs import MASK
 from farm.dataset.paths import file_path, manifest_path
 from farm.dataset.quarantine import Quarantine, put_in_quarantine
-from farm.errors import DestinationError, MessageError, SpecError
+from farm.errors import DestinationError, SpecError
 from farm.run.handle import open_handle
 from farm.spec.job import Job
-from tests.farm.cli.result import Farm, assert_refused
+from tests.farm.cli.result import USAGE, Farm, assert_refused
 
 JOB = Job.from_id("far-000001")
 OTHER = Job.from_id("far-000000")
@@ -98,15 +98,34 @@ def test_retry_with_a_redis_that_is_not_there(farm: Farm, lacking: Dataset) -> N
     assert len(Quarantine(lacking).look()) == 2
 
 
-@pytest.mark.parametrize(
-    ("job_id", "kind", "words"),
-    [("close_concentrated_light-000000", SpecError, "not in quarantine"), ("../far", MessageError, "no job id")],
-)
-def test_retry_of_what_was_not_given_up(
-    farm: Farm, lacking: Dataset, job_id: str, kind: type[SpecError] | type[MessageError], words: str
-) -> None:
+def test_retry_of_what_was_not_given_up(farm: Farm, lacking: Dataset) -> None:
     """A name that isn't in quarantine is refused, and nothing is put back, not even the names that are."""
-    assert_refused(farm("retry", lacking.storage.location, JOB.id, job_id), kind.exit_code, words)
+    result = farm("retry", lacking.storage.location, JOB.id, "close_concentrated_light-000000")
+    assert_refused(result, SpecError.exit_code, "not in quarantine")
+    assert len(Quarantine(lacking).look()) == 2
+
+
+@pytest.mark.parametrize("command", ["replay", "retry"])
+@pytest.mark.parametrize(
+    ("job_id", "words"),
+    [
+        ("far-42", "do you mean far-000042?"),
+        ("far-0000042", "do you mean far-000042?"),
+        ("near-000042", "categories are"),
+        ("far", "as in far-000042"),
+        ("../far", "as in far-000042"),
+        ("", "as in far-000042"),
+        ("far-00004²", "as in far-000042"),
+        ("far-9999999999", "as in far-000042"),
+    ],
+)
+def test_wrong_id_is_wrong_usage(farm: Farm, lacking: Dataset, command: str, job_id: str, words: str) -> None:
+    """A typing error in an id names the argument and the form of an id, with the exit code of a wrong argument."""
+    result = farm(command, lacking.storage.location, job_id)
+    assert result.returncode == USAGE
+    told = " ".join(result.stderr.replace("│", " ").split())
+    assert "JOB" in told
+    assert words in told
     assert len(Quarantine(lacking).look()) == 2
 
 
@@ -114,14 +133,15 @@ def test_retry_of_what_was_not_given_up(
     ("job_id", "options", "kind", "words"),
     [
         ("far-000002", [], SpecError, "outside the quotas"),
-        ("far-2", [], MessageError, "no job id"),
         ("far-000001", ["--out", "nowhere"], DestinationError, "nowhere"),
+        ("far-000001", ["--out", "file"], DestinationError, "file: this is a file"),
     ],
 )
 def test_replay_that_cannot_be(
     farm: Farm, made: Dataset, tmp_path: Path, job_id: str, options: list[str], kind: type[SpecError], words: str
 ) -> None:
     """An impossible replay is refused before Blender is loaded, and the dataset stays as it is."""
+    (tmp_path / "file").touch()
     before = made.storage.files()
     assert_refused(farm("replay", made.storage.location, job_id, *options), kind.exit_code, words)
     assert made.storage.files() == before

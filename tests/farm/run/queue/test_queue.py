@@ -17,7 +17,8 @@ from farm.dataset.dataset import Dataset
 from farm.errors import BrokerError
 from farm.local.redis_server import find_redis_server
 from farm.run.handle import run_of
-from farm.run.queue.broker import broker_url, connect, masked, wait_for
+from farm.run.queue.address import masked
+from farm.run.queue.broker import broker_url, connect, wait_for
 from farm.run.queue.celery import CeleryQueue
 from farm.run.queue.port import JobQueue
 from farm.run.queue.settings import SOFT_LIMIT_S, TASK_NAME, VISIBILITY_S, make_app, queue_name
