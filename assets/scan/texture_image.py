@@ -1,0 +1,152 @@
+"""The one reader of texture maps that aren't EXR: the check of a folder and the workers decode by it.
+
+OpenCV decodes, since its levels are those that pictures have. What it can't decode, such as TIFF files with Zstandard's
+compression, OpenImageIO or Pillow decodes.
+"""
+
+import os
+import warnings
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, UnidentifiedImageError
+
+from assets.files import read_bounded
+from assets.scan.float_image import open_image, quiet_standard_error
+from farm.errors import AssetError
+
+FORMATS = ("JPEG", "PNG", "TIFF", "WEBP", "BMP")
+SMALLEST_EDGE, LARGEST_EDGE = 16, 16384
+"""Pixels along an edge that are accepted."""
+
+LARGEST_PIXELS = 178_956_970
+"""Pixels above which an image is refused: Pillow's own limit against files that unfold."""
+
+_TIFF_MAGICS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+_ADVICE = "save it again as PNG or JPEG"
+
+
+def check_texture(path: Path, data: bytes) -> tuple[int, int]:
+    """Decode a map completely, strictly and as a worker does, to see that both can be done.
+
+    Args:
+        path: Path of the file, for error messages.
+        data: The file's content.
+
+    Returns:
+        Pixels across and down.
+
+    Raises:
+        AssetError: It isn't a sound image, or its size is out of bounds.
+    """
+    size = _sound(path, data)
+    decode_texture(path, data)
+    return size
+
+
+def read_texture(path: Path) -> NDArray[Any]:
+    """Read and decode a map; see `decode_texture`."""
+    return decode_texture(path, read_bounded(path))
+
+
+def decode_texture(path: Path, data: bytes) -> NDArray[Any]:
+    """Decode a map as it is to be shown. A file that is cut short may give a part of its picture.
+
+    Args:
+        path: Path of the file, for error messages.
+        data: The file's content.
+
+    Returns:
+        Shape (height, width), or (height, width, 3 or 4) with red first; the type is that of the file: 8 or 16 bits
+        without sign, or others.
+
+    Raises:
+        AssetError: It can't be decoded.
+    """
+    try:
+        if not data.startswith(_TIFF_MAGICS):
+            pixels = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
+        else:
+            # OpenCV warns of compressions that it lacks.
+            with quiet_standard_error():
+                pixels = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
+    except cv2.error:
+        pixels = None
+    if pixels is None:
+        return _read_tiff(path) if data.startswith(_TIFF_MAGICS) else _read_by_pillow(path, data)
+    if pixels.ndim == 2:
+        return pixels
+    return cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB if pixels.shape[2] == 3 else cv2.COLOR_BGRA2RGBA)
+
+
+def check_size(path: Path, width: int, height: int) -> None:
+    """Check that a map has a size that can be used.
+
+    Raises:
+        AssetError: An edge is too short or too long.
+    """
+    if not (SMALLEST_EDGE <= width <= LARGEST_EDGE and SMALLEST_EDGE <= height <= LARGEST_EDGE):
+        raise AssetError(
+            f"{path}: {width} x {height} pixels is outside {SMALLEST_EDGE} to {LARGEST_EDGE} an edge; scale it"
+        )
+    if width * height > LARGEST_PIXELS:
+        raise AssetError(f"{path}: has too many pixels to be decoded safely; scale it down")
+
+
+def _sound(path: Path, data: bytes) -> tuple[int, int]:
+    """Decode to the end by a reader that tells truncated files, which OpenCV shows in part."""
+    try:
+        with warnings.catch_warnings():
+            # Pillow warns of large images; the bounds above decide instead.
+            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+            with Image.open(BytesIO(data), formats=FORMATS) as image:
+                check_size(path, image.width, image.height)
+                image.load()
+                return image.width, image.height
+    except Image.DecompressionBombError as error:
+        raise AssetError(f"{path}: has too many pixels to be decoded safely; scale it down") from error
+    except UnidentifiedImageError as error:
+        if data.startswith(_TIFF_MAGICS):  # of 10, 12 or more bits, which Pillow does not know
+            height, width = _read_tiff(path).shape[:2]
+            return width, height
+        raise AssetError(f"{path}: isn't a sound image ({_short(error)}); {_ADVICE}") from error
+    except (OSError, SyntaxError, ValueError) as error:
+        raise AssetError(f"{path}: isn't a sound image ({_short(error)}); {_ADVICE}") from error
+
+
+def _short(error: Exception) -> str:
+    """Say what Pillow says, without the address of a buffer in memory."""
+    return "its content is no image of a kind that is read" if isinstance(error, UnidentifiedImageError) else str(error)
+
+
+def _read_by_pillow(path: Path, data: bytes) -> NDArray[np.uint8]:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+            with Image.open(BytesIO(data), formats=FORMATS) as image:
+                return np.asarray(image.convert("RGB"))
+    except (Image.DecompressionBombError, OSError, SyntaxError, ValueError) as error:
+        raise AssetError(f"{path}: can't decode this image ({_short(error)}); {_ADVICE}") from error
+
+
+def _read_tiff(path: Path) -> NDArray[Any]:
+    with quiet_standard_error():
+        source, reason = open_image(os.fsencode(path))
+        if source is None:
+            raise AssetError(f"{path}: isn't a sound image ({reason()}); {_ADVICE}")
+        try:
+            spec = source.spec()
+            check_size(path, spec.width, spec.height)
+            channels = spec.nchannels if spec.nchannels in {1, 3, 4} else 1 if spec.nchannels == 2 else 3
+            kind = str(spec.format) if str(spec.format) in {"uint8", "uint16"} else "float"
+            pixels = source.read_image(0, 0, 0, channels, kind)
+            if pixels is None:
+                raise AssetError(f"{path}: isn't a sound image ({reason()}); {_ADVICE}")
+        finally:
+            source.close()
+    decoded = np.asarray(pixels)
+    return np.ascontiguousarray(decoded[..., 0]) if channels == 1 else decoded
