@@ -129,7 +129,9 @@ def sort_out(paths: Iterable[Path], suffixes: Iterable[str], read: str) -> tuple
             notes.append(aside(path, "a folder in this folder isn't read; name it as well"))
         elif not stat.S_ISREG(mode):
             if suffix in known and not mode:
-                notes.append(broken(path, "can't be reached; restore the file that its link names, or check its rights"))
+                notes.append(
+                    broken(path, "can't be reached; restore the file that its link names, or check its rights")
+                )
         elif suffix in known:
             reason = nameless(path)
             if reason is None:

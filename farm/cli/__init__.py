@@ -10,6 +10,7 @@ import typer
 from farm import __version__
 from farm.cli.assets import assets_app
 from farm.cli.control import cancel, pause, resume
+from farm.cli.display import one_line
 from farm.cli.doctor import doctor
 from farm.cli.flower import flower
 from farm.cli.mending import repair, retry
@@ -75,5 +76,5 @@ def main() -> None:
     try:
         app()
     except FarmError as error:
-        sys.stderr.write(f"farm: {error}\n")
+        sys.stderr.write(f"farm: {one_line(str(error))}\n")
         sys.exit(error.exit_code)

@@ -7,7 +7,7 @@ import typer
 
 from farm.cli.baking import bake_for
 from farm.cli.display import console
-from farm.cli.options import Assets, DatasetPlace, Device, Logs, log_folder
+from farm.cli.options import Assets, DatasetPlace, Device, InputFolders, Logs, input_places, log_folder
 from farm.cli.worker_program import ask_worker, require_blender
 from farm.dataset.dataset import open_dataset
 from farm.dataset.destination import parse_destination
@@ -23,6 +23,7 @@ def replay(
     device: Device = DeviceChoice.AUTO,
     threads: Annotated[int, typer.Option(min=0, help="Threads of the renderer; 0: all cores.")] = 0,
     assets: Assets = None,
+    inputs: InputFolders = None,
     logs: Logs = None,
 ) -> None:
     """Make one of a dataset's images again, in another folder: the dataset does not change."""
@@ -36,7 +37,7 @@ def replay(
     bake_for(dataset.header, assets, console())
     picture, mask = out / f"{job.id}.png", out / f"{job.id}-mask.png"
     arguments = ["preview", "--job", job.id, "--out", str(picture), "--mask", str(mask)]
-    renderer = RendererSettings(device=device, threads=threads, assets=assets)
+    renderer = RendererSettings(device=device, threads=threads, assets=assets, inputs=input_places(inputs))
     with console().status(f"making {job.id}"):
         ask_worker(arguments, dataset.header, log_folder(logs), renderer=renderer)
     typer.echo(f"{picture} and {mask}")
