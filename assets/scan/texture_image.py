@@ -6,6 +6,7 @@ compression, OpenImageIO or Pillow decodes.
 
 import os
 import warnings
+from contextlib import nullcontext, suppress
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,13 @@ LARGEST_PIXELS = 178_956_970
 """Pixels above which an image is refused: Pillow's own limit against files that unfold."""
 
 _TIFF_MAGICS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+_TIFF_COMPRESSIONS = frozenset({"none", "lzw", "zip", "packbits", "jpeg"})
+"""Compressions that OpenImageIO 3.0 decodes rightly: of Zstandard and LZMA it makes other pixels, and so does Blender.
+"""
+
+_AS_THEY_ARE = frozenset({"L", "RGB", "RGBA", "I;16"})
+"""Pillow's modes whose pixels are levels of 8 or 16 bits."""
+
 _ADVICE = "save it again as PNG or JPEG"
 
 
@@ -67,20 +75,24 @@ def decode_texture(path: Path, data: bytes) -> NDArray[Any]:
     Raises:
         AssetError: It can't be decoded.
     """
-    try:
-        if not data.startswith(_TIFF_MAGICS):
-            pixels = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
-        else:
-            # OpenCV warns of compressions that it lacks.
-            with quiet_standard_error():
-                pixels = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
-    except cv2.error:
-        pixels = None
+    pixels = opencv_pixels(data)
     if pixels is None:
-        return _read_tiff(path) if data.startswith(_TIFF_MAGICS) else _read_by_pillow(path, data)
+        return _by_other_reader(path, data)
     if pixels.ndim == 2:
         return pixels
+    if pixels.dtype == np.float64:
+        pixels = pixels.astype(np.float32)
     return cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB if pixels.shape[2] == 3 else cv2.COLOR_BGRA2RGBA)
+
+
+def opencv_pixels(data: bytes) -> NDArray[Any] | None:
+    """Decode a map by OpenCV, blue first; None if it can't."""
+    try:
+        # OpenCV warns of compressions of TIFF that it lacks.
+        with quiet_standard_error() if data.startswith(_TIFF_MAGICS) else nullcontext():
+            return cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
+    except cv2.error:
+        return None
 
 
 def check_size(path: Path, width: int, height: int) -> None:
@@ -101,8 +113,8 @@ def _sound(path: Path, data: bytes) -> tuple[int, int]:
     """Decode to the end by a reader that tells truncated files, which OpenCV shows in part."""
     try:
         with warnings.catch_warnings():
-            # Pillow warns of large images; the bounds above decide instead.
-            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+            # Pillow warns of large images and odd notes; the bounds above decide instead.
+            warnings.simplefilter("ignore")
             with Image.open(BytesIO(data), formats=FORMATS) as image:
                 check_size(path, image.width, image.height)
                 image.load()
@@ -123,17 +135,21 @@ def _short(error: Exception) -> str:
     return "its content is no image of a kind that is read" if isinstance(error, UnidentifiedImageError) else str(error)
 
 
-def _read_by_pillow(path: Path, data: bytes) -> NDArray[np.uint8]:
+def _by_other_reader(path: Path, data: bytes) -> NDArray[Any]:
+    if data.startswith(_TIFF_MAGICS):
+        with suppress(AssetError):
+            return _read_tiff(path)
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+            warnings.simplefilter("ignore")
             with Image.open(BytesIO(data), formats=FORMATS) as image:
-                return np.asarray(image.convert("RGB"))
+                return np.asarray(image if image.mode in _AS_THEY_ARE else image.convert("RGB"))
     except (Image.DecompressionBombError, OSError, SyntaxError, ValueError) as error:
         raise AssetError(f"{path}: can't decode this image ({_short(error)}); {_ADVICE}") from error
 
 
 def _read_tiff(path: Path) -> NDArray[Any]:
+    """Decode a TIFF file by OpenImageIO, which knows all kinds of pixels, such as those of 4 and 12 bits."""
     with quiet_standard_error():
         source, reason = open_image(os.fsencode(path))
         if source is None:
@@ -141,6 +157,9 @@ def _read_tiff(path: Path) -> NDArray[Any]:
         try:
             spec = source.spec()
             check_size(path, spec.width, spec.height)
+            compression = spec.get_string_attribute("compression")
+            if compression not in _TIFF_COMPRESSIONS:
+                raise AssetError(f"{path}: isn't a sound image (compressed by {compression}); {_ADVICE}")
             channels = spec.nchannels if spec.nchannels in {1, 3, 4} else 1 if spec.nchannels == 2 else 3
             kind = str(spec.format) if str(spec.format) in {"uint8", "uint16"} else "float"
             pixels = source.read_image(0, 0, 0, channels, kind)

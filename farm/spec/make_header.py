@@ -2,7 +2,8 @@
 
 import hashlib
 import importlib.util
-from collections.abc import Mapping, Sequence
+import itertools
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, TypeVar
@@ -142,16 +143,28 @@ def _rendering(spec: DatasetSpec) -> Mapping[Category, ChosenSettings]:
 def _joined(had: Sequence[_Ref], more: Sequence[_Ref]) -> list[_Ref]:
     """Add the assets of another folder; one whose name is taken gets a number: cameras call all pictures IMG_0001.
 
-    The numbers go by the order of the folders, not by their names, so that folders may be moved.
+    The numbers go by the order of the folders, not by their names, so that folders may be moved. An asset of the same
+    name and content is not added twice.
     """
-    joined = list(had)
-    taken = {reference.name for reference in had}
+    joined = {reference.name: reference for reference in had}
     for reference in more:
-        names = (reference.name, *(f"{reference.name} ({number})" for number in range(2, len(taken) + 3)))
-        free = next(name for name in names if name not in taken)
-        taken.add(free)
-        joined.append(reference if free == reference.name else reference.model_copy(update={"name": free}))
-    return joined
+        rival = joined.get(reference.name)
+        if rival is None:
+            joined[reference.name] = reference
+        elif _content(rival) != _content(reference):
+            name = _free_name(reference.name, joined)
+            joined[name] = reference.model_copy(update={"name": name})
+    return list(joined.values())
+
+
+def _content(reference: _Ref) -> object:
+    """What a reference says apart from where its files are."""
+    return reference.model_dump(exclude={"path": True, "files": {"__all__": {"path"}}})
+
+
+def _free_name(name: str, taken: Collection[str]) -> str:
+    numbered = (f"{name} ({number})" for number in itertools.count(2))
+    return next(free for free in itertools.chain((name,), numbered) if free not in taken)
 
 
 def _check_any(kind: str, flag: str, found: Sequence[object]) -> None:

@@ -1,5 +1,6 @@
 """The images that a process holds: each file is read once, and the least used are let go when there are too many."""
 
+import contextlib
 from collections import OrderedDict
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,11 +14,13 @@ from numpy.typing import NDArray
 from assets.files import read_bounded
 from assets.scan.float_image import FLOAT_SUFFIXES, read_float_image
 from assets.scan.photographs import decode_plate
-from assets.scan.texture_image import read_texture
+from assets.scan.texture_image import opencv_pixels, read_texture
 from farm.errors import AssetError
 from worker.colour import Texels
 
 Pixels = NDArray[np.uint8] | NDArray[np.float32]
+
+_TIFF_SUFFIXES = frozenset({".tif", ".tiff"})
 
 _IN_USE = 6
 """Images from files that one picture needs at most. The last six used stay, however large."""
@@ -216,12 +219,13 @@ def _load(path: Path) -> Any:
 
 
 def _load_texture(path: Path) -> Any:
-    try:
+    """Load a map by Blender, or by the reader that checked it if Blender can't, or makes other pixels of it."""
+    if path.suffix.lower() in FLOAT_SUFFIXES:
         return _load(path)
-    except AssetError:
-        if path.suffix.lower() in FLOAT_SUFFIXES:
-            raise
-        pixels = _reduced(read_texture(path))
+    if path.suffix.lower() not in _TIFF_SUFFIXES or opencv_pixels(read_bounded(path)) is not None:
+        with contextlib.suppress(AssetError):
+            return _load(path)
+    pixels = _reduced(read_texture(path))
     rows, columns = pixels.shape[:2]
     image = bpy.data.images.new(path.name, columns, rows)
     channels = cv2.cvtColor(pixels[::-1], cv2.COLOR_RGB2RGBA if pixels.ndim == 3 else cv2.COLOR_GRAY2RGBA)
