@@ -104,7 +104,7 @@ def nameless(path: Path) -> str | None:
     try:
         str(path.resolve()).encode()
     except UnicodeEncodeError:
-        return "its path isn't UTF-8; rename the file or its folder (convmv does many)"
+        return "its path isn't UTF-8; rename the file or its folder"
     except (OSError, RuntimeError):
         return "its link leads in a circle; remove it"
     return None

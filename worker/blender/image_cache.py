@@ -130,9 +130,7 @@ class ImageCache:
         """
 
         def read() -> tuple[Any, int]:
-            image = _load_texture(file.path)
-            if file.path.suffix.lower() not in FLOAT_SUFFIXES:
-                image.colorspace_settings.name = "sRGB" if file.colour else "Non-Color"
+            image = _load_texture(file)
             if file.invert or file.flip_green:
                 pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
                 image.pixels.foreach_get(pixels)
@@ -218,16 +216,19 @@ def _load(path: Path) -> Any:
     return image
 
 
-def _load_texture(path: Path) -> Any:
+def _load_texture(file: TextureFile) -> Any:
     """Load a map by Blender, or by the reader that checked it if Blender can't, or makes other pixels of it."""
-    if path.suffix.lower() in FLOAT_SUFFIXES:
-        return _load(path)
-    if path.suffix.lower() not in _TIFF_SUFFIXES or opencv_pixels(read_bounded(path)) is not None:
+    suffix = file.path.suffix.lower()
+    if suffix in FLOAT_SUFFIXES:
+        return _load(file.path)
+    if suffix not in _TIFF_SUFFIXES or opencv_pixels(read_bounded(file.path)) is not None:
         with contextlib.suppress(AssetError):
-            return _load(path)
-    pixels = _reduced(read_texture(path))
+            image = _load(file.path)
+            image.colorspace_settings.name = "sRGB" if file.colour else "Non-Color"
+            return image
+    pixels = _reduced(read_texture(file.path))
     rows, columns = pixels.shape[:2]
-    image = bpy.data.images.new(path.name, columns, rows)
+    image = bpy.data.images.new(file.path.name, columns, rows, is_data=not file.colour)
     channels = cv2.cvtColor(pixels[::-1], cv2.COLOR_RGB2RGBA if pixels.ndim == 3 else cv2.COLOR_GRAY2RGBA)
     image.pixels.foreach_set((channels / np.float32(255)).ravel())
     image.update()
