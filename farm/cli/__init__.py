@@ -2,6 +2,7 @@
 
 import signal
 import sys
+from io import TextIOWrapper
 from types import FrameType
 from typing import Annotated
 
@@ -10,7 +11,6 @@ import typer
 from farm import __version__
 from farm.cli.assets import assets_app
 from farm.cli.control import cancel, pause, resume
-from farm.cli.display import one_line
 from farm.cli.doctor import doctor
 from farm.cli.flower import flower
 from farm.cli.mending import repair, retry
@@ -73,8 +73,11 @@ def _end(number: int, _frame: FrameType | None) -> None:
 def main() -> None:
     """Run the command line; see `farm.errors` for the exit codes."""
     end_on_signals()
+    if isinstance(sys.stdout, TextIOWrapper):
+        # A path may hold letters, or bytes that are no text, which the terminal's encoding lacks.
+        sys.stdout.reconfigure(errors="backslashreplace")
     try:
         app()
     except FarmError as error:
-        sys.stderr.write(f"farm: {one_line(str(error))}\n")
+        sys.stderr.write(f"farm: {error}\n")
         sys.exit(error.exit_code)

@@ -90,7 +90,7 @@ def check(
     ]
     if faults:
         others = f" ({len(faults) - 1} more are listed above)" if len(faults) > 1 else ""
-        raise AssetError(f"{faults[0]}{others}")
+        raise AssetError(one_line(f"{faults[0]}{others}"))
 
 
 def _of_surface(texture: TextureSet) -> str:
