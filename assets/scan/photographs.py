@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
-from PIL import Image, ImageOps
+from PIL import Image, ImageOps, UnidentifiedImageError
 from pydantic import BaseModel, ConfigDict, Field
 
 from assets.files import Checksum, read_bounded, sha256
 from assets.scan.survey import Survey, broken, entries_of, names_of, sort_out
+from assets.scan.texture_image import NO_IMAGE
 from farm.errors import AssetError
 
 SUFFIXES = frozenset({".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"})
@@ -21,7 +22,8 @@ SMALLEST_EDGE = 256
 """Least pixels along the short side; a smaller photograph would be a blur behind any picture."""
 
 MOST_PIXELS = 64 * 2**20
-"""Largest number of pixels, those of 8192 x 8192. Decoding takes 10 bytes of memory for each of them, for a moment."""
+"""Largest number of pixels, those of 8192 x 8192. Decoding takes 10 bytes of memory for each of them, for a moment,
+and 16 if some are transparent."""
 
 
 class PlateFile(BaseModel):
@@ -120,7 +122,9 @@ def decode_plate(path: Path, data: bytes) -> npt.NDArray[np.uint8]:
                 return np.asarray(_rgb(image))
     except Image.DecompressionBombError as error:
         raise AssetError(f"{path}: has too many pixels to be decoded safely; scale it down") from error
-    # What Pillow raises for damaged files and notes, beside its own UnidentifiedImageError, an OSError.
+    except UnidentifiedImageError as error:
+        raise AssetError(f"{path}: isn't a sound photograph ({NO_IMAGE}); save it again as JPEG or PNG") from error
+    # What Pillow raises for damaged files and notes.
     except (OSError, SyntaxError, ValueError, TypeError, KeyError, EOFError, struct.error) as error:
         raise AssetError(f"{path}: isn't a sound photograph ({error}); save it again as JPEG or PNG") from error
 

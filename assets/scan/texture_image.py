@@ -27,6 +27,9 @@ SMALLEST_EDGE, LARGEST_EDGE = 16, 16384
 LARGEST_PIXELS = 178_956_970
 """Pixels above which an image is refused: Pillow's own limit against files that unfold."""
 
+NO_IMAGE = "its content is no image of a kind that is read"
+"""What is said of a file that Pillow does not know, in place of its own words, which hold an address in memory."""
+
 _TIFF_MAGICS = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 _TIFF_COMPRESSIONS = frozenset({"none", "lzw", "zip", "packbits", "jpeg"})
 """Compressions that OpenImageIO 3.0 decodes rightly: of Zstandard and LZMA it makes other pixels, and so does Blender.
@@ -39,7 +42,7 @@ _ADVICE = "save it again as PNG or JPEG"
 
 
 def check_texture(path: Path, data: bytes) -> tuple[int, int]:
-    """Decode a map completely, strictly and as a worker does, to see that both can be done.
+    """Decode a map completely, by a strict reader, and make sure that a worker can decode it.
 
     Args:
         path: Path of the file, for error messages.
@@ -52,7 +55,9 @@ def check_texture(path: Path, data: bytes) -> tuple[int, int]:
         AssetError: It isn't a sound image, or its size is out of bounds.
     """
     size = _sound(path, data)
-    decode_texture(path, data)
+    if data.startswith(_TIFF_MAGICS):
+        # Of other kinds, workers decode by Pillow, as was done here, what OpenCV can't.
+        decode_texture(path, data)
     return size
 
 
@@ -131,8 +136,7 @@ def _sound(path: Path, data: bytes) -> tuple[int, int]:
 
 
 def _short(error: Exception) -> str:
-    """Say what Pillow says, without the address of a buffer in memory."""
-    return "its content is no image of a kind that is read" if isinstance(error, UnidentifiedImageError) else str(error)
+    return NO_IMAGE if isinstance(error, UnidentifiedImageError) else str(error)
 
 
 def _by_other_reader(path: Path, data: bytes) -> NDArray[Any]:
