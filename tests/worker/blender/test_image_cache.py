@@ -68,7 +68,9 @@ def test_a_map_is_the_same_by_each_way(tmp_path: Path, suffix: str, compression:
     path = tmp_path / f"oak_color.{suffix}"
     Image.fromarray(levels).save(path, **({"compression": compression} if compression else {}))
     cache = ImageCache()
-    assert np.array_equal(cache.texels(TextureFile(path, colour=True)), levels)
+    texels = cache.texels(TextureFile(path, colour=True))
+    assert texels is not None
+    assert np.array_equal(texels, levels)
     image = cache.whole(TextureFile(path, colour=True))
     assert image.colorspace_settings.name == "sRGB"
     seen = np.reshape(image.pixels, (48, 64, 4))[::-1, :, :3]
