@@ -5,6 +5,7 @@ compression, OpenImageIO or Pillow decodes.
 """
 
 import os
+import struct
 import warnings
 from contextlib import nullcontext, suppress
 from io import BytesIO
@@ -37,6 +38,9 @@ _TIFF_COMPRESSIONS = frozenset({"none", "lzw", "zip", "packbits", "jpeg"})
 
 _AS_THEY_ARE = frozenset({"L", "RGB", "RGBA", "I;16"})
 """Pillow's modes whose pixels are levels of 8 or 16 bits."""
+
+_DAMAGE = (OSError, SyntaxError, ValueError, TypeError, KeyError, EOFError, struct.error)
+"""What Pillow raises for damaged files."""
 
 _ADVICE = "save it again as PNG or JPEG"
 
@@ -131,7 +135,7 @@ def _sound(path: Path, data: bytes) -> tuple[int, int]:
             height, width = _read_tiff(path).shape[:2]
             return width, height
         raise AssetError(f"{path}: isn't a sound image ({_short(error)}); {_ADVICE}") from error
-    except (OSError, SyntaxError, ValueError) as error:
+    except _DAMAGE as error:
         raise AssetError(f"{path}: isn't a sound image ({_short(error)}); {_ADVICE}") from error
 
 
@@ -148,7 +152,7 @@ def _by_other_reader(path: Path, data: bytes) -> NDArray[Any]:
             warnings.simplefilter("ignore")
             with Image.open(BytesIO(data), formats=FORMATS) as image:
                 return np.asarray(image if image.mode in _AS_THEY_ARE else image.convert("RGB"))
-    except (Image.DecompressionBombError, OSError, SyntaxError, ValueError) as error:
+    except (Image.DecompressionBombError, *_DAMAGE) as error:
         raise AssetError(f"{path}: can't decode this image ({_short(error)}); {_ADVICE}") from error
 
 

@@ -49,7 +49,8 @@ def parse_destination(out: str) -> Destination:
     try:
         return Destination(store=store, name=_NAME.validate_python(name))
     except ValidationError as error:
+        shown = out if out.isprintable() else ascii(out)
         raise DestinationError(
-            f"{out}: '{name}' can't name a dataset; use up to 100 letters, digits, '.', '_' and '-', and begin with a "
+            f"{shown}: {name!r} can't name a dataset; use up to 100 letters, digits, '.', '_' and '-', and begin with a "
             "letter or digit"
         ) from error

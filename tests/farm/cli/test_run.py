@@ -53,6 +53,7 @@ def test_device_that_is_not_there(farm: Farm, tmp_path: Path, redis_url: str, co
 def test_name_that_is_none(farm: Farm) -> None:
     """A place whose last part can't name a dataset is refused."""
     assert_refused(farm("run", "--images", "1", "--out", ".data"), DestinationError.exit_code, ".data")
+    assert_refused(farm("run", "--images", "1", "--out", "two\nlines"), DestinationError.exit_code, r"two\nlines")
 
 
 @pytest.mark.parametrize(
