@@ -16,6 +16,10 @@ class FarmError(Exception):
 
     exit_code: ClassVar[int] = 1
 
+    def __str__(self) -> str:
+        """Return the text, which any log, JSON file and terminal can hold: a path may have bytes that are no UTF-8."""
+        return super().__str__().encode(errors="backslashreplace").decode()
+
 
 class RetryableError(FarmError):
     """A failure that may not happen again when the job is tried again."""

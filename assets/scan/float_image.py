@@ -66,7 +66,7 @@ def read_float_image(path: Path) -> NDArray[np.float32]:
             something else than one picture with the channels R, G and B, or one channel.
     """
     _check_start(path, read_start(path, LARGEST_HEADER))
-    with _quiet_standard_error():
+    with quiet_standard_error():
         source = _library().ImageInput.open(os.fsencode(path))
         if source is None:
             raise _undecodable(path, _library().geterror)
@@ -105,6 +105,20 @@ def write_float_image(path: Path, pixels: NDArray[np.float32]) -> NDArray[np.flo
         return read_float_image(path)
     except AssetError as error:
         raise AssetError(f"{path}: does not read back as it was written; {_ELSEWHERE}") from error
+
+
+def open_image(name: bytes) -> tuple["ImageInput | None", Callable[[], str]]:
+    """Open an image by the reader of its suffix alone.
+
+    Args:
+        name: The file's path in the bytes that the disk has.
+
+    Returns:
+        The opened image, or None if it can't be opened, and a function that says in one line what went wrong.
+    """
+    library = _library()
+    source = library.ImageInput.open(name)
+    return source, lambda: _reason(library.geterror if source is None else source.geterror)
 
 
 @cache
@@ -203,8 +217,8 @@ def _reason(error: Callable[[], str]) -> str:
 
 
 @contextmanager
-def _quiet_standard_error() -> Iterator[None]:
-    """Keep OpenEXR from writing about damaged files to standard error on its own; the AssetError tells of them.
+def quiet_standard_error() -> Iterator[None]:
+    """Keep codecs from writing about damaged files to standard error on their own; the AssetError tells of them.
 
     Whatever other threads write there meanwhile is lost, too.
     """

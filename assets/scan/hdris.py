@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from assets.colour import REC709_LUMINANCE
 from assets.files import Checksum, read_bounded, sha256
 from assets.scan.float_image import FLOAT_SUFFIXES, read_float_image
+from assets.scan.survey import Survey, broken, entries_of, names_of, sort_out
 from farm.errors import AssetError
 
 REGISTRY_PATH = Path(__file__).with_name("hdris.toml")
@@ -136,37 +137,47 @@ def builtin_hdris() -> tuple[Hdri, ...]:
     return tuple(_builtin(folder / entry.file, entry) for entry in registry())
 
 
-def scan_hdris(folder: Path) -> tuple[Hdri, ...]:
+def survey_hdris(folder: Path) -> Survey[Hdri]:
     """Read every .hdr and .exr file in a folder.
 
     Args:
         folder: Its subfolders aren't read.
 
     Returns:
+        The HDRIs, each with a name of its own, and the files that `read_hdri` refuses.
+
+    Raises:
+        AssetError: It is no folder, or can't be listed.
+    """
+    entries = entries_of(folder, "give the folder that holds your .hdr or .exr files")
+    paths, left_out = sort_out(entries, FLOAT_SUFFIXES, ".hdr or .exr, with high dynamic range")
+    found = []
+    for name, path in names_of(paths).items():
+        try:
+            found.append(read_hdri(path, name))
+        except AssetError as error:
+            left_out.append(broken(path, error))
+    return Survey(tuple(found), tuple(sorted(left_out, key=lambda entry: entry.path)))
+
+
+def scan_hdris(folder: Path) -> tuple[Hdri, ...]:
+    """Read the HDRIs of a folder; see `survey_hdris`.
+
+    Returns:
         The HDRIs, sorted by name.
 
     Raises:
-        AssetError: There are none, two share a name, or one fails a check of `read_hdri`.
+        AssetError: There is none that can be used.
     """
-    if not folder.is_dir():
-        raise AssetError(f"{folder}: isn't a folder; give the folder that holds your .hdr or .exr files")
-    paths = sorted(path for path in folder.iterdir() if path.suffix.lower() in FLOAT_SUFFIXES and path.is_file())
-    paths = [path for path in paths if not path.name.startswith(".")]
-    if not paths:
-        raise AssetError(f"{folder}: holds no .hdr or .exr file; put some there or leave the folder out")
-    seen: dict[str, Path] = {}
-    for path in paths:
-        if path.stem in seen:
-            raise AssetError(f"{path}: has the same name as {seen[path.stem].name}; rename or remove one")
-        seen[path.stem] = path
-    return tuple(read_hdri(path) for path in paths)
+    return survey_hdris(folder).needed(folder, "no .hdr or .exr file")
 
 
-def read_hdri(path: Path) -> Hdri:
+def read_hdri(path: Path, name: str | None = None) -> Hdri:
     """Decode a file completely and check that it can light a scene.
 
     Args:
         path: A Radiance .hdr or OpenEXR .exr file.
+        name: Name of the HDRI; None for the file's own without suffix.
 
     Returns:
         The HDRI, as measured.
@@ -189,7 +200,7 @@ def read_hdri(path: Path) -> Hdri:
     if lowest < -NEGATIVE_TOLERANCE * mean:
         raise AssetError(f"{path}: holds negative light ({lowest:.4g}); export it again, clamped at 0")
     return Hdri(
-        name=path.stem,
+        name=name or path.stem,
         path=path,
         sha256=sha256(data),
         dark=mean < DARK_BELOW,

@@ -7,10 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
-from PIL import Image, ImageOps
+from PIL import Image, ImageOps, UnidentifiedImageError
 from pydantic import BaseModel, ConfigDict, Field
 
 from assets.files import Checksum, read_bounded, sha256
+from assets.scan.survey import Survey, broken, entries_of, names_of, sort_out
+from assets.scan.texture_image import NO_IMAGE
 from farm.errors import AssetError
 
 SUFFIXES = frozenset({".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff"})
@@ -20,7 +22,8 @@ SMALLEST_EDGE = 256
 """Least pixels along the short side; a smaller photograph would be a blur behind any picture."""
 
 MOST_PIXELS = 64 * 2**20
-"""Largest number of pixels, those of 8192 x 8192. Decoding takes 10 bytes of memory for each of them, for a moment."""
+"""Largest number of pixels, those of 8192 x 8192. Decoding takes 10 bytes of memory for each of them, for a moment,
+and 16 if some are transparent."""
 
 
 class PlateFile(BaseModel):
@@ -43,43 +46,54 @@ class PlateFile(BaseModel):
     height: int = Field(ge=SMALLEST_EDGE)
 
 
-def scan_plates(folder: Path) -> tuple[PlateFile, ...]:
+def survey_plates(folder: Path) -> Survey[PlateFile]:
     """Read every JPEG, PNG, WebP and TIFF file in a folder.
 
     Args:
         folder: Its subfolders aren't read.
 
     Returns:
+        The photographs, each with a name of its own, and the files that `decode_plate` refuses.
+
+    Raises:
+        AssetError: It is no folder, or can't be listed.
+    """
+    entries = entries_of(folder, "give the folder that holds your photographs")
+    paths, left_out = sort_out(entries, SUFFIXES, "JPEG, PNG, WebP or TIFF")
+    found = []
+    for name, path in names_of(paths).items():
+        try:
+            found.append(read_plate(path, name))
+        except AssetError as error:
+            left_out.append(broken(path, error))
+    return Survey(tuple(found), tuple(sorted(left_out, key=lambda entry: entry.path)))
+
+
+def scan_plates(folder: Path) -> tuple[PlateFile, ...]:
+    """Read the photographs of a folder; see `survey_plates`.
+
+    Returns:
         The photographs, sorted by name.
 
     Raises:
-        AssetError: There are none, two share a name, or one fails a check of `decode_plate`.
+        AssetError: There is none that can be used.
     """
-    if not folder.is_dir():
-        raise AssetError(f"{folder}: isn't a folder; give the folder that holds your photographs")
-    paths = sorted(path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES and path.is_file())
-    paths = [path for path in paths if not path.name.startswith(".")]
-    if not paths:
-        raise AssetError(
-            f"{folder}: holds no photograph ({', '.join(sorted(SUFFIXES))}); put some there or leave the folder out"
-        )
-    seen: dict[str, Path] = {}
-    for path in paths:
-        if path.stem in seen:
-            raise AssetError(f"{path}: has the same name as {seen[path.stem].name}; rename or remove one")
-        seen[path.stem] = path
-    return tuple(read_plate(path) for path in paths)
+    return survey_plates(folder).needed(folder, f"no photograph ({', '.join(sorted(SUFFIXES))})")
 
 
-def read_plate(path: Path) -> PlateFile:
+def read_plate(path: Path, name: str | None = None) -> PlateFile:
     """Decode a photograph completely, to see that it can be.
+
+    Args:
+        path: The file.
+        name: Name of the photograph; None for the file's own without suffix.
 
     Raises:
         AssetError: See `decode_plate`.
     """
     data = read_bounded(path)
     height, width = decode_plate(path, data).shape[:2]
-    return PlateFile(name=path.stem, path=path, sha256=sha256(data), width=width, height=height)
+    return PlateFile(name=name or path.stem, path=path, sha256=sha256(data), width=width, height=height)
 
 
 def decode_plate(path: Path, data: bytes) -> npt.NDArray[np.uint8]:
@@ -91,9 +105,10 @@ def decode_plate(path: Path, data: bytes) -> npt.NDArray[np.uint8]:
 
     Returns:
         Shape (height, width, 3), red green blue, read-only; taken for sRGB, whatever colour profile is attached.
+        Palettes and inks become RGB, 16 bits become 8, and what is transparent stands before white, as on a page.
 
     Raises:
-        AssetError: It is truncated, damaged or of another format, not 8 bit RGB or grey, has more pixels than
+        AssetError: It is truncated, damaged or of another format, holds floats or 32 bits, has more pixels than
             `MOST_PIXELS` or fewer than `SMALLEST_EDGE` along its short side.
     """
     try:
@@ -104,10 +119,12 @@ def decode_plate(path: Path, data: bytes) -> npt.NDArray[np.uint8]:
                 _check_header(path, image)
                 image.load()
                 ImageOps.exif_transpose(image, in_place=True)
-                return np.asarray(image if image.mode == "RGB" else image.convert("RGB"))
+                return np.asarray(_rgb(image))
     except Image.DecompressionBombError as error:
         raise AssetError(f"{path}: has too many pixels to be decoded safely; scale it down") from error
-    # What Pillow raises for damaged files and notes, beside its own UnidentifiedImageError, an OSError.
+    except UnidentifiedImageError as error:
+        raise AssetError(f"{path}: isn't a sound photograph ({NO_IMAGE}); save it again as JPEG or PNG") from error
+    # What Pillow raises for damaged files and notes.
     except (OSError, SyntaxError, ValueError, TypeError, KeyError, EOFError, struct.error) as error:
         raise AssetError(f"{path}: isn't a sound photograph ({error}); save it again as JPEG or PNG") from error
 
@@ -122,5 +139,18 @@ def _check_header(path: Path, image: Image.Image) -> None:
             f"{path}: {image.width} x {image.height} is less than {SMALLEST_EDGE} pixels along its short side; "
             "use a larger one"
         )
-    if image.mode not in {"RGB", "L"}:
-        raise AssetError(f"{path}: is of mode {image.mode}; save it as 8 bit RGB or grey, without transparency")
+    if image.mode in {"F", "I"}:
+        raise AssetError(f"{path}: holds 32 bits a pixel and channel; save it with 8 or 16")
+
+
+def _rgb(image: Image.Image) -> Image.Image:
+    """Convert any kind of pixels to 8 bit RGB."""
+    if image.mode == "RGB":
+        return image
+    if image.mode.startswith("I;16"):
+        levels = np.asarray(image).astype(np.uint16) >> 8
+        return Image.fromarray(levels.astype(np.uint8)).convert("RGB")
+    if image.has_transparency_data:
+        seen = image.convert("RGBA")
+        return Image.alpha_composite(Image.new("RGBA", seen.size, "white"), seen).convert("RGB")
+    return image.convert("RGB")

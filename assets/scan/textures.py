@@ -1,24 +1,22 @@
 """A folder of the user's own PBR textures, grouped by file name and checked."""
 
-import warnings
-from collections import defaultdict
-from io import BytesIO
+import stat
 from pathlib import Path
 
-from PIL import Image
 from pydantic import BaseModel, ConfigDict, Field
 
 from assets.files import Checksum, read_bounded, sha256
 from assets.scan.float_image import read_float_image
-from assets.scan.texture_names import TextureName, TextureRole, parse_texture_name
+from assets.scan.survey import LeftOut, Survey, aside, broken, entries_of, mode_of, sort_out
+from assets.scan.texture_image import LARGEST_EDGE, SMALLEST_EDGE, check_size, check_texture
+from assets.scan.texture_names import TextureRole, parse_texture_name
+from assets.scan.texture_sets import ENDINGS, Candidates, MapFile, group_by_texture
 from farm.errors import AssetError
 
 SUFFIXES = frozenset({".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp", ".bmp", ".exr"})
-FORMATS = ("JPEG", "PNG", "TIFF", "WEBP", "BMP")
-SMALLEST_EDGE, LARGEST_EDGE = 16, 16384
-"""Pixels along an edge that are accepted. Pillow also refuses images of more than about 179 million pixels."""
 
-ENDINGS = "'_color', '_normal', '_rough', '_metal', '_ao' or '_height'"
+UNPACKED = "textures"
+"""Name of the folder in which Poly Haven's archives hold the maps, beside a .blend file."""
 
 
 class TextureMap(BaseModel):
@@ -46,7 +44,7 @@ class TextureSet(BaseModel):
 
     Attributes:
         name: Unique within the scanned folder.
-        maps: At most one for each role, in the order of `TextureRole`.
+        maps: At most one for each role that is shown, in the order of `TextureRole`.
         flip_green: The normal map is of DirectX's convention: its green has to be inverted.
         invert_roughness: The roughness map holds gloss: it has to be inverted.
     """
@@ -63,26 +61,48 @@ class TextureSet(BaseModel):
         return next((found for found in self.maps if found.role is role), None)
 
 
-def scan_textures(folder: Path) -> tuple[TextureSet, ...]:
-    """Find the textures in a folder and its immediate subfolders, and decode every image.
+def survey_textures(folder: Path) -> Survey[TextureSet]:
+    """Find the textures in a folder and its immediate subfolders, and decode every image that is shown.
+
+    Of several files for one map, the one without conversion is taken, then the largest that is sound. A texture one of
+    whose maps has no sound file is left out.
 
     Args:
         folder: Images named as texture libraries name them: `<texture>_<map>`, with a resolution anywhere.
 
     Returns:
-        The textures, sorted by name. One in a subfolder is called `<subfolder>/<texture>`, or `<subfolder>` if
-        its files are named after the maps alone.
+        The textures, and the files that none uses. A texture in a subfolder is called `<subfolder>/<texture>`, or
+        `<subfolder>` if its files are named after the maps alone; the variants of a colour end in their own names.
 
     Raises:
-        AssetError: There is no texture, a file isn't a sound image of a sane size, its name doesn't say what it
-            is for, two files are for the same thing, or a texture has no colour map.
+        AssetError: It is no folder, or can't be listed.
     """
-    if not folder.is_dir():
-        raise AssetError(f"{folder}: isn't a folder; give the folder that holds your textures")
-    named = _group(folder)
-    if not named:
-        raise AssetError(f"{folder}: holds no textures; put images there with names ending in {ENDINGS}")
-    return tuple(_texture_set(name, named[name]) for name in sorted(named))
+    images, left_out = _images(folder)
+    textures, notes = group_by_texture(images, folder.name)
+    left_out += notes
+    found, checked = [], _CheckedMaps()
+    for texture in textures:
+        made = _texture_set(texture, checked)
+        if made is not None:
+            found.append(made)
+    left_out += checked.broken.values()
+    used = {entry.path for made in found for entry in made.maps}
+    spare = {file.path for texture in textures for files in texture.maps.values() for file in files}
+    left_out += [_spare(path, textures, used) for path in spare - used - set(checked.broken)]
+    return Survey(tuple(found), tuple(sorted(left_out, key=lambda entry: entry.path)))
+
+
+def scan_textures(folder: Path) -> tuple[TextureSet, ...]:
+    """Find the textures in a folder; see `survey_textures`.
+
+    Returns:
+        The textures, sorted by name.
+
+    Raises:
+        AssetError: There is none that can be used.
+    """
+    survey = survey_textures(folder)
+    return survey.needed(folder, f"no textures, which are images with names ending in {ENDINGS},")
 
 
 def read_map(role: TextureRole, path: Path) -> TextureMap:
@@ -101,84 +121,89 @@ def read_map(role: TextureRole, path: Path) -> TextureMap:
     data = read_bounded(path)
     if path.suffix.lower() == ".exr":
         height, width = read_float_image(path).shape[:2]
-        _check_size(path, width, height)
+        check_size(path, width, height)
     else:
-        width, height = _decode(path, data)
+        width, height = check_texture(path, data)
     return TextureMap(role=role, path=path, sha256=sha256(data), width=width, height=height)
 
 
-def _group(folder: Path) -> dict[str, list[tuple[TextureName, Path]]]:
-    """Group a folder's files by the name of the texture."""
-    named: dict[str, list[tuple[TextureName, Path]]] = defaultdict(list)
-    stray: list[tuple[str, Path]] = []
-    for path in _images(folder):
-        found = parse_texture_name(path.stem)
-        inner = "" if path.parent == folder else path.parent.name
-        name = "/".join(part for part in (inner, found.texture) if part) or folder.name
-        if found.role is not None:
-            named[name].append((found, path))
-        elif not found.unused:
-            stray.append((name, path))
-    for name, path in stray:
-        # Libraries add a picture of the whole texture, named like it: that one is no map.
-        if name not in named:
-            raise AssetError(f"{path}: its name doesn't say what it is for; end it in {ENDINGS}, or remove it")
-    return named
+class _CheckedMaps:
+    """The maps that a survey has decoded: variants of a colour share them."""
+
+    def __init__(self) -> None:
+        self._read: dict[tuple[TextureRole, Path], TextureMap] = {}
+        self.broken: dict[Path, LeftOut] = {}
+
+    def first_sound(self, role: TextureRole, files: tuple[MapFile, ...]) -> tuple[MapFile, TextureMap] | None:
+        """Decode files in turn until one is sound; None if none is."""
+        for file in files:
+            if file.path in self.broken:
+                continue
+            try:
+                found = self._read.get((role, file.path)) or read_map(role, file.path)
+            except AssetError as error:
+                self.broken[file.path] = broken(file.path, error)
+                continue
+            self._read[role, file.path] = found
+            return file, found
+        return None
 
 
-def _images(folder: Path) -> list[Path]:
-    subfolders = [path for path in folder.iterdir() if path.is_dir() and not path.name.startswith(".")]
-    return sorted(
-        path
-        for place in (folder, *subfolders)
-        for path in place.iterdir()
-        if path.suffix.lower() in SUFFIXES and path.is_file() and not path.name.startswith(".")
-    )
+def _texture_set(texture: Candidates, checked: _CheckedMaps) -> TextureSet | None:
+    maps, flip_green, invert_roughness = [], False, False
+    for role, files in texture.maps.items():
+        chosen = checked.first_sound(role, files)
+        if chosen is None:
+            return None
+        file, found = chosen
+        maps.append(found)
+        flip_green |= file.directx
+        invert_roughness |= file.gloss
+    return TextureSet(name=texture.name, maps=tuple(maps), flip_green=flip_green, invert_roughness=invert_roughness)
 
 
-def _texture_set(name: str, files: list[tuple[TextureName, Path]]) -> TextureSet:
-    chosen: dict[TextureRole, tuple[TextureName, Path]] = {}
-    for found, path in files:
-        assert found.role is not None  # noqa: S101  # _group keeps only files with a role
-        rival = chosen.get(found.role)
-        if rival is None or _converted(found) < _converted(rival[0]):
-            chosen[found.role] = (found, path)
-        elif _converted(found) == _converted(rival[0]):
-            raise AssetError(f"{path}: {rival[1].name} is the {found.role} map of {name!r} too; keep one of them")
-    if TextureRole.COLOUR not in chosen:
-        raise AssetError(f"{files[0][1]}: the texture {name!r} has no colour map; add one ending in '_color'")
-    maps = tuple(read_map(role, chosen[role][1]) for role in TextureRole if role in chosen)
-    return TextureSet(
-        name=name,
-        maps=maps,
-        flip_green=TextureRole.NORMAL in chosen and chosen[TextureRole.NORMAL][0].directx,
-        invert_roughness=TextureRole.ROUGHNESS in chosen and chosen[TextureRole.ROUGHNESS][0].gloss,
-    )
+def _spare(path: Path, textures: tuple[Candidates, ...], used: set[Path]) -> LeftOut:
+    """Say why a sound or unread file is not used: another one is its map, or a map beside it is broken."""
+    for texture in textures:
+        for files in texture.maps.values():
+            paths = [file.path for file in files]
+            chosen = next((other for other in paths if other in used), None)
+            if path in paths and chosen is not None:
+                return aside(path, f"not used: {chosen.name} is the same map")
+    return aside(path, "not used: another map of its texture is broken")
 
 
-def _converted(found: TextureName) -> bool:
-    """Whether a map has to be converted; where a library gives both kinds, the other one is taken."""
-    return found.directx or found.gloss
+def _images(folder: Path) -> tuple[list[tuple[str, Path]], list[LeftOut]]:
+    """List the images of a folder and its subfolders, each with the name of its subfolder, sorted by path."""
+    images, left_out = [], []
+    entries = entries_of(folder, "give the folder that holds your textures")
+    subfolders = [path for path in entries if stat.S_ISDIR(mode_of(path))]
+    for place in (None, *subfolders):
+        try:
+            inner = entries if place is None else entries_of(place, "remove it")
+        except AssetError as error:
+            left_out.append(broken(folder if place is None else place, error))
+            continue
+        wanted, notes = _without_folders(inner)
+        if place is not None and not any(_is_map(path) for path in wanted):
+            deeper, more = _without_folders(_unpacked(place))
+            wanted, notes = wanted + deeper, notes + more
+        images += [("" if place is None else place.name, path) for path in wanted]
+        left_out += notes
+    return sorted(images, key=lambda image: image[1]), left_out
 
 
-def _decode(path: Path, data: bytes) -> tuple[int, int]:
-    advice = "save it again as PNG or JPEG"
+def _without_folders(entries: list[Path]) -> tuple[list[Path], list[LeftOut]]:
+    return sort_out([path for path in entries if not stat.S_ISDIR(mode_of(path))], SUFFIXES, "PNG, JPEG, TIFF or EXR")
+
+
+def _is_map(path: Path) -> bool:
+    found = parse_texture_name(path.stem)
+    return found.role is not None or found.unused
+
+
+def _unpacked(place: Path) -> list[Path]:
     try:
-        with warnings.catch_warnings():
-            # Pillow warns of large images; the bounds below decide instead.
-            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
-            with Image.open(BytesIO(data), formats=FORMATS) as image:
-                _check_size(path, image.width, image.height)
-                image.load()
-                return image.width, image.height
-    except Image.DecompressionBombError as error:
-        raise AssetError(f"{path}: has too many pixels to be decoded safely; scale it down") from error
-    except (OSError, SyntaxError, ValueError) as error:
-        raise AssetError(f"{path}: isn't a sound image ({error}); {advice}") from error
-
-
-def _check_size(path: Path, width: int, height: int) -> None:
-    if not (SMALLEST_EDGE <= width <= LARGEST_EDGE and SMALLEST_EDGE <= height <= LARGEST_EDGE):
-        raise AssetError(
-            f"{path}: {width} x {height} pixels is outside {SMALLEST_EDGE} to {LARGEST_EDGE} an edge; scale it"
-        )
+        return entries_of(place / UNPACKED, "")
+    except AssetError:
+        return []

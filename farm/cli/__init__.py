@@ -2,6 +2,7 @@
 
 import signal
 import sys
+from io import TextIOWrapper
 from types import FrameType
 from typing import Annotated
 
@@ -72,6 +73,9 @@ def _end(number: int, _frame: FrameType | None) -> None:
 def main() -> None:
     """Run the command line; see `farm.errors` for the exit codes."""
     end_on_signals()
+    if isinstance(sys.stdout, TextIOWrapper):
+        # A path may hold letters, or bytes that are no text, which the terminal's encoding lacks.
+        sys.stdout.reconfigure(errors="backslashreplace")
     try:
         app()
     except FarmError as error:

@@ -22,6 +22,12 @@ def console(*, results: bool = False) -> Console:
     return Console(stderr=not results, highlight=False, soft_wrap=True)
 
 
+def one_line(text: str) -> str:
+    """Make a text printable, and one line: names of files may hold line ends, and bytes that are no text."""
+    printable = "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in text)
+    return printable.encode(errors="backslashreplace").decode()
+
+
 def duration(seconds: float) -> str:
     """Write a number of seconds for people: `2 h 05 min`, `3 min 20 s`, `12 s`."""
     minutes, rest = divmod(round(seconds), 60)

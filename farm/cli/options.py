@@ -2,7 +2,8 @@
 
 import functools
 import inspect
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Annotated, Any
@@ -35,12 +36,26 @@ Assets = Annotated[
     Path | None,
     typer.Option("--assets", envvar="FARM_ASSETS", help="Folder of the baked surfaces; default: the user's own."),
 ]
+InputFolders = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--inputs",
+        envvar="FARM_INPUTS",
+        metavar="DIR",
+        help="Folder to look in for textures, HDRIs, photographs and templates that are elsewhere here; repeat it.",
+    ),
+]
 Logs = Annotated[Path | None, typer.Option("--logs", envvar="FARM_LOGS", help="Folder for what Blender prints.")]
 MinFree = Annotated[
     int,
     typer.Option("--min-free-mib", min=0, help="MiB of free space on the store's disk below which no picture is made."),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
+
+
+def input_places(given: Sequence[Path] | None, *more: Path | None) -> tuple[Path, ...]:
+    """Make the places where a renderer looks for a dataset's files absolute, since it may run in another folder."""
+    return tuple(path.expanduser().absolute() for path in (*(given or ()), *more) if path is not None)
 
 
 def log_folder(given: Path | None) -> Path:

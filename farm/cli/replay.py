@@ -7,8 +7,8 @@ import typer
 
 from farm.cli.baking import bake_for
 from farm.cli.display import console
-from farm.cli.options import Assets, DatasetPlace, Device, Logs, job_of, log_folder
 from farm.cli.worker_program import PictureFiles, make_picture, require_blender
+from farm.cli.options import Assets, DatasetPlace, Device, InputFolders, Logs, input_places, job_of, log_folder
 from farm.dataset.dataset import open_dataset
 from farm.dataset.destination import parse_destination
 from farm.errors import DestinationError, SpecError
@@ -22,6 +22,7 @@ def replay(
     device: Device = DeviceChoice.AUTO,
     threads: Annotated[int, typer.Option(min=0, help="Threads of the renderer; 0: all cores.")] = 0,
     assets: Assets = None,
+    inputs: InputFolders = None,
     logs: Logs = None,
 ) -> None:
     """Make one of a dataset's images again, in another folder: the dataset does not change."""
@@ -36,7 +37,7 @@ def replay(
     require_blender()
     bake_for(dataset.header, assets, console())
     files = PictureFiles.in_folder(out, job)
-    renderer = RendererSettings(device=device, threads=threads, assets=assets)
+    renderer = RendererSettings(device=device, threads=threads, assets=assets, inputs=input_places(inputs))
     with console().status(f"making {job.id}"):
         make_picture(dataset.header, job, files, renderer, log_folder(logs))
     typer.echo(f"{files.picture} and {files.mask}")

@@ -11,9 +11,11 @@ from farm.cli.options import (
     Assets,
     DatasetOptions,
     Device,
+    InputFolders,
     Logs,
     MinFree,
     Out,
+    input_places,
     log_folder,
     takes_dataset_options,
 )
@@ -30,7 +32,7 @@ from farm.spec.make_header import make_header
 
 
 @takes_dataset_options
-def run(
+def run(  # noqa: PLR0913, PLR0917 - every option is a parameter
     options: DatasetOptions,
     out: Out,
     workers: Annotated[
@@ -45,6 +47,7 @@ def run(
         typer.Option(min=1, help="Threads of each worker's renderer; default: the cores divided by the workers."),
     ] = None,
     assets: Assets = None,
+    inputs: InputFolders = None,
     logs: Logs = None,
     min_free_mib: MinFree = MIN_FREE_MIB,
 ) -> None:
@@ -55,6 +58,7 @@ def run(
     destination = parse_destination(out)
     description = options.describe()
     header = make_header(description.spec, description.inputs, InstalledAssets())
+    places = input_places(inputs, *description.inputs.places)
     require_blender()
     find_dataset(destination, header)  # a conflict is told before surfaces are drawn, which may take minutes
     screen = console()
@@ -64,7 +68,7 @@ def run(
         ask_worker(["check"], header, log_folder(logs))
     workers = workers or default_workers()
     threads = threads or max(1, usable_cores() // workers)
-    renderer = RendererSettings(device=device, threads=threads, assets=assets)
+    renderer = RendererSettings(device=device, threads=threads, assets=assets, inputs=places)
     how = LocalRun(workers=workers, renderer=renderer, logs=log_folder(logs), min_free_mib=min_free_mib)
     with ProgressDisplay(screen) as display:
         try:

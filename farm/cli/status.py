@@ -1,5 +1,7 @@
 """`farm status` and `farm watch`: show the progress of a dataset."""
 
+import json
+
 import typer
 
 from farm.cli.connection import handle_if_reachable, handle_of
@@ -29,7 +31,8 @@ def status(place: DatasetPlace, broker: Broker = None, as_json: AsJson = False) 
             # If nobody watched to the end, the run is still registered.
             handle.registry.remove(handle.run.key)
     if as_json:
-        typer.echo(progress.model_dump_json(indent=1))
+        # Python's own writer takes a location of any bytes.
+        typer.echo(json.dumps(progress.model_dump(mode="json"), indent=1))
         return
     screen = console(results=True)
     screen.print(progress.location, markup=False)

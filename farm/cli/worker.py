@@ -8,7 +8,7 @@ import typer
 from assets.surfaces.catalogue import SURFACES
 from farm.cli.baking import bake
 from farm.cli.display import console
-from farm.cli.options import Assets, Broker, Device, Logs, MinFree, log_folder
+from farm.cli.options import Assets, Broker, Device, InputFolders, Logs, MinFree, input_places, log_folder
 from farm.cli.worker_program import become_worker, check_device, require_blender
 from farm.machine import expanded, usable_cores
 from farm.run.queue.broker import broker_url, wait_for
@@ -49,6 +49,7 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
         float, typer.Option(min=0, help="Seconds to wait for a Redis that is not there yet.")
     ] = 0.0,
     assets: Assets = None,
+    inputs: InputFolders = None,
     logs: Logs = None,
 ) -> None:
     """Make pictures for the datasets of a store until stopped; Ctrl-C lets the running one end."""
@@ -64,7 +65,7 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
         store=store,
         name=name or f"worker-{os.getpid()}",
         logs=log_folder(logs),
-        renderer=RendererSettings(device=device, threads=threads, assets=assets),
+        renderer=RendererSettings(device=device, threads=threads, assets=assets, inputs=input_places(inputs)),
         concurrency=concurrency,
         tasks_per_child=tasks_per_child,
         memory_per_child_kib=memory_per_child_mib * 1024,

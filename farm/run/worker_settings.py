@@ -69,11 +69,14 @@ class RendererSettings(_Argument):
         device: device that Cycles renders on.
         threads: threads of the renderer on the CPU; 0 takes all cores.
         assets: folder of the baked surfaces; None for the user's own.
+        inputs: folders and files in which the renderer looks for a dataset's textures, HDRIs, photographs and template
+            that are not where the header says.
     """
 
     device: DeviceChoice = DeviceChoice.AUTO
     threads: Annotated[int, Field(ge=0)] = 0
     assets: Path | None = None
+    inputs: tuple[Path, ...] = ()
 
 
 class WorkerSettings(_Argument):

@@ -2,19 +2,29 @@
 
 import hashlib
 import importlib.util
-from collections import Counter
-from collections.abc import Mapping, Sequence
+import itertools
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from farm import __version__
 from farm.errors import AssetError, SpecError, TemplateError
 from farm.spec.category import Category
 from farm.spec.dataset_spec import DatasetSpec, Engine
-from farm.spec.header import DatasetHeader, HdriRef, PlateRef, SurfaceRef, TemplateRef
+from farm.spec.header import (
+    BuiltinSurfaceRef,
+    DatasetHeader,
+    FolderSurfaceRef,
+    HdriRef,
+    PlateRef,
+    SurfaceRef,
+    TemplateRef,
+)
 from farm.spec.quality import ChosenSettings, settings_for
 from farm.spec.styles import Style
+
+_Ref = TypeVar("_Ref", BuiltinSurfaceRef | FolderSurfaceRef, HdriRef, PlateRef)
 
 # First bytes of a .blend file, which is plain, or compressed by Zstandard or, in older versions, by gzip.
 _BLEND_STARTS = (b"BLENDER", b"\x28\xb5\x2f\xfd", b"\x1f\x8b")
@@ -41,6 +51,12 @@ class Inputs:
     builtin_hdris: bool = True
     backgrounds: tuple[Path, ...] = ()
     environments: bool = True
+
+    @property
+    def places(self) -> tuple[Path, ...]:
+        """The user's own folders, and the template, in which a dataset's files are found by their content."""
+        own = () if self.template is None else (self.template,)
+        return (*self.textures, *self.hdris, *self.backgrounds, *own)
 
 
 class AssetSource(Protocol):
@@ -80,23 +96,23 @@ def make_header(spec: DatasetSpec, inputs: Inputs, assets: AssetSource) -> Datas
         assets: source of surfaces, HDRIs and photographs.
 
     Raises:
-        AssetError: if a texture, HDRI or photograph can't be read, two have the same name, or no surface or HDRI is
-            left.
+        AssetError: if a folder holds nothing that can be used, or no surface or HDRI is left.
         TemplateError: if the template can't be read or is not a .blend file.
         SpecError: if the description names an HDRI that does not exist.
     """
     surfaces = list(assets.builtin_surfaces(spec.style)) if inputs.builtin_textures else []
     for folder in inputs.textures:
-        surfaces += assets.surfaces_in(folder)
+        surfaces = _joined(surfaces, assets.surfaces_in(folder))
     hdris = list(assets.builtin_hdris()) if inputs.builtin_hdris else []
     if inputs.environments:
         hdris += assets.environments()
     for folder in inputs.hdris:
-        hdris += assets.hdris_in(folder)
-    plates = [plate for folder in inputs.backgrounds for plate in assets.plates_in(folder)]
-    _check_names("surface", "--textures", [surface.name for surface in surfaces])
-    _check_names("HDRI", "--hdris", [hdri.name for hdri in hdris])
-    _check_unique("photograph", [plate.name for plate in plates], "rename one of the files")
+        hdris = _joined(hdris, assets.hdris_in(folder))
+    plates: list[PlateRef] = []
+    for folder in inputs.backgrounds:
+        plates = _joined(plates, assets.plates_in(folder))
+    _check_any("surface", "--textures", surfaces)
+    _check_any("HDRI", "--hdris", hdris)
     wanted = spec.close_distributed_hdri
     if wanted is not None and wanted not in {hdri.name for hdri in hdris}:
         names = ", ".join(hdri.name for hdri in hdris)
@@ -124,16 +140,36 @@ def _rendering(spec: DatasetSpec) -> Mapping[Category, ChosenSettings]:
     return chosen
 
 
-def _check_names(kind: str, flag: str, names: list[str]) -> None:
-    if not names:
+def _joined(had: Sequence[_Ref], more: Sequence[_Ref]) -> list[_Ref]:
+    """Add the assets of another folder; one whose name is taken gets a number: cameras call all pictures IMG_0001.
+
+    The numbers go by the order of the folders, not by their names, so that folders may be moved. An asset of the same
+    name and content is not added twice.
+    """
+    joined = {reference.name: reference for reference in had}
+    for reference in more:
+        rival = joined.get(reference.name)
+        if rival is None:
+            joined[reference.name] = reference
+        elif _content(rival) != _content(reference):
+            name = _free_name(reference.name, joined)
+            joined[name] = reference.model_copy(update={"name": name})
+    return list(joined.values())
+
+
+def _content(reference: _Ref) -> object:
+    """What a reference says apart from where its files are."""
+    return reference.model_dump(exclude={"path": True, "files": {"__all__": {"path"}}})
+
+
+def _free_name(name: str, taken: Collection[str]) -> str:
+    numbered = (f"{name} ({number})" for number in itertools.count(2))
+    return next(free for free in itertools.chain((name,), numbered) if free not in taken)
+
+
+def _check_any(kind: str, flag: str, found: Sequence[object]) -> None:
+    if not found:
         raise AssetError(f"no {kind} is left; name a folder with {flag}, or leave the built-in ones in")
-    _check_unique(kind, names, "rename the files of one, or leave the built-in ones out")
-
-
-def _check_unique(kind: str, names: list[str], advice: str) -> None:
-    for name, count in Counter(names).most_common(1):
-        if count > 1:
-            raise AssetError(f"{count} {kind}s are called '{name}'; {advice}")
 
 
 def template_ref(template: Path | None) -> TemplateRef:
@@ -154,7 +190,17 @@ def template_ref(template: Path | None) -> TemplateRef:
     if not content.startswith(_BLEND_STARTS):
         raise TemplateError(f"{path}: not a .blend file; save the template in Blender and name that file")
     absolute = None if template is None else str(template.resolve())
+    if absolute is not None and not _is_utf8(absolute):
+        raise TemplateError(f"{path}: its path isn't UTF-8; rename the template or its folder")
     return TemplateRef(path=absolute, sha256=hashlib.sha256(content).hexdigest())
+
+
+def _is_utf8(path: str) -> bool:
+    try:
+        path.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _builtin_template() -> Path:

@@ -12,11 +12,13 @@ from io import BytesIO
 from pathlib import Path
 
 import numpy as np
+import OpenImageIO
 from PIL import Image
 
 from assets.fetch.registry import OWN_REGISTRY, read_registry
 from assets.scan.float_image import LARGEST_PIXELS, read_float_image
 from assets.scan.photographs import decode_plate
+from assets.scan.texture_image import check_texture, read_texture
 from farm.dataset.completion import job_of_manifest
 from farm.dataset.dataset import Dataset, create_dataset, open_dataset
 from farm.dataset.destination import Destination, parse_destination
@@ -189,6 +191,30 @@ def _float_image(suffix: str) -> Callable[[bytes], object]:
     return parse
 
 
+def _texture(data: bytes) -> None:
+    path = _folder() / "fuzzed.tif"
+    path.write_bytes(data)
+    width, height = check_texture(path, data)
+    assert read_texture(path).shape[:2] == (height, width)
+
+
+def _textures() -> tuple[bytes, ...]:
+    """One of each reader: OpenCV's, Pillow's and OpenImageIO's."""
+    files = []
+    for mode, options in [("RGB", {"compression": "tiff_lzw"}), ("L", {"compression": "zstd"}), ("I;16", {})]:
+        buffer = BytesIO()
+        Image.new(mode, (20, 16)).save(buffer, "TIFF", **options)
+        files.append(buffer.getvalue())
+    path = _folder() / "seed.tif"
+    spec = OpenImageIO.ImageSpec(20, 16, 3, "uint16")
+    spec.attribute("oiio:BitsPerSample", 12)
+    target = OpenImageIO.ImageOutput.create(str(path))
+    assert target.open(str(path), spec)
+    assert target.write_image(np.zeros((16, 20, 3), np.uint16))
+    assert target.close()
+    return (*files, path.read_bytes())
+
+
 def _exr_files() -> tuple[bytes, ...]:
     """One of each way in which pixels are packed."""
     pixels = np.random.default_rng(0).random((6, 10, 3), np.float32)
@@ -227,6 +253,7 @@ def targets() -> dict[str, Target]:
         "broker address": Target(_address, (b"rediss://:word@there:1/0?ssl_ca_certs=/a.pem", b"redis+socket:///a")),
         "EXR": Target(_float_image(".exr"), _exr_files()),
         "photograph": Target(lambda data: decode_plate(Path("x"), data), (_photograph("JPEG"), _photograph("WEBP"))),
+        "texture": Target(_texture, _textures()),
         "registry": Target(_one_line(_registry), (_registry_seed(),)),
         "Radiance": Target(_float_image(".hdr"), _radiance_files()),
     }

@@ -1,16 +1,15 @@
 """The files of the surfaces, HDRIs and photographs that a dataset's header names, checked against it."""
 
-import hashlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from assets.environments import Environment, load_environment
-from assets.files import open_regular
 from assets.scan.hdris import Hdri, builtin_hdris
 from assets.surfaces.baked import BakedSurface, load_surface, surface_directory
 from farm.errors import AssetError
 from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, FileRef, FolderSurfaceRef
+from worker.blender.input_files import InputFiles
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,12 +40,13 @@ class SurfaceFiles:
 class AssetLibrary:
     """Finds files by the names that scenes use."""
 
-    def __init__(self, header: DatasetHeader, baked_folder: Path | None) -> None:
+    def __init__(self, header: DatasetHeader, baked_folder: Path | None, places: Sequence[Path] = ()) -> None:
         """Look up nothing yet.
 
         Args:
             header: the dataset's header.
             baked_folder: folder of the baked built-in surfaces; None for the usual place.
+            places: folders and files in which the user's files are looked for, where they are not at their paths.
         """
         self._surfaces = {surface.name: surface for surface in header.surfaces}
         self._hdris = {hdri.name: hdri for hdri in header.hdris}
@@ -55,7 +55,15 @@ class AssetLibrary:
         self._baked: dict[str, BakedSurface] = {}
         self._environments: dict[str, Environment] = {}
         self._builtin_hdris: Mapping[str, Hdri] | None = None
-        self._checked: dict[str, Path] = {}
+        self._inputs = InputFiles(places)
+
+    def template(self, path: Path, sha256: str) -> Path:
+        """File of the dataset's template.
+
+        Raises:
+            AssetError: if it is not on this machine, or differs from the header's.
+        """
+        return self._inputs.once_checked(FileRef(path=str(path), sha256=sha256))
 
     def surface(self, name: str) -> SurfaceFiles:
         """Files of a surface.
@@ -76,7 +84,7 @@ class AssetLibrary:
         if reference.recipe_version is not None:
             return self._environment(name, reference.recipe_version)
         if reference.path is not None and reference.sha256 is not None:
-            return self._once_checked(FileRef(path=reference.path, sha256=reference.sha256))
+            return self._inputs.once_checked(FileRef(path=reference.path, sha256=reference.sha256))
         if self._builtin_hdris is None:
             self._builtin_hdris = {hdri.name: hdri for hdri in builtin_hdris()}
         builtin = self._builtin_hdris.get(name)
@@ -93,7 +101,7 @@ class AssetLibrary:
             AssetError: if it is not on this machine, or differs from the header's.
         """
         reference = self._plates[name]
-        return self._once_checked(FileRef(path=reference.path, sha256=reference.sha256))
+        return self._inputs.once_checked(FileRef(path=reference.path, sha256=reference.sha256))
 
     def _environment(self, name: str, version: int) -> Path:
         """An environment of our own. This process reads its checksum when a scene first shows it."""
@@ -106,12 +114,6 @@ class AssetLibrary:
                 "run `farm assets build`"
             )
         return found.path
-
-    def _once_checked(self, reference: FileRef) -> Path:
-        """A file whose checksum this process reads once, since thousands of pictures use it."""
-        if reference.path not in self._checked:
-            self._checked[reference.path] = checked(reference)
-        return self._checked[reference.path]
 
     def _from_bakery(self, surface: BuiltinSurfaceRef) -> SurfaceFiles:
         """A surface of our own. Its checksums are read when a scene first shows it, as all together take 0.4 s."""
@@ -134,7 +136,7 @@ class AssetLibrary:
         )
 
     def _from_folder(self, surface: FolderSurfaceRef) -> SurfaceFiles:
-        files = {role: self._once_checked(reference) for role, reference in surface.files.items()}
+        files = {role: self._inputs.once_checked(reference) for role, reference in surface.files.items()}
         return SurfaceFiles(
             size_m=surface.size_m,
             colour=files["colour"],
@@ -147,19 +149,9 @@ class AssetLibrary:
 
 
 def checked(reference: FileRef) -> Path:
-    """Find the file of a reference, and check its content.
+    """Find the file of a reference at its own path, and check its content.
 
     Raises:
         AssetError: if the file is not there, or has changed.
     """
-    path = Path(reference.path)
-    try:
-        with open_regular(path) as file:
-            digest = hashlib.file_digest(file, "sha256").hexdigest()
-    except OSError as error:
-        raise AssetError(
-            f"{path}: can't be read ({error.strerror}); this machine needs it at the same place"
-        ) from error
-    if digest != reference.sha256:
-        raise AssetError(f"{path}: has changed since the dataset was submitted; restore it or submit a new dataset")
-    return path
+    return InputFiles().find(reference)

@@ -1,5 +1,6 @@
 """The images that a process holds: each file is read once, and the least used are let go when there are too many."""
 
+import contextlib
 from collections import OrderedDict
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,10 +14,13 @@ from numpy.typing import NDArray
 from assets.files import read_bounded
 from assets.scan.float_image import FLOAT_SUFFIXES, read_float_image
 from assets.scan.photographs import decode_plate
+from assets.scan.texture_image import opencv_pixels, read_texture
 from farm.errors import AssetError
 from worker.colour import Texels
 
 Pixels = NDArray[np.uint8] | NDArray[np.float32]
+
+_TIFF_SUFFIXES = frozenset({".tif", ".tiff"})
 
 _IN_USE = 6
 """Images from files that one picture needs at most. The last six used stay, however large."""
@@ -119,16 +123,14 @@ class ImageCache:
         return texels
 
     def whole(self, file: TextureFile) -> Any:
-        """A map as a Blender image, read by Blender.
+        """A map as a Blender image, read by Blender if it can, else by the reader that checked it.
 
         Raises:
-            AssetError: if Blender can't read it.
+            AssetError: if it can't be read.
         """
 
         def read() -> tuple[Any, int]:
-            image = _load(file.path)
-            if file.path.suffix.lower() not in FLOAT_SUFFIXES:
-                image.colorspace_settings.name = "sRGB" if file.colour else "Non-Color"
+            image = _load_texture(file)
             if file.invert or file.flip_green:
                 pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
                 image.pixels.foreach_get(pixels)
@@ -214,17 +216,39 @@ def _load(path: Path) -> Any:
     return image
 
 
-def _decode(file: TextureFile, *, reduced: bool) -> tuple[Texels | None, int]:
-    pixels = cv2.imread(str(file.path), cv2.IMREAD_UNCHANGED)
-    if pixels is None:
-        raise AssetError(f"{file.path}: can't decode this image; replace the file")
-    if reduced and pixels.dtype == np.uint16:
+def _load_texture(file: TextureFile) -> Any:
+    """Load a map by Blender, or by the reader that checked it if Blender can't, or makes other pixels of it."""
+    suffix = file.path.suffix.lower()
+    if suffix in FLOAT_SUFFIXES:
+        return _load(file.path)
+    if suffix not in _TIFF_SUFFIXES or opencv_pixels(read_bounded(file.path)) is not None:
+        with contextlib.suppress(AssetError):
+            image = _load(file.path)
+            image.colorspace_settings.name = "sRGB" if file.colour else "Non-Color"
+            return image
+    pixels = _reduced(read_texture(file.path))
+    rows, columns = pixels.shape[:2]
+    image = bpy.data.images.new(file.path.name, columns, rows, is_data=not file.colour)
+    channels = cv2.cvtColor(pixels[::-1], cv2.COLOR_RGB2RGBA if pixels.ndim == 3 else cv2.COLOR_GRAY2RGBA)
+    image.pixels.foreach_set((channels / np.float32(255)).ravel())
+    image.update()
+    return image
+
+
+def _reduced(pixels: NDArray[Any]) -> NDArray[Any]:
+    """Reduce 16 bits to 8, and leave out alpha."""
+    if pixels.dtype == np.uint16:
         pixels = (pixels // 256).astype(np.uint8)
-    if reduced and pixels.ndim == 3 and pixels.shape[2] == 4:
-        pixels = pixels[:, :, :3]
+    return pixels[:, :, :3] if pixels.ndim == 3 and pixels.shape[2] == 4 else pixels
+
+
+def _decode(file: TextureFile, *, reduced: bool) -> tuple[Texels | None, int]:
+    pixels = read_texture(file.path)
+    if reduced:
+        pixels = _reduced(pixels)
     if pixels.dtype != np.uint8 or (pixels.ndim == 3 and pixels.shape[2] != 3):
         return None, 0
-    texels = (cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB) if pixels.ndim == 3 else pixels).astype(np.uint8, copy=False)
+    texels = np.require(pixels, np.uint8, ["C", "W"])
     _alter(texels, 255, invert=file.invert, flip_green=file.flip_green)
     return texels, texels.nbytes
 

@@ -7,6 +7,7 @@ code that makes pictures.
 import time
 from collections.abc import Iterable
 from importlib.metadata import version
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -26,12 +27,12 @@ from farm.scene.picture_size import PictureSize
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.dataset_spec import DatasetSpec, Engine
-from farm.spec.header import DatasetHeader, FileRef
+from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.spec.quality import ChosenSettings, Quality
 from farm.spec.rendering import Economy, PictureSettings
 from worker.blender import eevee
-from worker.blender.asset_files import AssetLibrary, checked
+from worker.blender.asset_files import AssetLibrary
 from worker.blender.build_scene import BuiltScene, build_scene
 from worker.blender.image_cache import ImageCache
 from worker.blender.render import configure_cycles, configure_eevee, configure_picture, render_scene
@@ -58,7 +59,7 @@ def open_renderer(header: DatasetHeader, settings: RendererSettings) -> "Blender
         AssetError: if the template's file can't be read.
         MachineError: if there is no such device.
     """
-    return BlenderRenderer(header, AssetLibrary(header, settings.assets), settings)
+    return BlenderRenderer(header, AssetLibrary(header, settings.assets, settings.inputs), settings)
 
 
 class BlenderRenderer:
@@ -70,8 +71,8 @@ class BlenderRenderer:
     def __init__(self, header: DatasetHeader, library: AssetLibrary, settings: RendererSettings) -> None:
         """Open the template; see `open_renderer`."""
         start = time.perf_counter()
-        path = header.template.path or str(TEMPLATE)
-        open_template(checked(FileRef(path=path, sha256=header.template.sha256)))
+        path = TEMPLATE if header.template.path is None else Path(header.template.path)
+        open_template(library.template(path, header.template.sha256))
         # Undo steps and autosaves are of no use here and cost time and memory.
         bpy.context.preferences.edit.use_global_undo = False
         bpy.context.preferences.filepaths.use_auto_save_temporary_files = False

@@ -44,7 +44,7 @@ def refusal(path: Path, data: bytes) -> str:
     with pytest.raises(AssetError) as refused:
         read_float_image(path)
     message = str(refused.value)
-    assert message.startswith(f"{path}: ")
+    assert message.startswith(f"{AssetError(str(path))}: ")
     assert "\n" not in message
     return message
 

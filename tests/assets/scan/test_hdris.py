@@ -1,4 +1,5 @@
 import importlib.util
+import os
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from assets.scan.hdris import (
     read_hdri,
     registry,
     scan_hdris,
+    survey_hdris,
     world_directory,
 )
 from farm.errors import AssetError
@@ -149,12 +151,28 @@ def test_a_square_picture_is_refused(tmp_path: Path) -> None:
         read_hdri(panorama(tmp_path / "a.hdr", np.ones((32, 32, 3), np.float32)))
 
 
-def test_two_files_of_one_name_are_refused(tmp_path: Path) -> None:
-    """Two files of one name are refused, as scenes tell panoramas apart by name."""
+def test_two_files_of_one_name(tmp_path: Path) -> None:
+    """Scenes tell panoramas apart by name, so the second is called by its whole file name."""
     panorama(tmp_path / "hall.exr")
     panorama(tmp_path / "hall.hdr")
-    with pytest.raises(AssetError, match="same name"):
-        scan_hdris(tmp_path)
+    assert [hdri.name for hdri in scan_hdris(tmp_path)] == ["hall", "hall.hdr"]
+
+
+def test_what_can_not_light_a_scene_is_left_out(tmp_path: Path) -> None:
+    """One sound panorama is enough; the others are listed, all at once."""
+    panorama(tmp_path / "hall.exr")
+    (tmp_path / "cut.hdr").write_bytes(b"#?RADIANCE")
+    panorama(tmp_path / "square.hdr", np.ones((32, 32, 3), np.float32))
+    (tmp_path / os.fsdecode(b"caf\xe9.exr")).write_bytes((tmp_path / "hall.exr").read_bytes())
+    (tmp_path / "preview.jpg").write_bytes(b"")
+    survey = survey_hdris(tmp_path)
+    assert [hdri.name for hdri in survey.found] == ["hall"]
+    assert [(os.fsencode(entry.path.name), entry.broken) for entry in survey.left_out] == [
+        (b"caf\xe9.exr", True),
+        (b"cut.hdr", True),
+        (b"preview.jpg", False),
+        (b"square.hdr", True),
+    ]
 
 
 @pytest.mark.parametrize("made", [True, False])

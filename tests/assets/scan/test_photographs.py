@@ -1,5 +1,6 @@
 """Reading the user's own photographs."""
 
+import os
 import struct
 import zlib
 from io import BytesIO
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from assets.files import sha256
-from assets.scan.photographs import decode_plate, read_plate, scan_plates
+from assets.scan.photographs import decode_plate, read_plate, scan_plates, survey_plates
 from farm.errors import AssetError
 
 ORIENTATION = 0x0112
@@ -124,13 +125,78 @@ def test_damage_is_an_asset_error_or_harmless(format_: str, damage: list[tuple[f
     assert min(shape[:2]) >= 256
 
 
+def in_mode(mode: str) -> Image.Image:
+    """The smooth picture with another kind of pixels."""
+    shown = Image.fromarray(pixels())
+    if mode == "I;16":
+        return Image.fromarray(pixels()[..., 0].astype(np.uint16) * 257)
+    return shown.convert(mode)
+
+
 @pytest.mark.parametrize(
-    ("mode", "format_"), [("RGBA", "PNG"), ("LA", "PNG"), ("P", "PNG"), ("1", "PNG"), ("I;16", "PNG"), ("CMYK", "JPEG")]
+    ("mode", "format_"),
+    [
+        *(("RGBA", name) for name in ("PNG", "TIFF", "WEBP")),
+        *((mode, "PNG") for mode in ("LA", "P", "1", "I;16")),
+        *((mode, "TIFF") for mode in ("LA", "P", "1", "I;16", "CMYK", "YCbCr")),
+        ("CMYK", "JPEG"),
+    ],
 )
-def test_other_kinds_of_pixels_are_refused(mode: str, format_: str) -> None:
-    """Transparency, palettes, 16 bits and inks are refused, and the error says what to save instead."""
-    with pytest.raises(AssetError, match=f"is of mode {mode}; save it as 8 bit RGB or grey"):
-        decode_plate(Path("lab"), encoded(format_, Image.new(mode, (300, 300))))
+def test_other_kinds_of_pixels_are_converted(mode: str, format_: str) -> None:
+    """Transparency, palettes, 16 bits and inks become 8 bit RGB that looks the same."""
+    seen = decode_plate(Path("lab"), encoded(format_, in_mode(mode))).astype(int)
+    assert seen.shape == (260, 320, 3)
+    like = {"I;16": pixels()[..., :1], "LA": np.asarray(Image.fromarray(pixels()).convert("L"))[..., None]}
+    if mode != "1":
+        assert np.abs(seen - like.get(mode, pixels())).mean() < (20 if mode == "P" else 4)
+
+
+@pytest.mark.parametrize("mode", ["RGBA", "LA", "PA"])
+def test_what_is_transparent_stands_before_white(mode: str) -> None:
+    """A hidden colour is not shown, half of a level is a mean with white."""
+    image = Image.new("RGBA", (300, 300), (200, 200, 200, 0))
+    image.paste((100, 100, 100, 128), (0, 0, 150, 300))
+    seen = decode_plate(Path("lab"), encoded("TIFF" if mode == "PA" else "PNG", image.convert(mode)))
+    assert (seen[:, 150:] == 255).all()
+    assert np.abs(seen[:, :150].astype(int) - 177).max() <= 1
+
+
+@pytest.mark.parametrize("mode", ["F", "I"])
+def test_pixels_of_32_bits_are_refused(mode: str) -> None:
+    """They have no white that could be known."""
+    with pytest.raises(AssetError, match="32 bits a pixel and channel; save it with 8 or 16"):
+        decode_plate(Path("lab"), encoded("TIFF", Image.new(mode, (300, 300))))
+
+
+def test_of_a_moving_picture_the_first_is_taken() -> None:
+    """Animated PNG and WebP files are photographs of their first picture."""
+    first = Image.fromarray(pixels())
+    for format_ in ("PNG", "WEBP"):
+        data = encoded(format_, first, save_all=True, append_images=[Image.new("RGB", first.size)], lossless=True)
+        assert (decode_plate(Path("lab"), data) == pixels()).all()
+
+
+def test_a_folder_as_people_have_it(tmp_path: Path) -> None:
+    """What can be used is, hidden files and those of other programs are passed over, and the rest is listed at once."""
+    good = encoded("JPEG")
+    for name in ("lab.jpg", "._lab.jpg", ".DS_Store", "Thumbs.db", "desktop.ini", "new\nline.jpg"):
+        (tmp_path / name).write_bytes(good)
+    (tmp_path / "cut.jpg").write_bytes(good[: len(good) // 2])
+    (tmp_path / "empty.png").write_bytes(b"")
+    (tmp_path / "phone.HEIC").write_bytes(b"heic")
+    (tmp_path / "moving.gif").write_bytes(encoded("GIF"))
+    (tmp_path / "tiny.png").write_bytes(encoded("PNG", Image.new("RGB", (20, 20))))
+    (tmp_path / "gone.jpg").symlink_to(tmp_path / "nowhere.jpg")
+    (tmp_path / "loop.jpg").symlink_to(tmp_path / "loop.jpg")
+    (tmp_path / "more").mkdir()
+    odd = tmp_path / os.fsdecode(b"caf\xe9.jpg")
+    odd.write_bytes(good)
+    survey = survey_plates(tmp_path)
+    assert [plate.name for plate in survey.found] == ["lab", "new\nline"]
+    assert {entry.path.name: entry.broken for entry in survey.left_out} == {
+        **dict.fromkeys(["cut.jpg", "empty.png", "tiny.png", "gone.jpg", "loop.jpg", odd.name], True),
+        **dict.fromkeys(["phone.HEIC", "moving.gif", "more"], False),
+    }
 
 
 @pytest.mark.parametrize(("size", "fits"), [((255, 4000), False), ((4000, 255), False), ((256, 256), True)])
@@ -166,11 +232,10 @@ def test_what_only_its_name_calls_a_photograph(tmp_path: Path) -> None:
 
 
 def test_two_photographs_of_one_name(tmp_path: Path) -> None:
-    """Two photographs of one name are refused, as scenes tell them apart by name."""
+    """Scenes tell photographs apart by name, so the second is called by its whole file name."""
     Image.fromarray(pixels()).save(tmp_path / "lab.jpg")
     Image.fromarray(pixels()).save(tmp_path / "lab.png")
-    with pytest.raises(AssetError, match=r"lab\.png: has the same name as lab\.jpg"):
-        scan_plates(tmp_path)
+    assert [plate.name for plate in scan_plates(tmp_path)] == ["lab", "lab.png"]
 
 
 @pytest.mark.parametrize("made", [True, False])

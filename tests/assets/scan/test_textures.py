@@ -1,3 +1,4 @@
+import os
 from pathlib import Path
 
 import numpy as np
@@ -6,7 +7,7 @@ from PIL import Image
 
 from assets.files import sha256
 from assets.scan.texture_names import TextureRole
-from assets.scan.textures import read_map, scan_textures
+from assets.scan.textures import read_map, scan_textures, survey_textures
 from farm.errors import AssetError
 from tests.assets.scan.float_files import write_image
 
@@ -42,10 +43,10 @@ def test_usual_formats_are_read(tmp_path: Path, suffix: str) -> None:
 
 
 def test_exr_maps_are_read(tmp_path: Path) -> None:
-    """A height map in an EXR file is read."""
+    """A map of roughness in an EXR file is read."""
     picture(tmp_path / "oak_color.png")
-    write_image(tmp_path / "oak_disp.exr", np.full((32, 48, 1), 0.5, np.float32))
-    found = scan_textures(tmp_path)[0].find(TextureRole.HEIGHT)
+    write_image(tmp_path / "oak_rough.exr", np.full((32, 48, 1), 0.5, np.float32))
+    found = scan_textures(tmp_path)[0].find(TextureRole.ROUGHNESS)
     assert found is not None
     assert (found.width, found.height) == (48, 32)
 
@@ -103,12 +104,66 @@ def test_a_name_that_says_nothing_is_refused(tmp_path: Path) -> None:
         scan_textures(tmp_path)
 
 
-def test_two_files_for_one_map_are_refused(tmp_path: Path) -> None:
-    """The error names both files."""
-    picture(tmp_path / "oak_color_1k.png")
-    picture(tmp_path / "oak_color_2k.png")
-    with pytest.raises(AssetError, match=r"oak_color_2k\.png: oak_color_1k\.png is the colour map .* keep one"):
-        scan_textures(tmp_path)
+def test_of_several_resolutions_the_largest_sound_one_is_taken(tmp_path: Path) -> None:
+    """A map of a larger resolution that is broken gives way to a smaller one, and both others are listed."""
+    for name in ("oak_color_1k.png", "oak_color_2k.png", "oak_color_4k.png"):
+        picture(tmp_path / name)
+    (tmp_path / "oak_color_4k.png").write_bytes(b"cut")
+    survey = survey_textures(tmp_path)
+    assert [entry.path.name for entry in survey.found[0].maps] == ["oak_color_2k.png"]
+    assert [(entry.path.name, entry.broken) for entry in survey.left_out] == [
+        ("oak_color_1k.png", False),
+        ("oak_color_4k.png", True),
+    ]
+
+
+def test_a_broken_texture_leaves_the_others(tmp_path: Path) -> None:
+    """A texture with a broken map is left out whole, since without the map it would look otherwise."""
+    for name in ("oak_color.png", "slate_color.png", "slate_rough.png", "slate_normal.png"):
+        picture(tmp_path / name)
+    (tmp_path / "slate_rough.png").write_text("<html>not found</html>")
+    survey = survey_textures(tmp_path)
+    assert [texture.name for texture in survey.found] == ["oak"]
+    assert {entry.path.name: entry.broken for entry in survey.left_out} == {
+        "slate_color.png": False,
+        "slate_normal.png": False,
+        "slate_rough.png": True,
+    }
+
+
+def test_maps_that_are_not_shown_are_not_read(tmp_path: Path) -> None:
+    """A height map, an occlusion map or a preview may be anything."""
+    picture(tmp_path / "oak_color.png")
+    for name in ("oak_height.png", "oak_bump.png", "oak_ao.png", "oak_preview.png", "oak.png", "oak_orm.png"):
+        (tmp_path / name).write_bytes(b"")
+    survey = survey_textures(tmp_path)
+    assert [texture.name for texture in survey.found] == ["oak"]
+    assert len(survey.left_out) == 6
+    assert not any(entry.broken for entry in survey.left_out)
+
+
+def test_unpacked_archives_are_read(tmp_path: Path) -> None:
+    """Poly Haven's archives hold the maps in a folder 'textures' beside a .blend file."""
+    picture(tmp_path / "leather_1k.blend" / "textures" / "leather_diff_1k.png")
+    (tmp_path / "leather_1k.blend" / "leather_1k.blend").write_bytes(b"BLENDER")
+    picture(tmp_path / "oak" / "oak_color.png")
+    picture(tmp_path / "oak" / "textures" / "pine_color.png")
+    assert [found.name for found in scan_textures(tmp_path)] == ["leather_1k.blend/leather", "oak/oak"]
+
+
+def test_a_name_that_is_no_utf8_is_left_out(tmp_path: Path) -> None:
+    """A header can't hold a path of other bytes; of a folder with such a name nothing is left."""
+    picture(tmp_path / "oak_color.png")
+    odd = tmp_path / os.fsdecode(b"caf\xe9_color.png")
+    odd.write_bytes((tmp_path / "oak_color.png").read_bytes())
+    survey = survey_textures(tmp_path)
+    assert [texture.name for texture in survey.found] == ["oak"]
+    assert [(entry.path, entry.broken) for entry in survey.left_out] == [(odd, True)]
+    folder = tmp_path / os.fsdecode(b"\xe9t\xe9")
+    folder.mkdir()
+    (folder / "oak_color.png").write_bytes((tmp_path / "oak_color.png").read_bytes())
+    with pytest.raises(AssetError, match="isn't UTF-8; rename"):
+        scan_textures(folder)
 
 
 def test_a_texture_without_colour_is_refused(tmp_path: Path) -> None:

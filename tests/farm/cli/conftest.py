@@ -17,7 +17,7 @@ from worker.service.upload import upload
 def farm(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Farm:
     """A function that runs a command in a folder of its own, in this process, which saves a start."""
     monkeypatch.chdir(tmp_path)
-    for name in ("FARM_BROKER_URL", "FARM_STORE", "FARM_ASSETS", "FARM_LOGS"):
+    for name in ("FARM_BROKER_URL", "FARM_STORE", "FARM_ASSETS", "FARM_INPUTS", "FARM_LOGS"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.setattr(signal, "signal", lambda *_: None)

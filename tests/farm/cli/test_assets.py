@@ -1,6 +1,7 @@
 """`farm assets`."""
 
 import importlib
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from rich.console import Console
 from assets.environments import ENVIRONMENTS
 from assets.surfaces.bake import BakedSet
 from farm.cli import baking
+from farm.cli.installed_assets import InstalledAssets
 from farm.errors import AssetError, SpecError
 from farm.spec.header import HdriRef
 from tests.farm.cli.result import Farm, assert_refused
@@ -29,6 +31,57 @@ def test_photographs_are_checked(farm: Farm, tmp_path: Path) -> None:
     Image.new("RGB", (40, 30)).save(tmp_path / "thumb.jpg")
     result = farm("assets", "check", "--backgrounds", str(tmp_path))
     assert_refused(result, AssetError.exit_code, "thumb.jpg", "256 pixels")
+
+
+def test_everything_wrong_is_listed_at_once(farm: Farm, tmp_path: Path) -> None:
+    """All folders are checked to the end, each file is named in a line of its own, and the code says what was found."""
+    for folder in ("textures", "photos", "hdris", "good"):
+        (tmp_path / folder).mkdir()
+    colour = Image.effect_noise((300, 300), 60)
+    for name in ("oak_color.png", "oak_bump.png", "oak_disp.png", "oak_rough.png"):
+        colour.save(tmp_path / "good" / name)
+    colour.save(tmp_path / "textures" / "oak_normal.png")
+    colour.save(tmp_path / "photos" / "lab.png")
+    colour.save(tmp_path / "photos" / "two\nlines.png")
+    (tmp_path / "photos" / os.fsdecode(b"caf\xe9.jpg")).write_bytes(b"")
+    (tmp_path / "photos" / "cut.jpg").write_bytes(b"")
+    good = farm("assets", "check", "--textures", "good", "--backgrounds", "photos", "--backgrounds", "nowhere")
+    assert good.stdout.splitlines() == [
+        "surface oak: colour, roughness",
+        "left aside: good/oak_bump.png: not used: a map of height",
+        "left aside: good/oak_disp.png: not used: a map of height",
+        "photograph lab: 300 x 300",
+        "photograph two\\nlines: 300 x 300",
+        r"can not be used: photos/caf\udce9.jpg: its path isn't UTF-8; rename the file or its folder",
+        "can not be used: photos/cut.jpg: the file is empty; copy or download it again",
+        "can not be used: nowhere: isn't a folder; give the folder that holds your photographs",
+    ]
+    assert_refused(good, AssetError.exit_code, r"caf\udce9.jpg", "2 more are listed above")
+    bad = farm("assets", "check", "--textures", "textures", "--hdris", "hdris")
+    assert_refused(bad, AssetError.exit_code, "'oak' has no colour map", "1 more")
+    assert farm("assets", "check", "--textures", "good").returncode == 0
+
+
+def test_a_dataset_says_what_it_leaves_out(tmp_path: Path) -> None:
+    """Each file that can't be used is named, up to a number; those of no use are counted."""
+    Image.effect_noise((300, 300), 60).save(tmp_path / "lab.png")
+    (tmp_path / "phone.heic").write_bytes(b"")
+    for number in range(25):
+        (tmp_path / f"{number:02}.jpg").write_bytes(b"")
+    lines: list[str] = []
+    assert [plate.name for plate in InstalledAssets(lines.append).plates_in(tmp_path)] == ["lab"]
+    assert lines[0] == f"left out: {tmp_path}/00.jpg: the file is empty; copy or download it again"
+    assert lines[20:] == [
+        f"left out: 5 more files of {tmp_path}",
+        f"1 files of {tmp_path} are not used; list them: farm assets check --backgrounds {tmp_path}",
+    ]
+
+
+def test_a_folder_of_which_nothing_is_left_is_refused(tmp_path: Path) -> None:
+    """The error names the folder and the first file's fault."""
+    (tmp_path / "cut.jpg").write_bytes(b"")
+    with pytest.raises(AssetError, match=r"holds no photograph that can be used: .*cut\.jpg: the file is empty"):
+        InstalledAssets().plates_in(tmp_path)
 
 
 def test_assets_are_listed(farm: Farm) -> None:

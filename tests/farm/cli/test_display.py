@@ -1,11 +1,12 @@
 """Progress for people."""
 
+import os
 from io import StringIO
 
 import pytest
 from rich.console import Console
 
-from farm.cli.display import ProgressDisplay, duration, summary
+from farm.cli.display import ProgressDisplay, duration, one_line, summary
 from farm.run.progress import CategoryProgress, Progress
 from farm.run.registry.port import RunState, WorkerReport, WorkerState
 from farm.spec.category import Category
@@ -85,3 +86,11 @@ def test_bars_on_a_terminal() -> None:
     assert "3/4" in out.getvalue()
     assert "far_aligned" not in out.getvalue()
     assert "far-000002.png" in out.getvalue()
+
+
+def test_names_of_files_are_printed_in_one_line() -> None:
+    """Line ends, escapes of terminals and bytes that are no text are spelt out; letters of all languages stay."""
+    odd = os.fsdecode(b"caf\xe9") + " two\nlines\r\x1b[31m" + " naïve 猫 a\\b"
+    shown = one_line(odd)
+    assert shown == r"caf\udce9 two\nlines\r\x1b[31m" + " naïve 猫 a\\b"
+    shown.encode()

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 import redis
+from PIL import Image
 
 from farm.dataset.dataset import Dataset
 from farm.errors import ConflictError, DestinationError, MachineError
@@ -52,6 +53,7 @@ def test_device_that_is_not_there(farm: Farm, tmp_path: Path, redis_url: str, co
 def test_name_that_is_none(farm: Farm) -> None:
     """A place whose last part can't name a dataset is refused."""
     assert_refused(farm("run", "--images", "1", "--out", ".data"), DestinationError.exit_code, ".data")
+    assert_refused(farm("run", "--images", "1", "--out", "two\nlines"), DestinationError.exit_code, r"two\nlines")
 
 
 @pytest.mark.parametrize(
@@ -82,3 +84,26 @@ def test_threads_of_each_worker(farm: Farm, monkeypatch: pytest.MonkeyPatch, opt
     result = farm("run", "--images", "1", "--out", "data", *options)
     assert_refused(result, MachineError.exit_code, "far enough")
     assert used == [threads]
+
+
+def test_workers_look_in_the_commands_own_folders(farm: Farm, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A dataset whose header names files at their former places goes on with the folders that the command names."""
+    for folder in ("textures", "photos", "more"):
+        (tmp_path / folder).mkdir()
+    Image.effect_noise((300, 300), 60).save(tmp_path / "textures" / "oak_color.png")
+    Image.effect_noise((300, 300), 60).save(tmp_path / "photos" / "lab.png")
+    (tmp_path / "mine.blend").write_bytes(b"BLENDER-v405")
+    used: list[tuple[Path, ...]] = []
+
+    def note(_: object, __: object, how: LocalRun, ___: object) -> None:
+        used.append(how.renderer.inputs)
+        raise MachineError("far enough")
+
+    module = importlib.import_module("farm.cli.run")
+    monkeypatch.setattr(module, "run_locally", note)
+    for step in ("require_blender", "check_device", "bake_for", "ask_worker"):
+        monkeypatch.setattr(module, step, lambda *_: None)
+    own = ["--textures", "textures", "--backgrounds", "photos", "--template", "mine.blend", "--inputs", "more"]
+    result = farm("run", "--images", "1", "--out", "data", *own)
+    assert_refused(result, MachineError.exit_code, "far enough")
+    assert used == [tuple(tmp_path / name for name in ("more", "textures", "photos", "mine.blend"))]

@@ -1,6 +1,10 @@
 """`farm status` and `farm watch`."""
 
 import json
+import os
+import shutil
+import subprocess
+import sys
 from importlib import import_module
 from pathlib import Path
 
@@ -105,3 +109,20 @@ def test_status_tells_of_workers_and_state(
     shown = farm("status", dataset.storage.location, "--broker", redis_url).stdout
     assert "state    paused" in shown
     assert "worker   one@host held: disk full, 7 done" in shown
+
+
+def test_a_dataset_in_a_folder_whose_name_is_no_utf8(farm: Farm, made: Dataset, tmp_path: Path) -> None:
+    """Old file systems hold such names; the progress is told for programs and people."""
+    place = tmp_path / os.fsdecode(b"caf\xe9") / "cables"
+    shutil.copytree(made.storage.location, place)
+    assert json.loads(farm("status", str(place), "--json").stdout)["location"] == str(place)
+    # Most terminals' encoding is strict; that of this process is not.
+    done = subprocess.run(
+        [sys.executable, "-m", "farm", "status", str(place)],
+        env={**os.environ, "PYTHONIOENCODING": "utf-8:strict"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert r"caf\udce9/cables" in done.stdout

@@ -1,5 +1,6 @@
 """Making a header from inputs."""
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -7,13 +8,14 @@ import pytest
 from pydantic import ValidationError
 
 from assets.environments import ENVIRONMENTS
+from assets.files import sha256
 from farm.cli.installed_assets import InstalledAssets
 from farm.dataset.header_comparison import difference
 from farm.dataset.header_file import header_content, parse_header
-from farm.errors import AssetError, SpecError, TemplateError
+from farm.errors import SpecError, TemplateError
 from farm.spec.category import Category
 from farm.spec.dataset_spec import DatasetSpec
-from farm.spec.header import BuiltinSurfaceRef, HdriRef, PlateRef, SurfaceRef
+from farm.spec.header import BuiltinSurfaceRef, FileRef, FolderSurfaceRef, HdriRef, PlateRef, SurfaceRef
 from farm.spec.make_header import Inputs, make_header
 from farm.spec.parse import describe, parse_spec
 from farm.spec.styles import Style
@@ -30,7 +32,8 @@ class Shelf:
 
     def surfaces_in(self, folder: Path) -> Sequence[SurfaceRef]:
         """A surface called as its folder."""
-        return [BuiltinSurfaceRef(name=folder.name, recipe_version=1)]
+        files = {"colour": FileRef(path=str(folder / "colour.png"), sha256=sha256(str(folder).encode()))}
+        return [FolderSurfaceRef(name=folder.name, files=files)]
 
     def builtin_hdris(self) -> Sequence[HdriRef]:
         """One of Blender's HDRIs."""
@@ -46,7 +49,7 @@ class Shelf:
 
     def plates_in(self, folder: Path) -> Sequence[PlateRef]:
         """A photograph called as its folder."""
-        return [PlateRef(name=folder.name, path=str(folder), sha256=SHA)]
+        return [PlateRef(name=folder.name, path=str(folder), sha256=sha256(str(folder).encode()))]
 
 
 @pytest.fixture
@@ -95,10 +98,29 @@ def test_photographs_decide_the_pictures(spec: DatasetSpec, template: Path) -> N
     assert difference(parse_header(header_content(without)), with_one)
 
 
-def test_one_photograph_twice(spec: DatasetSpec, template: Path) -> None:
-    """Two photographs of one name, from two folders, are refused."""
-    with pytest.raises(AssetError, match="2 photographs are called 'lab'; rename one"):
-        make_header(spec, Inputs(template, backgrounds=(Path("a/lab"), Path("b/lab"))), Shelf())
+def test_names_that_folders_share(spec: DatasetSpec, template: Path) -> None:
+    """Assets of one name get a number, by the order of the folders: their own names may change when they are moved."""
+    lab = (Path("a/lab"), Path("b/lab"), Path("c/lab"))
+    header = make_header(spec, Inputs(template, (Path("oak"),), (Path("city"),), backgrounds=lab), Shelf())
+    assert [plate.name for plate in header.plates] == ["lab", "lab (2)", "lab (3)"]
+    assert [plate.path for plate in header.plates] == ["a/lab", "b/lab", "c/lab"]
+    assert [surface.name for surface in header.surfaces] == ["oak", "oak (2)"]
+    assert [hdri.name for hdri in header.hdris] == ["city", "workshop", "city (2)"]
+
+
+def test_a_template_whose_path_is_no_utf8_is_refused(spec: DatasetSpec, tmp_path: Path) -> None:
+    """A header can't hold such a path."""
+    path = tmp_path / os.fsdecode(b"caf\xe9.blend")
+    path.write_bytes(b"BLENDER-v405")
+    with pytest.raises(TemplateError, match="isn't UTF-8; rename the template"):
+        make_header(spec, Inputs(path), Shelf())
+
+
+def test_the_places_of_a_users_own_files() -> None:
+    """Workers look in all folders that are named, and at the template."""
+    inputs = Inputs(Path("a.blend"), (Path("t"),), (Path("h"),), backgrounds=(Path("b"), Path("c")))
+    assert inputs.places == (Path("t"), Path("h"), Path("b"), Path("c"), Path("a.blend"))
+    assert Inputs().places == ()
 
 
 def test_environments_take_part_unless_they_are_left_out(spec: DatasetSpec, template: Path) -> None:
@@ -142,10 +164,13 @@ def test_an_hdri_is_either_a_file_or_an_environment(fields: dict[str, object]) -
         HdriRef.model_validate({"name": "room", "dark": False, **fields})
 
 
-def test_one_name_twice(spec: DatasetSpec, template: Path) -> None:
-    """Two assets of one name, which a scene couldn't tell apart, are refused."""
-    with pytest.raises(AssetError, match="'oak'"):
-        make_header(spec, Inputs(template, (Path("oak"),)), Shelf())
+def test_one_folder_twice(spec: DatasetSpec, template: Path) -> None:
+    """The same assets are not added again."""
+    twice = (Path("a"), Path("a"))
+    header = make_header(spec, Inputs(template, twice, twice, backgrounds=twice, environments=False), Shelf())
+    assert [surface.name for surface in header.surfaces] == ["oak", "a"]
+    assert [hdri.name for hdri in header.hdris] == ["city", "a"]
+    assert [plate.name for plate in header.plates] == ["a"]
 
 
 def test_content_of_the_template_counts(spec: DatasetSpec, template: Path) -> None:

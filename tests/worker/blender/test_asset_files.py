@@ -8,7 +8,7 @@ from assets.environments import EnvironmentKind, EnvironmentRecord, environment_
 from assets.files import sha256
 from assets.surfaces.bake import bake_surfaces
 from farm.errors import AssetError
-from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, PlateRef
+from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, FileRef, FolderSurfaceRef, HdriRef, PlateRef
 from worker.blender.asset_files import AssetLibrary
 
 SHOWN, OTHER = "stucco", "galvanised_steel"
@@ -63,6 +63,30 @@ def test_a_photograph_is_checked(header: DatasetHeader, tmp_path: Path, change: 
     path.unlink() if change is None else path.write_bytes(change)
     with pytest.raises(AssetError, match=r"lab\.jpg: (can't be read|has changed since)"):
         AssetLibrary(with_plate, tmp_path).plate("lab")
+
+
+def test_moved_inputs_are_found(header: DatasetHeader, tmp_path: Path) -> None:
+    """Photographs, HDRIs, textures and the template are found by content in the folders that the machine has."""
+    moved = {name: tmp_path / "here" / name for name in ("lab.jpg", "sky.exr", "oak_color.png", "mine.blend")}
+    (tmp_path / "here").mkdir()
+    for name, path in moved.items():
+        path.write_text(name)
+    references = {name: FileRef(path=f"/elsewhere/{name}", sha256=sha256(name.encode())) for name in moved}
+    lab, sky, oak, mine = references.values()
+    named = header.model_copy(
+        update={
+            "plates": (PlateRef(name="lab", path=lab.path, sha256=lab.sha256),),
+            "hdris": (HdriRef(name="sky", path=sky.path, sha256=sky.sha256, dark=False),),
+            "surfaces": (FolderSurfaceRef(name="oak", files={"colour": oak}),),
+        }
+    )
+    here = AssetLibrary(named, tmp_path, [tmp_path / "here"])
+    assert here.plate("lab") == moved["lab.jpg"]
+    assert here.hdri("sky") == moved["sky.exr"]
+    assert here.surface("oak").colour == moved["oak_color.png"]
+    assert here.template(Path(mine.path), mine.sha256) == moved["mine.blend"]
+    with pytest.raises(AssetError, match=r"oak_color\.png: can't be read .* --inputs"):
+        AssetLibrary(named, tmp_path).surface("oak")
 
 
 def with_environment(header: DatasetHeader, folder: Path, version: int) -> AssetLibrary:

@@ -5,6 +5,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from PIL import Image
 
 from tests.assets.scan.float_files import write_image
 
@@ -54,3 +55,23 @@ def test_glossiness_in_grey_becomes_roughness_all_over(tmp_path: Path) -> None:
     texels = ImageCache().texels(TextureFile(path, invert=True))
     assert texels is not None
     assert (texels == 55).all()
+
+
+@pytest.mark.parametrize(
+    ("suffix", "compression"), [("tif", "zstd"), ("tif", "tiff_lzw"), ("tif", "lzma"), ("bmp", "")]
+)
+def test_a_map_is_the_same_by_each_way(tmp_path: Path, suffix: str, compression: str) -> None:
+    """Blender makes other pixels of some compressions, and refuses some files that the check of a folder takes."""
+    from worker.blender.image_cache import ImageCache, TextureFile  # noqa: PLC0415
+
+    levels = cv2.resize(np.random.default_rng(0).integers(0, 255, (4, 4, 3), np.uint8), (64, 48))
+    path = tmp_path / f"oak_color.{suffix}"
+    Image.fromarray(levels).save(path, **({"compression": compression} if compression else {}))
+    cache = ImageCache()
+    texels = cache.texels(TextureFile(path, colour=True))
+    assert texels is not None
+    assert np.array_equal(texels, levels)
+    image = cache.whole(TextureFile(path, colour=True))
+    assert image.colorspace_settings.name == "sRGB"
+    seen = np.reshape(image.pixels, (48, 64, 4))[::-1, :, :3]
+    assert np.allclose(seen, levels / 255, atol=1e-4)
