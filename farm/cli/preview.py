@@ -9,7 +9,6 @@ import typer
 from farm.cli.baking import bake_for
 from farm.cli.display import console
 from farm.cli.installed_assets import InstalledAssets
-from farm.cli.worker_program import PictureFiles, make_picture, require_blender
 from farm.cli.options import (
     Assets,
     DatasetOptions,
@@ -20,6 +19,7 @@ from farm.cli.options import (
     log_folder,
     takes_dataset_options,
 )
+from farm.cli.worker_program import PictureFiles, make_picture, require_blender
 from farm.errors import DestinationError, SpecError
 from farm.run.worker_settings import DeviceChoice, RendererSettings
 from farm.spec.category import Category

@@ -7,8 +7,8 @@ import typer
 
 from farm.cli.baking import bake_for
 from farm.cli.display import console
-from farm.cli.worker_program import PictureFiles, make_picture, require_blender
 from farm.cli.options import Assets, DatasetPlace, Device, InputFolders, Logs, input_places, job_of, log_folder
+from farm.cli.worker_program import PictureFiles, make_picture, require_blender
 from farm.dataset.dataset import open_dataset
 from farm.dataset.destination import parse_destination
 from farm.errors import DestinationError, SpecError
