@@ -6,6 +6,7 @@ import pytest
 from farm.scene.camera import NEAR_CLIP_M, Camera
 from farm.scene.clutter import Part, PartKind, Stick, StickKind
 from farm.scene.light import AreaLamp, Lamp, PointLamp, StudioLamp
+from farm.scene.picture_size import PictureSize
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.rendering import CableDetail
@@ -30,12 +31,13 @@ STICK = Stick(
     pattern_seed=0,
 )
 PART = Part(kind=PartKind.CONNECTOR, x_m=0.0, y_m=0.05, rotation_deg=0.0, size_m=0.02, colour=(9, 9, 9), pattern_seed=0)
+SIZE = PictureSize.square(96)
 WIDE_LENS = Camera(height_m=0.018, f_number=8.0, focal_length_mm=10.0)
 
 
 def settled(scene: Scene, fallen: CableShapes) -> SettledGeometry:
     """A scene after its fall."""
-    return SettledGeometry(scene, fallen, CableDetail(), 96)
+    return SettledGeometry(scene, fallen, CableDetail(), SIZE)
 
 
 def seen_from(camera: Camera, top_m: float, **more: object) -> str | None:
@@ -63,21 +65,26 @@ def test_cables_keep_a_margin_from_where_the_view_begins(top_m: float, is_clear:
 def test_nothing_below_the_opening_is_cut_off(tilt_deg: float, bearing_deg: float) -> None:
     """For every tilt, each point below the opening's height that the picture shows lies beyond the near plane."""
     view = View(
-        height_m=0.05, resolution=96, focal_length_mm=14.0, tilt_deg=tilt_deg, tilt_bearing_deg=bearing_deg, roll_deg=9
+        height_m=0.05,
+        resolution=SIZE,
+        focal_length_mm=14.0,
+        tilt_deg=tilt_deg,
+        tilt_bearing_deg=bearing_deg,
+        roll_deg=9,
     )
     opening_m = view.lowest_opening_m(NEAR_CLIP_M, 0.0)
     across = np.linspace(-0.2, 0.2, 401)
     level = np.stack([*(axis.ravel() for axis in np.meshgrid(across, across)), np.full(401**2, opening_m - 1e-6)], 1)
     before = level[view.depths_m(level) > 0]
     seen_px = view.project(before)
-    shown = before[((seen_px >= 0) & (seen_px <= 96)).all(axis=1)]
+    shown = before[((seen_px >= 0) & (seen_px <= SIZE.width)).all(axis=1)]
     assert len(shown) > 10
     assert view.depths_m(shown).min() > NEAR_CLIP_M
 
 
 def test_a_wide_aperture_lowers_the_opening_of_a_tilted_camera() -> None:
     """A lens of 10 mm radius that is tilted by 30 degrees reaches 5 mm farther down."""
-    view = View(height_m=0.1, resolution=96, tilt_deg=30.0)
+    view = View(height_m=0.1, resolution=SIZE, tilt_deg=30.0)
     assert view.lowest_opening_m(0.005, 0.0) - view.lowest_opening_m(0.005, 0.01) == pytest.approx(0.005)
 
 
