@@ -37,7 +37,7 @@ def open_dataset(destination: Destination) -> Dataset:
         ConflictError: if its header is damaged or of another version of the farm.
         SpecError: if its header names a simulator that the farm no longer offers.
     """
-    storage = open_storage(destination.location)
+    storage = open_storage(destination.location, anchor=HEADER_FILE)
     try:
         header = read_header(storage)
     except FileNotFoundError as error:
@@ -89,7 +89,7 @@ def find_dataset(destination: Destination, header: DatasetHeader) -> Dataset | N
             f"{destination.location}: holds another dataset: {difference}; repeat the first call's options to "
             "complete it, or choose another --out"
         )
-    return Dataset(destination.name, storage, present)
+    return Dataset(destination.name, open_storage(destination.location, anchor=HEADER_FILE), present)
 
 
 def create_dataset(destination: Destination, header: DatasetHeader) -> Dataset:
@@ -103,5 +103,6 @@ def create_dataset(destination: Destination, header: DatasetHeader) -> Dataset:
     if present is not None:
         return present
     storage = open_storage(destination.location)
+    # Nothing but a new header may make the folder.
     storage.write(HEADER_FILE, header.model_dump_json(indent=1).encode() + b"\n")
-    return Dataset(destination.name, storage, header)
+    return Dataset(destination.name, open_storage(destination.location, anchor=HEADER_FILE), header)
