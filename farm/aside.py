@@ -51,8 +51,8 @@ class Aside(Generic[T]):
         self.answer = self._call()
         self.answered_s = began_s
 
-    def wait(self, most_s: float) -> bool:
-        """Wait for the call that is under way; returns whether it has ended."""
+    def wait(self, most_s: float | None) -> bool:
+        """Wait for the call that is under way, `most_s` seconds or without end; returns whether it has ended."""
         if self._thread is not None:
             self._thread.join(most_s)
         return not self.runs
