@@ -87,9 +87,9 @@ def test_links_that_lead_back(tmp_path: Path) -> None:
 def test_link_to_itself(tmp_path: Path) -> None:
     """A link that leads nowhere but to itself is told."""
     (tmp_path / "far").symlink_to("far")
-    for act in (LocalStorage(tmp_path).files, lambda: LocalStorage(tmp_path).files("far")):
+    for under in ("", "far"):
         with pytest.raises(DestinationError, match=r"far: can't list: Too many levels of symbolic links"):
-            act()
+            LocalStorage(tmp_path).files(under)
 
 
 @pytest.mark.parametrize("name", [".#notes.txt", ".lock"])
