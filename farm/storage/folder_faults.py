@@ -1,8 +1,10 @@
 """Translates the failures of folders into the farm's own errors: what is in the way, and what to do about it."""
 
 import errno
+import os
 import stat
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from types import MappingProxyType
 
@@ -80,24 +82,24 @@ def lost_link_error(link: Path, action: str, place: Path) -> DestinationError:
 
 
 def lost_link(place: Path, below: Path | None = None) -> Path | None:
-    """Find the first link in a path whose target is not there.
+    """Find the link in a path whose target is not there.
 
     Args:
         place: the path.
-        below: folder that the search begins with; None begins at the root of all folders.
+        below: folder above which no link is looked for; None looks everywhere.
     """
-    for path in _from_the_top(place):
-        if below is not None and not path.is_relative_to(below):
-            continue
-        if path.parent != path and _is_lost(path):
-            return path
+    for path in (place, *place.parents):
+        with suppress(OSError):
+            # Where the system finds this, it found all above.
+            return path if stat.S_ISLNK(os.lstat(path).st_mode) and _leads_nowhere(path) else None
+        if path == below:
+            break
     return None
 
 
-def _is_lost(path: Path) -> bool:
+def _leads_nowhere(link: Path) -> bool:
     try:
-        if path.is_symlink():
-            path.stat()
+        link.stat()
     except (FileNotFoundError, NotADirectoryError):
         return True
     except OSError:
@@ -108,7 +110,7 @@ def _is_lost(path: Path) -> bool:
 
 def _blocker(place: Path) -> tuple[Path, str] | None:
     """Find what stands where a path needs a folder."""
-    for path in list(_from_the_top(place))[:-1]:
+    for path in reversed(place.parents):
         try:
             mode = path.stat().st_mode
         except OSError:
@@ -117,11 +119,6 @@ def _blocker(place: Path) -> tuple[Path, str] | None:
             if is_kind(mode):
                 return path, kind
     return None
-
-
-def _from_the_top(place: Path) -> Iterator[Path]:
-    yield from reversed(place.parents)
-    yield place
 
 
 def _target(link: Path) -> str:
