@@ -2,13 +2,12 @@
 
 import re
 from dataclasses import dataclass
-from pathlib import Path
 
 from pydantic import TypeAdapter, ValidationError
 
 from farm.errors import DestinationError
 from farm.spec.job import DatasetName
-from farm.storage import refuse_credentials
+from farm.storage import find_folder, refuse_credentials
 
 _NAME: TypeAdapter[str] = TypeAdapter(DatasetName)
 _NAME_IN_URL = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
@@ -32,8 +31,8 @@ def parse_destination(out: str) -> Destination:
     """Split a place, a path or URL, into the store and the dataset's name.
 
     Raises:
-        DestinationError: if a URL names no folder in a bucket or holds credentials, or the last part can't be the name
-            of a dataset.
+        DestinationError: if a URL names no folder in a bucket or holds credentials, a path leads through a link whose
+            target is not there, or the last part can't be the name of a dataset.
     """
     if "://" in out:
         refuse_credentials(out)
@@ -48,11 +47,7 @@ def parse_destination(out: str) -> Destination:
                 "and begin with a letter or digit"
             )
         return Destination(store=store, name=name)
-    try:
-        path = Path(out).expanduser().resolve()
-    except (ValueError, RuntimeError, OSError) as error:
-        # A NUL byte, an unknown user's home, a ring of links.
-        raise DestinationError(f"{out!a}: no path: {error}") from error
+    path = find_folder(out)
     try:
         return Destination(store=str(path.parent), name=_NAME.validate_python(path.name))
     except ValidationError as error:

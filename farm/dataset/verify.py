@@ -175,4 +175,4 @@ def _extra(dataset: Dataset, files: dict[str, StoredFile]) -> Iterator[Finding]:
             yield Finding(fault=Fault.EXTRA, path=path, detail="belongs to no job of this dataset")
         elif now_s - files[path].modified_s > STALE_TEMPORARY_S:
             # A younger one may be somebody's work in progress.
-            yield Finding(fault=Fault.EXTRA, path=path, detail="left by a killed writer; farm submit removes it")
+            yield Finding(fault=Fault.EXTRA, path=path, detail="left by a killed writer; farm submit or run removes it")
