@@ -51,6 +51,6 @@ def parse_destination(out: str) -> Destination:
     except ValidationError as error:
         shown = out if out.isprintable() else ascii(out)
         raise DestinationError(
-            f"{shown}: {name!r} can't name a dataset; use up to 100 letters, digits, '.', '_' and '-', and begin with a "
-            "letter or digit"
+            f"{shown}: {name!r} can't name a dataset; use up to 100 letters, digits, '.', '_' and '-', and begin with "
+            "a letter or digit"
         ) from error
