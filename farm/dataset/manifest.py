@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, ValidationError
 
 from farm.dataset.dataset import Dataset
+from farm.dataset.instances import VisibleInstance
 from farm.dataset.outputs import outputs_of
 from farm.dataset.paths import file_path
 from farm.model import Model, Sha256
@@ -31,7 +32,7 @@ def file_record(path: str, content: bytes) -> FileRecord:
 
 
 class RejectedAttempt(Model):
-    """A scene that was drawn and failed a physics check."""
+    """A scene that was drawn and failed a check: of the settled cables, or of what the picture shows of them."""
 
     attempt: Annotated[int, Field(ge=0)]
     reason: str
@@ -97,7 +98,10 @@ class Manifest(Model):
     """Everything about one picture.
 
     Attributes:
-        timings_s: seconds per stage of this job (open, randomize, simulate, render, mask, write).
+        settled: measurements of the settled cables; None for a picture without cables.
+        instances: the instances that the picture shows, by number; none in a picture without cables, and None in a
+            manifest of a farm that did not list them.
+        timings_s: seconds per stage of this job (open, randomize, simulate, check, mask, realize, render, write).
         versions: versions of the farm, Blender and the libraries that take part.
         files: every file of the picture but this one, by the folder of its output; see `farm.dataset.outputs.Output`.
     """
@@ -108,7 +112,8 @@ class Manifest(Model):
     job_id: str
     seed: int
     scene: Scene
-    settled: SettleFigures
+    settled: SettleFigures | None
+    instances: tuple[VisibleInstance, ...] | None = None
     rejected: tuple[RejectedAttempt, ...]
     render: RenderSettings
     timings_s: Mapping[str, Seconds]

@@ -8,10 +8,14 @@ from concurrent.futures import ThreadPoolExecutor
 from enum import StrEnum
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from farm.dataset.completion import STALE_TEMPORARY_S
 from farm.dataset.dataset import Dataset
-from farm.dataset.manifest import FileRecord, parse_manifest
-from farm.dataset.outputs import find_faults, outputs_of
+from farm.dataset.instances import list_instances
+from farm.dataset.manifest import FileRecord, Manifest, parse_manifest
+from farm.dataset.outputs import INSTANCES, find_faults, outputs_of
 from farm.dataset.paths import HEADER_FILE, INDEX_FILE, REPORT_FILE, file_path, manifest_path, quarantine_path
 from farm.dataset.quarantine import Quarantine
 from farm.model import Model
@@ -143,8 +147,22 @@ def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
             yield Finding(fault=Fault.ALTERED, path=record.path, detail=f"no readable {output.format.name}")
         else:
             contents[output.role] = content
+    faulty = set()
     for output, detail in find_faults(outputs_of(spec), contents, spec.resolution):
+        faulty.add(output.role)
         yield Finding(fault=Fault.ALTERED, path=manifest.files[output.folder].path, detail=detail)
+    if INSTANCES.role in contents.keys() - faulty and not _lists_instances(manifest, contents[INSTANCES.role]):
+        yield Finding(fault=Fault.ALTERED, path=path, detail="its list of instances is not what the instance map shows")
+
+
+def _lists_instances(manifest: Manifest, instances: NDArray[np.uint16]) -> bool:
+    """Whether a manifest lists what the picture's instance map shows; one of an earlier farm lists nothing."""
+    if manifest.instances is None:
+        return True
+    try:
+        return manifest.instances == list_instances(manifest.scene, instances)
+    except ValueError:
+        return False
 
 
 def _read_file(dataset: Dataset, record: FileRecord) -> bytes | Finding:
