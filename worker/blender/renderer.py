@@ -1,11 +1,12 @@
 """The renderer: an open template in this process that makes one picture after another.
 
-A picture's steps are methods (settle, build, render, label), so that a benchmark or test of one step calls the
+A picture's steps are methods (settle, label, build, render), so that a benchmark or test of one step calls the
 code that makes pictures.
 """
 
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any
 
@@ -18,8 +19,8 @@ from blend.build import TEMPLATE
 from blend.contract import open_template
 from blend.devices import choose_device
 from farm.dataset.manifest import RejectedAttempt, RenderSettings
-from farm.dataset.outputs import IMAGE, OUTPUTS, Output, outputs_of
-from farm.errors import SpecError
+from farm.dataset.outputs import IMAGE, MASK, OUTPUTS, Output, outputs_of
+from farm.errors import SceneError, SpecError
 from farm.run.worker_settings import RendererSettings
 from farm.scene.scene import Scene
 from farm.spec.category import Category
@@ -27,7 +28,7 @@ from farm.spec.dataset_spec import DatasetSpec, Engine
 from farm.spec.header import DatasetHeader, FileRef
 from farm.spec.job import Job
 from farm.spec.quality import ChosenSettings, Quality
-from farm.spec.rendering import Economy, PictureSettings
+from farm.spec.rendering import CableDetail, Economy, PictureSettings
 from worker.blender import eevee
 from worker.blender.asset_files import AssetLibrary, checked
 from worker.blender.build_scene import BuiltScene, build_scene
@@ -35,6 +36,7 @@ from worker.blender.image_cache import ImageCache
 from worker.blender.render import configure_cycles, configure_eevee, configure_picture, render_scene
 from worker.geometry import SettledGeometry
 from worker.label.makers import make_labels
+from worker.label.sight import find_sight_fault
 from worker.sample.scene import sample_scene
 from worker.service.picture import Picture
 from worker.simulate.settle import MeasuredFall, settle
@@ -55,6 +57,21 @@ def open_renderer(header: DatasetHeader, settings: RendererSettings) -> "Blender
         MachineError: if there is no such device.
     """
     return BlenderRenderer(header, AssetLibrary(header, settings.assets), settings)
+
+
+@dataclass(frozen=True, slots=True)
+class ShownFall:
+    """A scene that may be rendered.
+
+    Attributes:
+        fall: the scene after its fall.
+        geometry: its geometry.
+        labels: its labels by role.
+    """
+
+    fall: MeasuredFall
+    geometry: SettledGeometry
+    labels: Mapping[str, Any]
 
 
 class BlenderRenderer:
@@ -94,19 +111,16 @@ class BlenderRenderer:
         # Opening is paid once, by the first picture of the process.
         watch.stages_s["open"], self._open_s = self._open_s, 0.0
         spec, chosen = header.spec, _chosen_settings(header, job.category)
-        fall, rejected = self.settle(job, header, watch)
-        geometry = SettledGeometry(fall.scene, fall.shapes, chosen.settings.detail, spec.resolution)
+        shown, rejected = self.settle(job, header, chosen.settings.detail, watch)
         with watch.stage("realize"):
-            built = self.build(geometry, chosen.settings.economy)
-            rendering = self._configure(spec, chosen, fall.scene)
+            built = self.build(shown.geometry, chosen.settings.economy)
+            rendering = self._configure(spec, chosen, shown.fall.scene)
         with watch.stage("render"):
             image = self.render(built)
-        with watch.stage("mask"):
-            labels = self.label(geometry, outputs_of(spec))
         return Picture(
-            files={IMAGE.role: image, **labels},
-            scene=fall.scene,
-            settled=fall.figures,
+            files={IMAGE.role: image, **shown.labels},
+            scene=shown.fall.scene,
+            settled=shown.fall.figures,
             rejected=rejected,
             render=rendering,
             timings_s=watch.stages_s,
@@ -114,18 +128,33 @@ class BlenderRenderer:
         )
 
     def settle(
-        self, job: Job, header: DatasetHeader, watch: Stopwatch
-    ) -> tuple[MeasuredFall, tuple[RejectedAttempt, ...]]:
-        """Draw scenes of a job and let them fall until one may be shipped; see `worker.simulate.settle.settle`.
+        self, job: Job, header: DatasetHeader, detail: CableDetail, watch: Stopwatch
+    ) -> tuple[ShownFall, tuple[RejectedAttempt, ...]]:
+        """Draw scenes of a job, let them fall and label them until one may be rendered.
+
+        See `worker.simulate.settle.settle`. Labels come before the render, so that a scene that shows too little costs
+        no render.
 
         Raises:
             SceneError: if no drawn scene passes the checks.
         """
+        spec = header.spec
+
+        def show(fall: MeasuredFall) -> ShownFall:
+            geometry = SettledGeometry(fall.scene, fall.shapes, detail, spec.resolution)
+            with watch.stage("mask"):
+                labels = self.label(geometry, outputs_of(spec))
+            fault = find_sight_fault(fall.scene, labels[MASK.role], spec.ranges.cable.least_visible_share)
+            if fault is not None:
+                raise SceneError(fault)
+            return ShownFall(fall, geometry, labels)
+
         return settle(
             job,
             lambda attempt: sample_scene(header, job, attempt),
-            lambda scene: simulate(scene, header.spec.simulator, header.spec.fall),
-            header.spec.fall.max_attempts,
+            lambda scene: simulate(scene, spec.simulator, spec.fall),
+            show,
+            spec.fall.max_attempts,
             watch,
         )
 
