@@ -23,7 +23,6 @@ from farm.spec.ranges.floor import FloorRanges
 from farm.spec.ranges.light import LampRanges, StudioRanges
 from farm.spec.ranges.placement import PlacementRanges, WindRanges
 
-
 _DEEPEST_PILE = 8
 """Cables of a pile, one on the other, beyond which more cables make it wider, not higher: in the wide style the highest
 of 64 piles of 8 to 24 cables reached 0.39 of the camera's height."""

@@ -251,6 +251,7 @@ def test_list_of_instances_that_does_not_agree(made: Dataset, listed: tuple[Visi
 def test_instance_of_no_cable(made: Dataset) -> None:
     """A map that agrees with the mask and has a number of nothing in the scene is found."""
     instances = PNG.decode(made.storage.read(INSTANCES_PATH))
+    assert instances is not None
     replace_file(made, INSTANCES, PNG.encode(instances * np.uint16(3)))
     assert found(made) == [(Fault.ALTERED, manifest_path(JOB))]
 
