@@ -41,8 +41,8 @@ Modulus = Annotated[float, Field(ge=1e5, le=1e10)]
 Density = Annotated[float, Field(ge=100, le=20_000)]
 FrictionCoefficient = Annotated[float, Field(ge=0, le=2)]
 CableCount = Annotated[int, Field(ge=1, le=24)]
-"""Of scenes of 24 cables of the wide style a third is drawn again, since cables cut into or pass through each other; of
-scenes of 32 it is more than half, and piles reach half-way up to the camera."""
+"""Number of cables of a picture. A third of the wide style's scenes of 24 cables are drawn again, since cables cut into
+each other or pass through; of scenes of 32 it is more than half, and piles reach half-way up to the camera."""
 
 Bend = Annotated[float, Field(ge=-60, le=60)]
 Diameter = Annotated[float, Field(ge=0.0005, le=0.02)]
