@@ -51,6 +51,21 @@ def test_either_style_takes_as_many_cables_as_a_fall_brings_to_rest(style: Style
         parse(25)
 
 
+@pytest.mark.parametrize(
+    ("key", "hint"),
+    [
+        ("background_share", r"it belongs to \[ranges\.cable\]"),
+        ("heights_m", r"it belongs to \[ranges\.camera\]"),
+        ("tilt_deg", "the README tells"),
+        ("no_such_key", "the README tells"),
+    ],
+)
+def test_a_range_outside_its_table_is_told_its_table(key: str, hint: str) -> None:
+    """The error names the table of a key that one table alone has."""
+    with pytest.raises(SpecError, match=f"{key}: unknown key; {hint}"):
+        parse_spec({"images": 6, key: 0.1}, source="test")
+
+
 def test_a_share_that_hardly_any_scene_shows_is_refused() -> None:
     """The least visible share is a share of pixels, not of pictures."""
     with pytest.raises(SpecError, match=r"ranges\.cable\.least_visible_share"):
