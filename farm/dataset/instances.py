@@ -10,6 +10,7 @@ from pydantic import Field
 from farm.model import Model
 from farm.scene.cable import Bundle
 from farm.scene.scene import Scene
+from farm.spec.dataset_spec import DatasetSpec
 
 
 class VisibleInstance(Model):
@@ -60,3 +61,18 @@ def list_instances(scene: Scene, instances: NDArray[np.uint16]) -> tuple[Visible
         for number in seen
         for cable, strand in (numbered[number - 1],)
     )
+
+
+def find_empty_fault(scene: Scene, instances: NDArray[np.uint16], spec: DatasetSpec) -> str | None:
+    """Say that a picture is empty that must not be; None if it shows a cable or may show none.
+
+    A picture may show none if its scene has none, or if the description allows a visible share of 0.
+
+    Args:
+        scene: the picture's scene.
+        instances: (H, W) instance map.
+        spec: description of the picture's dataset.
+    """
+    if not scene.cables or spec.ranges.cable.least_visible_share == 0 or instances.any():
+        return None
+    return "is empty, but the scene has cables"

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from farm.dataset.completion import STALE_TEMPORARY_S
 from farm.dataset.dataset import Dataset
-from farm.dataset.instances import list_instances
+from farm.dataset.instances import find_empty_fault, list_instances
 from farm.dataset.manifest import FileRecord, Manifest, parse_manifest
 from farm.dataset.outputs import INSTANCES, find_faults, outputs_of
 from farm.dataset.paths import HEADER_FILE, INDEX_FILE, REPORT_FILE, file_path, manifest_path, quarantine_path
@@ -151,8 +151,13 @@ def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
     for output, detail in find_faults(outputs_of(spec), contents, spec.resolution):
         faulty.add(output.role)
         yield Finding(fault=Fault.ALTERED, path=manifest.files[output.folder].path, detail=detail)
-    if INSTANCES.role in contents.keys() - faulty and not _lists_instances(manifest, contents[INSTANCES.role]):
-        yield Finding(fault=Fault.ALTERED, path=path, detail="its list of instances is not what the instance map shows")
+    if INSTANCES.role in contents.keys() - faulty:
+        instances = contents[INSTANCES.role]
+        if (fault := find_empty_fault(manifest.scene, instances, spec)) is not None:
+            yield Finding(fault=Fault.ALTERED, path=manifest.files[INSTANCES.folder].path, detail=fault)
+        elif not _lists_instances(manifest, instances):
+            detail = "its list of instances is not what the instance map shows"
+            yield Finding(fault=Fault.ALTERED, path=path, detail=detail)
 
 
 def _lists_instances(manifest: Manifest, instances: NDArray[np.uint16]) -> bool:

@@ -5,7 +5,7 @@ from typing import Protocol
 
 from farm.dataset.completion import is_done
 from farm.dataset.dataset import Dataset
-from farm.dataset.instances import VisibleInstance, list_instances
+from farm.dataset.instances import VisibleInstance, find_empty_fault, list_instances
 from farm.dataset.manifest import Manifest, file_record
 from farm.dataset.outputs import INSTANCES, find_faults, outputs_of
 from farm.dataset.paths import file_path, manifest_path
@@ -24,8 +24,11 @@ def _check(made: Picture, spec: DatasetSpec) -> tuple[VisibleInstance, ...]:
         raise RenderError(f"made {', '.join(made.files)}; the dataset has {', '.join(wanted)}")
     for output, fault in find_faults(outputs, made.files, spec.resolution):
         raise RenderError(f"{output.role}: {fault}")
+    instances = made.files[INSTANCES.role]
+    if (fault := find_empty_fault(made.scene, instances, spec)) is not None:
+        raise RenderError(f"{INSTANCES.role}: {fault}")
     try:
-        return list_instances(made.scene, made.files[INSTANCES.role])
+        return list_instances(made.scene, instances)
     except ValueError as error:
         raise RenderError(f"{INSTANCES.role}: {error}") from error
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from farm.dataset.instances import VisibleInstance, list_instances, number_instances
+from farm.dataset.instances import VisibleInstance, find_empty_fault, list_instances, number_instances
 from farm.scene.cable import Bundle
 from farm.scene.scene import Scene
-from tests.worker.scenes import make_scene, make_skin
+from tests.worker.scenes import make_header, make_scene, make_skin
 
 BUNDLE = Bundle(strands=(make_skin(),) * 3, strand_diameter_m=0.001, lay_m=0.08, phase_deg=0.0, ties=())
 
@@ -38,6 +38,24 @@ def test_a_number_of_nothing_in_the_scene_is_refused() -> None:
     """The message names the number, and how many instances there are."""
     with pytest.raises(ValueError, match="number 6, but the scene has 5 instances"):
         list_instances(scene_with_a_bundle(), np.full((2, 2), 6, np.uint16))
+
+
+@pytest.mark.parametrize(
+    ("style", "has_cables", "is_seen", "is_fault"),
+    [
+        ("wide", True, False, True),
+        ("wide", True, True, False),
+        ("wide", False, False, False),
+        ("published", True, False, False),
+    ],
+)
+def test_only_a_picture_that_may_show_no_cable_may_be_empty(
+    style: str, has_cables: bool, is_seen: bool, is_fault: bool
+) -> None:
+    """Its scene has none, or its description allows a visible share of 0."""
+    scene = make_scene() if has_cables else make_scene().model_copy(update={"cables": ()})
+    spec = make_header(style=style).spec
+    assert (find_empty_fault(scene, np.full((2, 2), int(is_seen), np.uint16), spec) is not None) == is_fault
 
 
 def test_a_scene_without_cables_shows_no_instance() -> None:

@@ -256,6 +256,28 @@ def test_instance_of_no_cable(made: Dataset) -> None:
     assert found(made) == [(Fault.ALTERED, manifest_path(JOB))]
 
 
+def empty_labels(dataset: Dataset, scene: dict[str, object]) -> None:
+    """Put labels in place that show nothing, with a manifest that agrees but for `scene`."""
+    replace_file(dataset, MASK, PNG.encode(np.zeros((32, 32), np.uint8)))
+    replace_file(dataset, INSTANCES, PNG.encode(np.zeros((32, 32), np.uint16)))
+    manifest = Manifest.model_validate_json(dataset.storage.read(manifest_path(JOB)))
+    forge(dataset, instances=(), scene=manifest.scene.model_copy(update=scene))
+
+
+def test_empty_picture(tmp_path: Path, header: DatasetHeader) -> None:
+    """Labels that show nothing are found where a share must be visible, unless the scene has no cables."""
+    cable = header.spec.ranges.cable.model_copy(update={"least_visible_share": 0.01})
+    ranges = header.spec.ranges.model_copy(update={"cable": cable})
+    picky = header.model_copy(update={"spec": header.spec.model_copy(update={"ranges": ranges})})
+    dataset = create_dataset(Destination(str(tmp_path / "store"), "cables"), picky)
+    for job in picky.spec.jobs():
+        upload(StandInRenderer().make(job, picky), job, dataset)
+    empty_labels(dataset, {})
+    assert found(dataset) == [(Fault.ALTERED, INSTANCES_PATH)]
+    empty_labels(dataset, {"cables": ()})
+    assert found(dataset) == []
+
+
 def test_manifest_of_an_earlier_release(made: Dataset) -> None:
     """A manifest that lists no instances, as its farm did not, is clean."""
     content = json.loads(made.storage.read(manifest_path(JOB)))

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from farm.dataset.completion import is_done
-from farm.dataset.dataset import Dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
 from farm.dataset.instances import VisibleInstance
 from farm.dataset.outputs import IMAGE, INSTANCES, MASK, OUTPUTS
 from farm.dataset.paths import INDEX_FILE, file_path, manifest_path
@@ -112,6 +113,20 @@ def test_a_picture_without_cables_is_done_listed_and_clean(dataset: Dataset, mad
     write_overview(dataset)
     line = json.loads(dataset.storage.read(INDEX_FILE))
     assert (line["job_id"], line["cables"], line["visible_instances"]) == (JOB.id, 0, 0)
+
+
+def test_an_empty_picture_of_cables_is_not_written(tmp_path: Path) -> None:
+    """Where the description asks for a visible share, labels that show nothing of the scene's cables are refused."""
+    header = stand_in_header()
+    cable = header.spec.ranges.cable.model_copy(update={"least_visible_share": 0.01})
+    ranges = header.spec.ranges.model_copy(update={"cable": cable})
+    picky = header.model_copy(update={"spec": header.spec.model_copy(update={"ranges": ranges})})
+    dataset = create_dataset(Destination(str(tmp_path), "picky"), picky)
+    made = StandInRenderer().make(JOB, picky)
+    bare = without_cables(made)
+    with pytest.raises(RenderError, match="instances: is empty, but the scene has cables"):
+        upload(replace(made, files=bare.files), JOB, dataset)
+    assert upload(bare, JOB, dataset).instances == ()
 
 
 @pytest.mark.parametrize("has_cable", [True, False])
