@@ -25,8 +25,8 @@ def _check(made: Picture, spec: DatasetSpec) -> tuple[VisibleInstance, ...]:
     for output, fault in find_faults(outputs, made.files, spec.resolution):
         raise RenderError(f"{output.role}: {fault}")
     instances = made.files[INSTANCES.role]
-    if (fault := find_empty_fault(made.scene, instances, spec)) is not None:
-        raise RenderError(f"{INSTANCES.role}: {fault}")
+    if (empty := find_empty_fault(made.scene, instances, spec)) is not None:
+        raise RenderError(f"{INSTANCES.role}: {empty}")
     try:
         return list_instances(made.scene, instances)
     except ValueError as error:
