@@ -80,7 +80,7 @@ class StaleMessageError(MessageError):
 
 
 class SceneError(PermanentError):
-    """No scene sampled for this job passed the physics checks within the allowed attempts."""
+    """No scene sampled for this job passed the checks of its physics and its mask within the allowed attempts."""
 
     exit_code = 10
 

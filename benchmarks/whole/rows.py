@@ -11,7 +11,7 @@ from farm.spec.category import Category
 from farm.spec.job import Job
 
 STAGES = ("randomize", "simulate", "check", "realize", "render", "mask", "write")
-"""Stages of a picture in their order, by the names that manifests give them; `realize` builds the scene."""
+"""Stages of a picture in the order of results, by the names that manifests give them; `realize` builds the scene."""
 
 
 class Way(StrEnum):

@@ -31,6 +31,9 @@ class IndexEntry(Model):
     Attributes:
         files: the image's files by role. In JSON they are keys of the entry itself: each file's path under its role,
             then each file's checksum under its role and `_sha256`.
+        cables: number of cables in the scene, a bundle counted as one; 0 for a picture of the background alone.
+        visible_instances: number of cables and strands of bundles that the picture shows; None if its manifest is of a
+            farm that did not list them.
     """
 
     job_id: str
@@ -44,6 +47,7 @@ class IndexEntry(Model):
     hdri: str | None
     lamp: str | None
     camera_height_m: float
+    visible_instances: NonNegativeInt | None = None
 
     @model_serializer(mode="wrap")
     def _with_files_as_keys(self, as_declared: SerializerFunctionWrapHandler) -> dict[str, object]:
@@ -103,6 +107,7 @@ def index_entry(dataset: Dataset, job: Job, receipt: Receipt) -> IndexEntry:
         hdri=scene["hdri_world"]["hdri"] if scene.get("hdri_world") else None,
         lamp=lamps[0]["kind"] if lamps else None,
         camera_height_m=scene["camera"]["height_m"],
+        visible_instances=None if receipt.instances is None else len(receipt.instances),
     )
 
 

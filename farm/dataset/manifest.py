@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from farm.dataset.dataset import Dataset
+from farm.dataset.instances import VisibleInstance
 from farm.dataset.outputs import outputs_of
 from farm.dataset.paths import file_path
 from farm.model import Model, Sha256
@@ -32,7 +33,7 @@ def file_record(path: str, content: bytes) -> FileRecord:
 
 
 class RejectedAttempt(Model):
-    """A scene that was drawn and failed a physics check."""
+    """A scene that was drawn and failed a check: of the settled cables, or of what the picture shows of them."""
 
     attempt: Annotated[int, Field(ge=0)]
     reason: str
@@ -99,7 +100,10 @@ class Manifest(Model):
     """Everything about one picture.
 
     Attributes:
-        timings_s: seconds per stage of this job (open, randomize, simulate, render, mask, write).
+        settled: measurements of the settled cables; None for a picture without cables.
+        instances: the instances that the picture shows, by number; none in a picture without cables, and None in a
+            manifest of a farm that did not list them.
+        timings_s: seconds per stage of this job (open, randomize, simulate, check, mask, realize, render, write).
         versions: versions of the farm, Blender and the libraries that take part.
         files: every file of the picture but this one, by the folder of its output; see `farm.dataset.outputs.Output`.
     """
@@ -110,7 +114,8 @@ class Manifest(Model):
     job_id: str
     seed: int
     scene: Scene
-    settled: SettleFigures
+    settled: SettleFigures | None
+    instances: tuple[VisibleInstance, ...] | None = None
     rejected: tuple[RejectedAttempt, ...]
     render: RenderSettings
     timings_s: Mapping[str, Seconds]
@@ -126,6 +131,7 @@ class Receipt(BaseModel):
         files: every file of the picture but its manifest, by the folder of its output.
         scene: the scene as its release describes it.
         timings_s: seconds per stage.
+        instances: its list of instances; None in manifests of releases that list none.
     """
 
     model_config = ConfigDict(frozen=True, extra="ignore", strict=True, allow_inf_nan=False)
@@ -136,6 +142,7 @@ class Receipt(BaseModel):
     files: Mapping[str, FileRecord]
     scene: Mapping[str, Any]
     timings_s: Mapping[str, Seconds] = {}
+    instances: tuple[Mapping[str, Any], ...] | None = None
 
     def belongs_to(self, dataset: Dataset, job: Job) -> bool:
         """Whether it is that of this job of this dataset, whatever the dataset's folder is called."""

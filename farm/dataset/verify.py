@@ -8,10 +8,14 @@ from concurrent.futures import ThreadPoolExecutor
 from enum import StrEnum
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from farm.dataset.completion import STALE_TEMPORARY_S
 from farm.dataset.dataset import Dataset
-from farm.dataset.manifest import FileRecord, parse_receipt
-from farm.dataset.outputs import find_faults, outputs_of
+from farm.dataset.instances import find_empty_fault, list_instances
+from farm.dataset.manifest import FileRecord, Manifest, parse_manifest, parse_receipt
+from farm.dataset.outputs import INSTANCES, find_faults, outputs_of
 from farm.dataset.paths import HEADER_FILE, INDEX_FILE, REPORT_FILE, file_path, manifest_path, quarantine_path
 from farm.dataset.quarantine import Quarantine
 from farm.model import Model
@@ -123,7 +127,8 @@ def _check_job_twice(dataset: Dataset, job: Job) -> Iterator[Finding]:
 def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
     path = manifest_path(job)
     try:
-        receipt = parse_receipt(dataset.storage.read(path), dataset, job)
+        written = dataset.storage.read(path)
+        receipt = parse_receipt(written, dataset, job)
     except FileNotFoundError:
         yield Finding(fault=Fault.MISSING, path=path, detail="not rendered yet, or its manifest is lost")
         return
@@ -143,8 +148,27 @@ def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
             yield Finding(fault=Fault.ALTERED, path=record.path, detail=f"no readable {output.format.name}")
         else:
             contents[output.role] = content
+    faulty = set()
     for output, detail in find_faults(outputs_of(spec), contents, spec.resolution):
+        faulty.add(output.role)
         yield Finding(fault=Fault.ALTERED, path=receipt.files[output.folder].path, detail=detail)
+    # One of an earlier release lists no instances, and its scene may be one that only that release can read.
+    manifest = None if receipt.instances is None else parse_manifest(written, dataset, job)
+    if manifest is not None and INSTANCES.role in contents.keys() - faulty:
+        instances = contents[INSTANCES.role]
+        if (fault := find_empty_fault(manifest.scene, instances, spec)) is not None:
+            yield Finding(fault=Fault.ALTERED, path=manifest.files[INSTANCES.folder].path, detail=fault)
+        elif not _lists_instances(manifest, instances):
+            detail = "its list of instances is not what the instance map shows"
+            yield Finding(fault=Fault.ALTERED, path=path, detail=detail)
+
+
+def _lists_instances(manifest: Manifest, instances: NDArray[np.uint16]) -> bool:
+    """Whether a manifest lists what the picture's instance map shows."""
+    try:
+        return manifest.instances == list_instances(manifest.scene, instances)
+    except ValueError:
+        return False
 
 
 def _read_file(dataset: Dataset, record: FileRecord) -> bytes | Finding:

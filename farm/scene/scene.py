@@ -23,7 +23,7 @@ class Scene(Model):
 
     Attributes:
         attempt: number of the attempt, from 0; each samples another scene.
-        cables: the cables, the lowest start first.
+        cables: the cables, the lowest start first; none in a picture of the background alone.
         vertex_mass: mass of each vertex of the cloth, in Blender's units; the rod solver does not take it.
         friction: coefficients of friction.
         wind: wind while the cables fall.
@@ -41,7 +41,7 @@ class Scene(Model):
     """
 
     attempt: Annotated[int, Field(ge=0)]
-    cables: Annotated[tuple[Cable, ...], Field(min_length=1)]
+    cables: tuple[Cable, ...]
     vertex_mass: Annotated[float, Field(gt=0)]
     friction: Friction
     wind: Wind

@@ -1,7 +1,7 @@
 """Reads a dataset's description and inputs from a TOML file and flags. A flag overrides the file's key."""
 
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from farm.spec.category import Category
 from farm.spec.dataset_spec import DEFAULT_STYLE, DatasetSpec
 from farm.spec.make_header import Inputs
 from farm.spec.quotas import split_total
-from farm.spec.styles import Style, merge_ranges
+from farm.spec.styles import RANGES_OF, Style, merge_ranges
 from farm.spec.workable import check_workable
 
 _MOST_DIGITS = 12
@@ -166,12 +166,27 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise SpecError(f"{path}: not valid TOML: {error}") from error
 
 
+def _tables_with(key: str) -> list[str]:
+    """List the tables of ranges that have a key, such as `ranges.cable`."""
+
+    def search(tables: Mapping[str, object], place: str) -> Iterator[str]:
+        for name, value in tables.items():
+            if name == key:
+                yield place
+            if isinstance(value, Mapping):
+                yield from search(value, f"{place}.{name}")
+
+    return list(search(RANGES_OF[DEFAULT_STYLE].model_dump(), "ranges"))
+
+
 def _describe(error: ValidationError) -> str:
     first = error.errors(include_url=False, include_context=False)[0]
     where = ".".join(str(part) for part in first["loc"])
     message = first["msg"].removeprefix("Value error, ")
     if first["type"] == "extra_forbidden":
-        message = "unknown key; the README tells where all keys are listed"
+        tables = _tables_with(str(first["loc"][-1]))
+        place = f"it belongs to [{tables[0]}]" if len(tables) == 1 else "the README tells where all keys are listed"
+        message = f"unknown key; {place}"
     if first["type"] == "missing" and where == "quotas":
         message = "give the number of images: images, or a [quotas] table"
     more = f" (and {error.error_count() - 1} more)" if error.error_count() > 1 else ""

@@ -34,6 +34,8 @@ WIDE = Ranges(
         coil_share=0.06,
     ),
     cable=CableRanges(
+        # A stub, a small ring or a corner that a cable cuts off shows less; one cable of 6 px across the picture, more.
+        least_visible_share=0.01,
         count_draws=1,
         diameter_m=(0.001, 0.012),
         narrowest_share=4 / 512,

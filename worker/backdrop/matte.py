@@ -61,7 +61,7 @@ def covered_by(pieces: Sequence[Piece], view: View, lens_radius_m: float, sides:
     Returns:
         (H, W), 0 to 1.
     """
-    highest = max(piece.top_m for piece in pieces)
+    highest = max((piece.top_m for piece in pieces), default=0.0)
     places = list(_on_disc(min(_MOST_RINGS, round(lens_radius_m * blur_px_per_m(view, highest) / _RING_PX))))
     covered = np.zeros(view.resolution.shape, np.float32)
     for x, y in places:

@@ -1,11 +1,12 @@
 """The renderer: an open template in this process that makes one picture after another.
 
-A picture's steps are methods (settle, build, render, label), so that a benchmark or test of one step calls the
+A picture's steps are methods (settle, label, build, render), so that a benchmark or test of one step calls the
 code that makes pictures.
 """
 
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,7 @@ from blend.contract import open_template
 from blend.devices import choose_device
 from farm import __version__
 from farm.dataset.manifest import RejectedAttempt, RenderSettings
-from farm.dataset.outputs import IMAGE, OUTPUTS, Output, outputs_of
+from farm.dataset.outputs import IMAGE, MASK, OUTPUTS, Output, outputs_of
 from farm.errors import SceneError, SpecError
 from farm.run.worker_settings import RendererSettings
 from farm.scene.picture_size import PictureSize
@@ -30,7 +31,7 @@ from farm.spec.dataset_spec import DatasetSpec, Engine
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.spec.quality import ChosenSettings, Quality
-from farm.spec.rendering import Economy, PictureSettings
+from farm.spec.rendering import CableDetail, Economy, PictureSettings
 from worker.blender import eevee
 from worker.blender.asset_files import AssetLibrary
 from worker.blender.build_scene import BuiltScene, build_scene
@@ -39,10 +40,10 @@ from worker.blender.render import configure_cycles, configure_eevee, configure_p
 from worker.clearance import find_room_fault
 from worker.geometry import SettledGeometry
 from worker.label.makers import make_labels
+from worker.label.sight import find_sight_fault
 from worker.sample.scene import sample_scene
 from worker.service.picture import Picture
 from worker.simulate.settle import MeasuredFall, settle
-from worker.simulate.shapes import CableShapes
 from worker.simulate.simulate import simulate
 from worker.stopwatch import Stopwatch
 
@@ -60,6 +61,21 @@ def open_renderer(header: DatasetHeader, settings: RendererSettings) -> "Blender
         MachineError: if there is no such device.
     """
     return BlenderRenderer(header, AssetLibrary(header, settings.assets, settings.inputs), settings)
+
+
+@dataclass(frozen=True, slots=True)
+class ShownFall:
+    """A scene that may be rendered.
+
+    Attributes:
+        fall: the scene after its fall.
+        geometry: its geometry.
+        labels: its labels by role.
+    """
+
+    fall: MeasuredFall
+    geometry: SettledGeometry
+    labels: Mapping[str, Any]
 
 
 class BlenderRenderer:
@@ -99,19 +115,16 @@ class BlenderRenderer:
         # Opening is paid once, by the first picture of the process.
         watch.stages_s["open"], self._open_s = self._open_s, 0.0
         spec, chosen = header.spec, _chosen_settings(header, job.category)
-        fall, rejected = self.settle(job, header, watch)
-        geometry = SettledGeometry(fall.scene, fall.shapes, chosen.settings.detail, spec.resolution)
+        shown, rejected = self.settle(job, header, chosen.settings.detail, watch)
         with watch.stage("realize"):
-            built = self.build(geometry, chosen.settings.economy)
-            rendering = self._configure(spec, chosen, fall.scene)
+            built = self.build(shown.geometry, chosen.settings.economy)
+            rendering = self._configure(spec, chosen, shown.fall.scene)
         with watch.stage("render"):
             image = self.render(built)
-        with watch.stage("mask"):
-            labels = self.label(geometry, outputs_of(spec))
         return Picture(
-            files={IMAGE.role: image, **labels},
-            scene=fall.scene,
-            settled=fall.figures,
+            files={IMAGE.role: image, **shown.labels},
+            scene=shown.fall.scene,
+            settled=shown.fall.figures,
             rejected=rejected,
             render=rendering,
             timings_s=watch.stages_s,
@@ -119,27 +132,35 @@ class BlenderRenderer:
         )
 
     def settle(
-        self, job: Job, header: DatasetHeader, watch: Stopwatch
-    ) -> tuple[MeasuredFall, tuple[RejectedAttempt, ...]]:
-        """Draw scenes of a job and let them fall until one may be shipped; see `worker.simulate.settle.settle`.
+        self, job: Job, header: DatasetHeader, detail: CableDetail, watch: Stopwatch
+    ) -> tuple[ShownFall, tuple[RejectedAttempt, ...]]:
+        """Draw scenes of a job, let them fall and label them until one may be rendered.
+
+        See `worker.simulate.settle.settle`. Labels come before the render, so that a scene that shows too little costs
+        no render.
 
         Raises:
             SceneError: if no drawn scene passes the checks.
         """
-        spec, detail = header.spec, _chosen_settings(header, job.category).settings.detail
+        spec = header.spec
 
-        def drop(scene: Scene) -> CableShapes:
-            shapes = simulate(scene, spec.simulator, spec.fall)
-            fault = find_room_fault(SettledGeometry(scene, shapes, detail, spec.resolution))
+        def show(fall: MeasuredFall) -> ShownFall:
+            geometry = SettledGeometry(fall.scene, fall.shapes, detail, spec.resolution)
+            if (fault := find_room_fault(geometry)) is not None:
+                raise SceneError(fault)
+            with watch.stage("mask"):
+                labels = self.label(geometry, outputs_of(spec))
+            fault = find_sight_fault(fall.scene, labels[MASK.role], spec.ranges.cable.least_visible_share)
             if fault is not None:
                 raise SceneError(fault)
-            return shapes
+            return ShownFall(fall, geometry, labels)
 
         return settle(
             job,
             lambda attempt: sample_scene(header, job, attempt),
-            drop,
-            header.spec.fall.max_attempts,
+            lambda scene: simulate(scene, spec.simulator, spec.fall),
+            show,
+            spec.fall.max_attempts,
             watch,
         )
 

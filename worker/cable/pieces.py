@@ -65,11 +65,6 @@ class _Strand:
     cut_m: tuple[float, float]
 
 
-def instance_count(scene: Scene) -> int:
-    """Count a scene's instances: each single cable, and each strand of a bundle."""
-    return sum(len(cable.material.strands) if isinstance(cable.material, Bundle) else 1 for cable in scene.cables)
-
-
 def pieces_of(scene: Scene, curves: Sequence[Points], sticks_m: Sequence[Points]) -> list[Piece]:
     """Take a settled scene's cables to pieces.
 
@@ -79,9 +74,9 @@ def pieces_of(scene: Scene, curves: Sequence[Points], sticks_m: Sequence[Points]
         sticks_m: nodes of each settled stick's axis, (N, 3) metres; none if the simulator has no sticks.
 
     Returns:
-        The pieces. Instances count from 1, cable by cable and strand by strand; ties are occluders. The fall does not
-        know of ties: a tie that would cut another cable or a stick is moved along its bundle, or left out if there is
-        no room.
+        The pieces. Instances are numbered as `farm.dataset.instances.number_instances` does; ties are occluders. The
+        fall does not know of ties: a tie that would cut another cable or a stick is moved along its bundle, or left out
+        if there is no room.
     """
     sticks = [
         (_dense(axis), stick.diameter_m / 2)

@@ -54,6 +54,8 @@ def silhouettes(pieces: Sequence[Piece], view: View, sides: int) -> Silhouettes:
         sides: corners of the rendered tubes' cross-section, an even number; 20 are up to 0.6 % wider or narrower than
             a circle.
     """
+    if not pieces:
+        return Silhouettes(np.zeros((0, 4, 2)), np.zeros(0, np.int64))
     seen = [
         _outline(piece, view) if isinstance(piece, Convex) else _silhouette(piece.curve, piece.radius_m, view, sides)
         for piece in pieces

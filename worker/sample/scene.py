@@ -35,6 +35,7 @@ def sample_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         return generator(header.spec.seed, job.category, job.index, attempt, stage)
 
     ranges, traits = header.spec.ranges, job.category.traits
+    is_background = _is_background(header, job)
     counts = streams(Stage.CABLES)
     count = _sample_count(ranges.cable, counts)
     vertex_mass = uniform(counts, ranges.cable.vertex_mass)
@@ -55,7 +56,9 @@ def sample_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
     above = max((stick.start_height_m + 1.5 * stick.diameter_m for stick in sticks), default=0.0)
     return Scene(
         attempt=attempt,
-        cables=sample_cables(
+        cables=()
+        if is_background
+        else sample_cables(
             ranges,
             traits.disposition,
             substances,
@@ -81,6 +84,12 @@ def sample_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         ),
         render_seed=int(streams(Stage.RENDER).integers(2**31)),
     )
+
+
+def _is_background(header: DatasetHeader, job: Job) -> bool:
+    """Draw whether a job's picture has no cable: once for all attempts, as no background is ever drawn again."""
+    rng = generator(header.spec.seed, job.category, job.index, 0, Stage.BACKGROUND)
+    return chance(rng, header.spec.ranges.cable.background_share)
 
 
 def _is_light(header: DatasetHeader, floor: Floor | None) -> bool:

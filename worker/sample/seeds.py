@@ -29,6 +29,7 @@ class Stage(IntEnum):
     DEVELOPMENT = 11
     LOOK = 12
     PLATE = 13
+    BACKGROUND = 14
 
 
 def seed_sequence(

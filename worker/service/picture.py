@@ -16,12 +16,13 @@ class Picture:
 
     Attributes:
         files: content of every file by its output's role; `farm.dataset.outputs` says what each is.
+        settled: measurements of the settled cables; None for a picture without cables.
         timings_s: seconds per stage; the upload adds its own.
     """
 
     files: Mapping[str, Any]
     scene: Scene
-    settled: SettleFigures
+    settled: SettleFigures | None
     rejected: tuple[RejectedAttempt, ...]
     render: RenderSettings
     timings_s: Mapping[str, float]

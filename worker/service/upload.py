@@ -5,8 +5,9 @@ from typing import Protocol
 
 from farm.dataset.completion import is_done
 from farm.dataset.dataset import Dataset
+from farm.dataset.instances import VisibleInstance, find_empty_fault, list_instances
 from farm.dataset.manifest import Manifest, file_record
-from farm.dataset.outputs import find_faults, outputs_of
+from farm.dataset.outputs import INSTANCES, find_faults, outputs_of
 from farm.dataset.paths import file_path, manifest_path
 from farm.errors import BrokerError, RenderError
 from farm.spec.dataset_spec import DatasetSpec
@@ -15,13 +16,21 @@ from worker.service.lease import LeaseLostError
 from worker.service.picture import Picture
 
 
-def _check(made: Picture, spec: DatasetSpec) -> None:
+def _check(made: Picture, spec: DatasetSpec) -> tuple[VisibleInstance, ...]:
+    """Check what was made; return what its instance map shows."""
     outputs = outputs_of(spec)
     wanted = [output.role for output in outputs]
     if made.files.keys() != set(wanted):
         raise RenderError(f"made {', '.join(made.files)}; the dataset has {', '.join(wanted)}")
     for output, fault in find_faults(outputs, made.files, spec.resolution):
         raise RenderError(f"{output.role}: {fault}")
+    instances = made.files[INSTANCES.role]
+    if (empty := find_empty_fault(made.scene, instances, spec)) is not None:
+        raise RenderError(f"{INSTANCES.role}: {empty}")
+    try:
+        return list_instances(made.scene, instances)
+    except ValueError as error:
+        raise RenderError(f"{INSTANCES.role}: {error}") from error
 
 
 class Guard(Protocol):
@@ -59,11 +68,11 @@ def upload(made: Picture, job: Job, dataset: Dataset, guard: Guard | None = None
             manifest.
         BrokerError: if the guard can't find out; then, too, what is in place is whole, or has no manifest.
     """
-    _check(made, dataset.header.spec)
+    shown = _check(made, dataset.header.spec)
     guard = guard or Unguarded()
     guard.renew()
     try:
-        return _write(made, job, dataset, guard)
+        return _write(made, shown, job, dataset, guard)
     except (LeaseLostError, BrokerError):
         # The process may have been stopped between a check and its write, which then may have met another's files.
         if not is_done(dataset, job):
@@ -71,7 +80,7 @@ def upload(made: Picture, job: Job, dataset: Dataset, guard: Guard | None = None
         raise
 
 
-def _write(made: Picture, job: Job, dataset: Dataset, guard: Guard) -> Manifest:
+def _write(made: Picture, shown: tuple[VisibleInstance, ...], job: Job, dataset: Dataset, guard: Guard) -> Manifest:
     start = time.perf_counter()
     files = {}
     for output in outputs_of(dataset.header.spec):
@@ -87,6 +96,7 @@ def _write(made: Picture, job: Job, dataset: Dataset, guard: Guard) -> Manifest:
         seed=dataset.header.spec.seed,
         scene=made.scene,
         settled=made.settled,
+        instances=shown,
         rejected=made.rejected,
         render=made.render,
         timings_s={**made.timings_s, "write": time.perf_counter() - start},

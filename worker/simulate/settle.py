@@ -32,39 +32,40 @@ class MeasuredFall:
     Attributes:
         scene: the scene as drawn.
         shapes: its settled cables and sticks.
-        figures: the measured gates.
+        figures: the measured gates; None if the scene has no cables.
     """
 
     scene: Scene
     shapes: CableShapes
-    figures: SettleFigures
+    figures: SettleFigures | None
 
 
 def settle(
-    job: Job, draw: Draw, drop: Drop, max_attempts: int, watch: Stopwatch
-) -> tuple[MeasuredFall, tuple[RejectedAttempt, ...]]:
+    job: Job, draw: Draw, drop: Drop, show: Callable[[MeasuredFall], T], max_attempts: int, watch: Stopwatch
+) -> tuple[T, tuple[RejectedAttempt, ...]]:
     """Try scenes of a job until one passes all checks.
 
     Args:
         job: the job, for messages.
         draw: the source of scenes.
         drop: the simulator.
+        show: maker of what a picture shows of a sound fall; it raises SceneError if the picture shows too little.
         max_attempts: number of scenes to try, at least 1.
         watch: clock that counts the stages `randomize`, `simulate` and `check`.
 
     Returns:
-        The first scene that passes, and the attempts before it with the reason against each.
+        What `show` makes of the first scene that passes, and the attempts before it with the reason against each.
 
     Raises:
         SceneError: if no scene passes.
     """
 
-    def attempt(number: int) -> MeasuredFall:
+    def attempt(number: int) -> T:
         fall = let_fall(number, draw, drop, watch)
-        fault = find_fault(fall.figures) or find_unrest(fall.shapes)
+        fault = None if fall.figures is None else find_fault(fall.figures) or find_unrest(fall.shapes)
         if fault is not None:
             raise SceneError(fault)
-        return fall
+        return show(fall)
 
     return first_accepted(job, attempt, max_attempts)
 
@@ -90,7 +91,7 @@ def let_fall(number: int, draw: Draw, drop: Drop, watch: Stopwatch) -> MeasuredF
     with watch.stage("simulate"):
         shapes = drop(scene)
     with watch.stage("check"):
-        figures = measure(shapes)
+        figures = measure(shapes) if scene.cables else None
     return MeasuredFall(scene, shapes, figures)
 
 

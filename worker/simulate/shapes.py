@@ -39,6 +39,18 @@ class CableShapes:
     rested: bool = True
 
 
+NOTHING_FELL = CableShapes(
+    nodes_m=(),
+    radii_m=np.zeros(0),
+    lengths_m=np.zeros(0),
+    speeds_m_s=(),
+    start_order=(),
+    fall_s=0.0,
+    steps=0,
+)
+"""The shapes of a scene without cables and sticks."""
+
+
 def bent_rod(length_m: float, bends_per_m: tuple[float, ...], nodes: int) -> NDArray[np.float64]:
     """Make a plane polyline of given length and curvature, with its middle at the origin and its chord along x.
 

@@ -11,7 +11,7 @@ from typing import Any, Protocol, cast
 
 from farm.scene.scene import Scene
 from farm.spec.simulation import Fall, Simulator
-from worker.simulate.shapes import CableShapes
+from worker.simulate.shapes import NOTHING_FELL, CableShapes
 
 
 class FallModule(Protocol):
@@ -21,7 +21,7 @@ class FallModule(Protocol):
         """Let the cables of a scene fall until they rest.
 
         Args:
-            scene: the drawn scene.
+            scene: the drawn scene; it has a cable, or a stick if the simulator has sticks.
             fall: the simulator's settings, from the field of `Fall` that bears its name.
 
         Raises:
@@ -36,11 +36,13 @@ _MODULES: Mapping[Simulator, FallModule] = MappingProxyType(
 
 
 def simulate(scene: Scene, simulator: Simulator, fall: Fall) -> CableShapes:
-    """Let the cables of a scene fall until they rest.
+    """Let the cables of a scene fall until they rest; a scene in which nothing falls is not simulated.
 
     Sticks fall with rods, as rods themselves. Cloth has no sticks, and its cables fall as if there were none.
 
     Raises:
         SceneError: if the simulator diverges.
     """
+    if not scene.cables and not (scene.sticks and simulator is Simulator.ROD):
+        return NOTHING_FELL
     return _MODULES[simulator].drop_cables(scene, fall.settings_of(simulator))

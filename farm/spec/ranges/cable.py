@@ -124,6 +124,9 @@ class EndRanges(Model):
 
 WidestShare = Annotated[float, Field(ge=0.01, le=1)]
 
+LeastShare = Annotated[float, Field(ge=0, le=0.2)]
+"""A picture's least share of pixels that show a cable. Above 0.2 most scenes of either style would be drawn in vain."""
+
 
 class CableRanges(Model):
     """The ranges of cables. Diameter (one value), length, Young's modulus, density and friction are ours.
@@ -133,6 +136,10 @@ class CableRanges(Model):
 
     Attributes:
         count: number of cables in a picture.
+        background_share: share of the pictures that have no cable: floor, clutter, light and camera are as in others,
+            and the mask is empty.
+        least_visible_share: least share of a picture's pixels that show a cable. A scene that shows less is drawn again
+            before it is rendered; pictures without cables are exempt.
         count_draws: number of uniform draws of which the largest is taken: three draws from 1 to 8 give 6.5 on average.
         diameter_m: diameter in metres, sampled log-uniformly; one number stands for a range without width.
         narrowest_share: smallest diameter, as a share of the picture's longer edge on the floor.
@@ -156,6 +163,8 @@ class CableRanges(Model):
     """
 
     count: CableCountRange = (1, 8)
+    background_share: Fraction = 0.0
+    least_visible_share: LeastShare = 0.0
     count_draws: Annotated[int, Field(ge=1, le=10)] = 3
     diameter_m: DiameterRange = (0.0024, 0.0024)
     narrowest_share: Fraction = 0.0

@@ -59,6 +59,16 @@ def test_index_has_a_line_for_each(made: Dataset) -> None:
     assert all(line[role] in made.storage.files() for line in lines for role in ("image", "mask", "instances"))
 
 
+def test_index_counts_what_is_seen(made: Dataset) -> None:
+    """A line counts the visible instances beside the cables; of a manifest that lists none it says so."""
+    manifest = Manifest.model_validate_json(made.storage.read("far/manifests/far-000001.json"))
+    earlier = manifest.model_dump_json(exclude={"instances"})
+    made.storage.write("far/manifests/far-000001.json", earlier.encode())
+    write_index(made)
+    lines = [json.loads(line) for line in made.storage.read(INDEX_FILE).splitlines()]
+    assert [(line["cables"], line["visible_instances"]) for line in lines] == [(1, 1), (1, 1), (1, 1), (1, None)]
+
+
 def test_index_repeats(made: Dataset) -> None:
     """Collecting again gives the same bytes."""
     write_index(made)

@@ -1,5 +1,6 @@
 """The findings of a check of a dataset."""
 
+import json
 import os
 from collections.abc import Callable
 from dataclasses import replace
@@ -11,6 +12,7 @@ import pytest
 from farm.dataset.dataset import Dataset, create_dataset
 from farm.dataset.destination import Destination
 from farm.dataset.formats import PNG
+from farm.dataset.instances import VisibleInstance
 from farm.dataset.manifest import Manifest, file_record
 from farm.dataset.outputs import IMAGE, INSTANCES, MASK, Output
 from farm.dataset.paths import file_path, manifest_path
@@ -221,6 +223,67 @@ def test_instances_that_do_not_agree(made: Dataset) -> None:
     """Instances that cover other pixels than the mask are found."""
     replace_file(made, INSTANCES, PNG.encode(np.full((32, 32), 3, np.uint16)))
     assert found(made) == [(Fault.ALTERED, INSTANCES_PATH)]
+
+
+def forge(dataset: Dataset, **changes: object) -> None:
+    """Change fields of the job's manifest."""
+    manifest = Manifest.model_validate_json(dataset.storage.read(manifest_path(JOB)))
+    dataset.storage.write(manifest_path(JOB), manifest.model_copy(update=changes).model_dump_json().encode())
+
+
+@pytest.mark.parametrize(
+    "listed",
+    [
+        (),
+        (VisibleInstance(id=1, cable=0, strand=None, pixels=127),),
+        (VisibleInstance(id=1, cable=0, strand=2, pixels=128),),
+        (VisibleInstance(id=2, cable=0, strand=None, pixels=128),),
+    ],
+)
+def test_list_of_instances_that_does_not_agree(made: Dataset, listed: tuple[VisibleInstance, ...]) -> None:
+    """A manifest that lists other instances than the map shows is altered."""
+    forge(made, instances=listed)
+    (finding,) = verify(made).findings
+    assert (finding.fault, finding.path) == (Fault.ALTERED, manifest_path(JOB))
+    assert finding.detail == "its list of instances is not what the instance map shows"
+
+
+def test_instance_of_no_cable(made: Dataset) -> None:
+    """A map that agrees with the mask and has a number of nothing in the scene is found."""
+    instances = PNG.decode(made.storage.read(INSTANCES_PATH))
+    assert instances is not None
+    replace_file(made, INSTANCES, PNG.encode(instances * np.uint16(3)))
+    assert found(made) == [(Fault.ALTERED, manifest_path(JOB))]
+
+
+def empty_labels(dataset: Dataset, scene: dict[str, object]) -> None:
+    """Put labels in place that show nothing, with a manifest that agrees but for `scene`."""
+    replace_file(dataset, MASK, PNG.encode(np.zeros((32, 32), np.uint8)))
+    replace_file(dataset, INSTANCES, PNG.encode(np.zeros((32, 32), np.uint16)))
+    manifest = Manifest.model_validate_json(dataset.storage.read(manifest_path(JOB)))
+    forge(dataset, instances=(), scene=manifest.scene.model_copy(update=scene))
+
+
+def test_empty_picture(tmp_path: Path, header: DatasetHeader) -> None:
+    """Labels that show nothing are found where a share must be visible, unless the scene has no cables."""
+    cable = header.spec.ranges.cable.model_copy(update={"least_visible_share": 0.01})
+    ranges = header.spec.ranges.model_copy(update={"cable": cable})
+    picky = header.model_copy(update={"spec": header.spec.model_copy(update={"ranges": ranges})})
+    dataset = create_dataset(Destination(str(tmp_path / "store"), "cables"), picky)
+    for job in picky.spec.jobs():
+        upload(StandInRenderer().make(job, picky), job, dataset)
+    empty_labels(dataset, {})
+    assert found(dataset) == [(Fault.ALTERED, INSTANCES_PATH)]
+    empty_labels(dataset, {"cables": ()})
+    assert found(dataset) == []
+
+
+def test_manifest_of_an_earlier_release(made: Dataset) -> None:
+    """A manifest that lists no instances, as its farm did not, is clean."""
+    content = json.loads(made.storage.read(manifest_path(JOB)))
+    del content["instances"]
+    made.storage.write(manifest_path(JOB), json.dumps(content).encode())
+    assert verify(made).clean
 
 
 def test_tells_how_far_it_is(made: Dataset) -> None:

@@ -1,5 +1,6 @@
 """Styles: the ranges of a description that names none."""
 
+import json
 import tomllib
 
 import pytest
@@ -9,6 +10,7 @@ from typer.testing import CliRunner
 
 from farm.cli import app
 from farm.errors import SpecError
+from farm.spec.dataset_spec import DatasetSpec
 from farm.spec.parse import parse_spec
 from farm.spec.ranges.all import Ranges
 from farm.spec.styles import RANGES_OF, Style
@@ -31,6 +33,22 @@ def test_the_published_style_has_nothing_that_the_publication_has_not() -> None:
     )
     assert not any(shares)
     assert (ranges.camera.focal_lengths_mm, ranges.camera.tilt_deg, ranges.camera.distortion) == ((50,), (0, 0), (0, 0))
+
+
+def test_a_new_description_has_the_least_visible_share_of_its_style() -> None:
+    """Wide pictures show their cables; published ones are as published."""
+    shares = {style: parse_spec({"images": 6, "style": style}, source="test").ranges.cable for style in Style}
+    assert {style: cable.least_visible_share for style, cable in shares.items()} == {"published": 0.0, "wide": 0.01}
+    assert not any(cable.background_share for cable in shares.values())
+
+
+def test_a_description_of_an_earlier_release_asks_for_no_visible_share() -> None:
+    """Its pictures keep their bytes: what its ranges lack is not filled in from the style."""
+    written = parse_spec({"images": 6, "style": "wide"}, source="test").model_dump(mode="json")
+    for key in ("least_visible_share", "background_share"):
+        del written["ranges"]["cable"][key]
+    cable = DatasetSpec.model_validate_json(json.dumps(written)).ranges.cable
+    assert (cable.least_visible_share, cable.background_share) == (0.0, 0.0)
 
 
 @given(share=st.floats(0, 1), style=st.sampled_from(Style))

@@ -39,6 +39,11 @@ def test_a_pinhole_sees_the_width_of_a_cylinder() -> None:
     assert profile(bar(shift=0.0003), 0.0).sum() == pytest.approx(width, rel=2e-3)
 
 
+def test_without_cables_nothing_is_covered() -> None:
+    """A backdrop without cables is seen whole."""
+    assert not covered_by([], VIEW, 0.002, SIDES).any()
+
+
 @pytest.mark.parametrize("height", [0.006, 0.012, 0.03])
 def test_a_lens_blurs_by_its_disc(height: float) -> None:
     """At height z a lens of radius a blurs by a disc of radius a z / (d - z).

@@ -1,7 +1,9 @@
 """Real pictures from a real Blender: small, of every category, repeatable, and with right masks."""
 
 import os
+from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -24,8 +26,10 @@ from farm.spec.job import Job  # noqa: E402
 from farm.spec.make_header import Inputs, make_header, template_ref  # noqa: E402
 from farm.spec.parse import parse_spec  # noqa: E402
 from worker.blender.asset_files import checked  # noqa: E402
+from worker.blender.build_scene import BuiltScene, build_scene  # noqa: E402
 from worker.blender.render import render_picture  # noqa: E402
 from worker.blender.renderer import BlenderRenderer, open_renderer  # noqa: E402
+from worker.geometry import SettledGeometry  # noqa: E402
 from worker.simulate.checks.measure import settled_figures  # noqa: E402
 
 pytestmark = pytest.mark.blender
@@ -136,6 +140,7 @@ def test_settled_scenes_are_at_rest_whole_and_apart(renderer: BlenderRenderer) -
     """In eight scenes gates 1 to 4 are at their targets."""
     for index in range(8):
         settled = renderer.make(Job(category=Category.FAR, index=index), small_header()).settled
+        assert settled is not None
         missed = [gate.name for gate, figure in settled_figures(settled).items() if not gate.on_target(figure)]
         assert missed == []
 
@@ -159,6 +164,41 @@ def test_a_rejected_scene_is_drawn_again_and_told_in_the_manifest(baked: Path, m
     made = open_renderer(header, on_cpu(baked)).make(Job(category=Category.FAR, index=0), header)
     assert made.scene.attempt == 1
     assert [(each.attempt, each.reason) for each in made.rejected] == [(0, "length error 0.02 is above 0.01")]
+
+
+def test_a_scene_that_shows_too_little_is_not_built(baked: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The least visible share is judged on the mask before the picture is built, and the next scene is drawn."""
+    job = Job(category=Category.FAR, index=5)
+    seen = next(islice(drawn_coverage(small_header(), job.category, 6), 5, None))
+    header = small_header(ranges={"cable": {"least_visible_share": round(seen + 0.001, 4)}})
+    built: list[int] = []
+
+    def counting(geometry: SettledGeometry, *others: Any) -> BuiltScene:
+        built.append(geometry.scene.attempt)
+        return build_scene(geometry, *others)
+
+    monkeypatch.setattr("worker.blender.renderer.build_scene", counting)
+    made = open_renderer(header, on_cpu(baked)).make(job, header)
+    assert made.rejected[0].reason.startswith(f"cables are seen in {seen:.2%} of the picture")
+    assert made.scene.attempt == len(made.rejected)
+    assert np.mean(made.files["mask"] > 0) > seen
+    assert built == [made.scene.attempt]
+
+
+@pytest.mark.parametrize("category", [Category.CLOSE_CONCENTRATED, Category.CLOSE_ALIGNED_DISTRIBUTED, Category.FAR])
+def test_a_picture_without_cables_is_a_lit_background(baked: Path, category: Category) -> None:
+    """Floor, clutter and light are those of the job's picture with cables, and mask and instances are empty."""
+    ranges = {"clutter": {"share": 1.0, "sticks": [2, 2]}}
+    plain = small_header(ranges=ranges)
+    bare = small_header(ranges={**ranges, "cable": {"background_share": 1.0, "least_visible_share": 0.01}})
+    job = Job(category=category, index=0)
+    cables, none = (open_renderer(header, on_cpu(baked)).make(job, header) for header in (plain, bare))
+    assert (none.scene.cables, none.settled, none.rejected) == ((), None, ())
+    assert not none.files["mask"].any()
+    assert not none.files["instances"].any()
+    change = np.abs(none.files["image"].astype(int) - cables.files["image"].astype(int)).mean(axis=2)
+    assert change[cables.files["mask"] == 255].mean() > 3 * np.median(change[cables.files["mask"] == 0])
+    assert none.files["image"].std() > 3
 
 
 def test_surfaces_that_are_not_baked_are_asked_for(tmp_path: Path) -> None:

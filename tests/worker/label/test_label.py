@@ -8,13 +8,21 @@ from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
 import worker.label.silhouette
+from farm.dataset.instances import list_instances
+from farm.scene.cable import Bundle, Cable, Skin, Tie, envelope_ratio
+from farm.scene.camera import Camera
+from farm.scene.clutter import Stick, StickKind
 from farm.scene.picture_size import PictureSize
-from tests.worker.scenes import tubular
+from farm.spec.category import Category
+from farm.spec.rendering import CableDetail
+from tests.worker.scenes import make_scene, make_skin, tubular
 from worker.cable.piece import OCCLUDER, Convex, Plain, Substance
 from worker.cable.tube import sweep
 from worker.camera.view import View
 from worker.curves import Points
-from worker.label.label import label_cables
+from worker.geometry import SettledGeometry
+from worker.label.label import label_cables, label_scene
+from worker.simulate.shapes import CableShapes
 
 RADIUS = 0.001
 SIDES = 20
@@ -26,6 +34,22 @@ def bar(angle_deg: float = 0.0, z: float = RADIUS, shift: float = 0.0, length: f
     s = np.linspace(-length / 2, length / 2, 401)
     a = np.radians(angle_deg)
     return np.stack([s * np.cos(a) - shift * np.sin(a), s * np.sin(a) + shift * np.cos(a), np.full_like(s, z)], axis=1)
+
+
+def bundled(strands: int, tie: bool) -> Cable:
+    """A cable of 4 mm and 0.2 m, or a bundle of as wide strands as it holds, with a tie."""
+    ties = (Tie(along=0.75, width_m=0.003, colour=(20, 20, 20)),) if tie else ()
+    look: Skin | Bundle = make_skin()
+    if strands:
+        look = Bundle(
+            strands=tuple(make_skin(pattern_seed=seed) for seed in range(strands)),
+            strand_diameter_m=0.004 / envelope_ratio(strands),
+            lay_m=0.08,
+            phase_deg=20.0,
+            ties=ties,
+        )
+    drawn = make_scene(ranges={"cable": {"count": [1, 1]}}).cables[0]
+    return drawn.model_copy(update={"length_m": 0.2, "diameter_m": 0.004, "material": look})
 
 
 def label(*curves: Points) -> tuple[NDArray[np.uint8], NDArray[np.uint16]]:
@@ -123,6 +147,59 @@ def test_cables_outside_the_view_leave_nothing() -> None:
     mask, instances = label(bar(shift=0.5))
     assert not mask.any()
     assert not instances.any()
+
+
+def test_a_picture_without_cables_has_empty_labels() -> None:
+    """They are as large as any."""
+    mask, instances = label()
+    assert mask.shape == instances.shape == (256, 256)
+    assert not mask.any()
+    assert not instances.any()
+
+
+def test_a_bundle_s_strands_are_listed_as_the_map_shows_them() -> None:
+    """Each number's pixels lie where its cable or strand does, and ties and sticks have no number."""
+    left, bundle, right = (bundled(strands, tie) for strands, tie in ((0, False), (3, True), (0, False)))
+    stick = Stick(
+        kind=StickKind.ROD,
+        diameter_m=0.004,
+        length_m=0.1,
+        x_m=0.0,
+        y_m=0.0,
+        start_height_m=0.0,
+        rotation_deg=0.0,
+        colour=(9, 9, 9),
+        pattern_seed=0,
+    )
+    scene = make_scene(Category.CLOSE_CONCENTRATED).model_copy(
+        update={"cables": (left, bundle, right), "sticks": (stick,), "camera": Camera(height_m=0.15, f_number=8.0)}
+    )
+    heights = (0.002, 0.002, 0.008)
+    rows = [bar(z=z, shift=shift, length=0.2) for z, shift in zip(heights, (0.02, 0.0, -0.02), strict=True)]
+    across = bar(90.0, z=0.0045, length=0.1)
+    shapes = CableShapes(
+        nodes_m=tuple(rows),
+        radii_m=np.full(3, 0.002),
+        lengths_m=np.full(3, 0.2),
+        speeds_m_s=tuple(np.zeros(len(row)) for row in rows),
+        start_order=(0, 1, 2, 3),
+        fall_s=0.0,
+        steps=0,
+        sticks_m=(across,),
+        stick_radii_m=np.array([0.002]),
+    )
+    geometry = SettledGeometry(scene, shapes, CableDetail(points_per_segment=1), PictureSize.square(256))
+    seen = label_scene(geometry).instances
+    listed = list_instances(scene, seen)
+    numbers, pixels = np.unique(seen[seen > 0], return_counts=True)
+    assert [(each.id, each.pixels) for each in listed] == list(zip(numbers.tolist(), pixels.tolist(), strict=True))
+    assert [(each.cable, each.strand) for each in listed] == [(0, None), (1, 0), (1, 1), (1, 2), (2, None)]
+    places_m = {0: 0.02, 1: 0.0, 2: -0.02}
+    for each in listed:
+        row = np.flatnonzero((seen == each.id).any(axis=1)).mean()
+        middle = VIEW.project(np.array([[0.0, places_m[each.cable], heights[each.cable]]]))[0, 1]
+        assert row == pytest.approx(middle, abs=4.0)
+    assert not seen[:120, 126:130].any()  # the stick lies across the first cable
 
 
 @pytest.mark.parametrize(("angle", "shift", "rise"), [(10.0, 0.0, 0.0), (50.0, 0.02, 0.0), (80.0, -0.03, 0.2)])

@@ -57,6 +57,26 @@ def test_a_category_fixes_floor_lamp_and_hdri(category: Category) -> None:
         assert (scene.hdri_world is None) == bool(scene.lamps)
 
 
+@pytest.mark.parametrize("category", Category)
+def test_a_picture_without_cables_is_as_it_would_be_with_them(category: Category) -> None:
+    """Floor, clutter, light, camera and all else are drawn from streams that the missing cables do not move."""
+    for index in range(10):
+        with_cables = make_scene(category, index, style="wide")
+        without = make_scene(category, index, style="wide", ranges={"cable": {"background_share": 1.0}})
+        assert without.cables == ()
+        assert without == with_cables.model_copy(update={"cables": ()})
+
+
+def test_a_share_of_the_jobs_has_no_cables_at_any_attempt() -> None:
+    """About the share asked for; the other jobs' scenes are those of a dataset without such pictures."""
+    some = {"cable": {"background_share": 0.3}}
+    bare = [index for index in range(300) if not make_scene(index=index, ranges=some).cables]
+    assert 60 < len(bare) < 120
+    assert not any(make_scene(index=index, attempt=attempt, ranges=some).cables for index in bare for attempt in (1, 2))
+    others = [index for index in range(20) if index not in bare]
+    assert all(make_scene(index=index, ranges=some) == make_scene(index=index) for index in others)
+
+
 def test_one_to_eight_cables_are_drawn_and_each_number_occurs() -> None:
     """The published numbers 1 to 8 all occur."""
     assert {len(scene.cables) for scene in many(Category.FAR, 600)} == set(range(1, 9))

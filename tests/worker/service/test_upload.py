@@ -1,5 +1,6 @@
 """Writing a picture to the dataset."""
 
+import json
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -9,9 +10,13 @@ import numpy as np
 import pytest
 
 from farm.dataset.completion import is_done
-from farm.dataset.dataset import Dataset
+from farm.dataset.dataset import Dataset, create_dataset
+from farm.dataset.destination import Destination
+from farm.dataset.instances import VisibleInstance
 from farm.dataset.outputs import IMAGE, INSTANCES, MASK, OUTPUTS
-from farm.dataset.paths import file_path, manifest_path
+from farm.dataset.paths import INDEX_FILE, file_path, manifest_path
+from farm.dataset.report import write_overview
+from farm.dataset.verify import verify
 from farm.errors import BrokerError, DestinationError, RenderError
 from farm.spec.job import Job
 from farm.storage import LocalStorage
@@ -83,6 +88,55 @@ def test_labels_that_do_not_fit(dataset: Dataset, made: Picture, damage: dict[st
     before = dataset.storage.files()
     with pytest.raises(RenderError):
         upload(replace(made, files={**made.files, **damage}), JOB, dataset)
+    assert dataset.storage.files() == before
+
+
+def test_manifest_lists_what_is_seen(dataset: Dataset, made: Picture) -> None:
+    """Each number of the instance map comes with its cable and its pixels."""
+    written = upload(made, JOB, dataset)
+    assert written.instances == (VisibleInstance(id=1, cable=0, strand=None, pixels=4 * 32),)
+
+
+def without_cables(made: Picture) -> Picture:
+    """The picture's background alone."""
+    empty = {MASK.role: np.zeros((32, 32), np.uint8), INSTANCES.role: np.zeros((32, 32), np.uint16)}
+    scene = made.scene.model_copy(update={"cables": ()})
+    return replace(made, scene=scene, settled=None, files={**made.files, **empty})
+
+
+def test_a_picture_without_cables_is_done_listed_and_clean(dataset: Dataset, made: Picture) -> None:
+    """It has empty labels and no physics figures; manifest and index say that it has no cable."""
+    written = upload(without_cables(made), JOB, dataset)
+    assert (written.scene.cables, written.settled, written.instances) == ((), None, ())
+    assert is_done(dataset, JOB)
+    assert not [finding for finding in verify(dataset).findings if JOB.id in finding.path]
+    write_overview(dataset)
+    line = json.loads(dataset.storage.read(INDEX_FILE))
+    assert (line["job_id"], line["cables"], line["visible_instances"]) == (JOB.id, 0, 0)
+
+
+def test_an_empty_picture_of_cables_is_not_written(tmp_path: Path) -> None:
+    """Where the description asks for a visible share, labels that show nothing of the scene's cables are refused."""
+    header = stand_in_header()
+    cable = header.spec.ranges.cable.model_copy(update={"least_visible_share": 0.01})
+    ranges = header.spec.ranges.model_copy(update={"cable": cable})
+    picky = header.model_copy(update={"spec": header.spec.model_copy(update={"ranges": ranges})})
+    dataset = create_dataset(Destination(str(tmp_path), "picky"), picky)
+    made = StandInRenderer().make(JOB, picky)
+    bare = without_cables(made)
+    with pytest.raises(RenderError, match="instances: is empty, but the scene has cables"):
+        upload(replace(made, files=bare.files), JOB, dataset)
+    assert upload(bare, JOB, dataset).instances == ()
+
+
+@pytest.mark.parametrize("has_cable", [True, False])
+def test_an_instance_of_nothing_in_the_scene_is_not_written(dataset: Dataset, made: Picture, has_cable: bool) -> None:
+    """Labels that show more than the scene has are refused, as is any label of a picture without cables."""
+    shown = {INSTANCES.role: made.files[INSTANCES.role] * np.uint16(2)} if has_cable else {}
+    scene = made.scene if has_cable else made.scene.model_copy(update={"cables": ()})
+    before = dataset.storage.files()
+    with pytest.raises(RenderError, match="instances: has number"):
+        upload(replace(made, scene=scene, files={**made.files, **shown}), JOB, dataset)
     assert dataset.storage.files() == before
 
 

@@ -107,7 +107,8 @@ def rods_of(scene: Scene, fall: RodFall) -> list[Rod]:
 
 def surroundings_of(scene: Scene) -> Surroundings:
     """Make the floor, friction and wind of a scene; a wind of speed 0 becomes still air without drag."""
-    highest = max(cable.start_height_m + cable.rise_m for cable in scene.cables)
+    starts = [cable.start_height_m + cable.rise_m for cable in scene.cables]
+    highest = max(starts or [stick.start_height_m for stick in scene.sticks])
     landing_s = float(np.sqrt(2 * highest / GRAVITY_M_S2))
     return Surroundings(
         friction_floor=scene.friction.floor,

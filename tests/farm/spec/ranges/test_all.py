@@ -5,6 +5,7 @@ import pytest
 from farm.errors import SpecError
 from farm.spec.parse import parse_spec
 from farm.spec.ranges.all import Ranges
+from farm.spec.styles import Style
 
 
 def with_ranges(**ranges: object) -> Ranges:
@@ -35,6 +36,40 @@ def test_a_camera_among_the_cables_is_refused() -> None:
     """The error names both keys."""
     with pytest.raises(SpecError, match=r"camera\.heights_m .*cable\.count"):
         with_ranges(camera={"heights_m": [0.03]})
+
+
+@pytest.mark.parametrize("style", Style)
+def test_either_style_takes_as_many_cables_as_a_fall_brings_to_rest(style: Style) -> None:
+    """24 cables are taken with the style's own cameras, and more are refused with the key."""
+
+    def parse(most: int) -> tuple[int, int]:
+        ranges = {"cable": {"count": [1, most]}}
+        return parse_spec({"images": 6, "style": style, "ranges": ranges}, source="test").ranges.cable.count
+
+    assert parse(24) == (1, 24)
+    with pytest.raises(SpecError, match=r"ranges\.cable\.count\.1: .*less than or equal to 24"):
+        parse(25)
+
+
+@pytest.mark.parametrize(
+    ("key", "hint"),
+    [
+        ("background_share", r"it belongs to \[ranges\.cable\]"),
+        ("heights_m", r"it belongs to \[ranges\.camera\]"),
+        ("tilt_deg", "the README tells"),
+        ("no_such_key", "the README tells"),
+    ],
+)
+def test_a_range_outside_its_table_is_told_its_table(key: str, hint: str) -> None:
+    """The error names the table of a key that one table alone has."""
+    with pytest.raises(SpecError, match=f"{key}: unknown key; {hint}"):
+        parse_spec({"images": 6, key: 0.1}, source="test")
+
+
+def test_a_share_that_hardly_any_scene_shows_is_refused() -> None:
+    """The least visible share is a share of pixels, not of pictures."""
+    with pytest.raises(SpecError, match=r"ranges\.cable\.least_visible_share"):
+        with_ranges(cable={"least_visible_share": 0.5})
 
 
 def test_a_range_the_wrong_way_round_is_refused() -> None:
