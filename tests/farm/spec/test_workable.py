@@ -10,6 +10,7 @@ from farm.spec.dataset_spec import DatasetSpec
 from farm.spec.parse import parse_spec
 from farm.spec.ranges.all import Ranges
 from farm.spec.ranges.camera import CameraRanges
+from farm.spec.ranges.clutter import ClutterRanges
 from farm.spec.simulation import Simulator
 from farm.spec.styles import RANGES_OF, Style, merge_tables
 from farm.spec.workable import BOUNDS, Bound, clear_height_m, highest_pile_m
@@ -55,6 +56,7 @@ def test_a_key_beyond_its_bound_is_refused_by_name(bound: Bound) -> None:
         ("ranges.wind.strength", [0.0, 1e5], r"ranges\.wind\.strength: 100000 is above 100: no cable comes to rest"),
         ("ranges.wind.speed_per_strength_m_s", 3.0, r"wind\.strength 10 .*a wind of 30 m/s, above 25 m/s"),
         ("ranges.wind.gust_period_s", [1e-309, 0.1], r"ranges\.wind\.gust_period_s: 1e-309 s is below 0\.002 s"),
+        ("fall.rod.max_time_s", 1e-9, r"fall\.rod\.max_time_s: 1e-09 s is below 0\.03 s: no cable lands so soon"),
         ("fall.rod.segment_radii", 20.0, r"fall\.rod\.segment_radii: 20 radii is above 6 radii: .*never rest"),
         ("fall.rod", {"steps_per_s": 100_000, "max_time_s": 60.0}, r"max_time_s 60 s make 6,000,000 time steps"),
         (
@@ -130,5 +132,7 @@ def test_tilt_and_aperture_lower_what_a_camera_sees() -> None:
 
 
 def test_the_highest_pile_counts_the_thickest_of_all() -> None:
-    """Eight cables of 2.4 mm, three quarters of them high; more cables spread out."""
+    """Eight cables of 2.4 mm, three quarters of them high; what is beyond eight spreads out, sticks as well."""
     assert highest_pile_m(Ranges(), 0.0648) == pytest.approx(0.75 * 8 * 0.0024)
+    sticks = ClutterRanges(share=1.0, sticks=(0, 20), stick_diameter_m=(0.003, 0.004))
+    assert highest_pile_m(Ranges(clutter=sticks), 0.0648) == pytest.approx(0.75 * 8 * 0.004)
