@@ -82,11 +82,11 @@ def foreign_package() -> Path | None:
 
 def _foreign() -> list[str]:
     given = os.environ.get("PYTHONPATH", "").split(os.pathsep)
-    entries = [str(Path(entry).absolute()) for entry in given if entry]
+    entries = [_absolute(entry) for entry in given if entry]
     if not sys.flags.safe_path and sys.path:
         # The folder of the script, or the working folder; `cable_farm` may have put the root before it.
         first = next((entry for entry in sys.path if entry != str(ROOT)), "")
-        entries.append(str(Path(first).absolute()))
+        entries.append(_absolute(first))
     if site.ENABLE_USER_SITE:
         entries.append(site.getusersitepackages())
     # The programs that this one starts are isolated: they find these entries here.
@@ -98,7 +98,15 @@ def _foreign() -> list[str]:
 def _as_written(entries: Iterable[str], path: Iterable[str]) -> list[str]:
     """The entries of a path that mean one of `entries`, however they are written."""
     wanted = set(entries)
-    return [entry for entry in path if entry and entry not in wanted and str(Path(entry).absolute()) in wanted]
+    return [entry for entry in path if entry and entry not in wanted and _absolute(entry) in wanted]
+
+
+def _absolute(entry: str) -> str:
+    try:
+        return str(Path(entry).absolute())
+    except FileNotFoundError:
+        # The working folder is gone, and nothing can be found in it.
+        return entry
 
 
 if __name__ == "__main__":

@@ -4,6 +4,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from farm.start import ROOT
+
 PROGRAM = "from worker.simulate.rod.compiled import kept_in; print(kept_in())"
 
 # Root may write everywhere, whatever a folder's permissions.
@@ -60,3 +62,18 @@ def test_no_folder_for_compiled_code(tmp_path: Path) -> None:
     (line,) = result.stderr.strip().splitlines()
     assert f"{tmp_path}/file/in" in line
     assert "can't keep compiled code: Not a directory" in line
+
+
+def test_a_projects_numba_settings_do_not_count(tmp_path: Path) -> None:
+    """A file of settings in the working folder, which would switch the compiler off, is passed over."""
+    (tmp_path / ".numba_config.yaml").write_text("disable_jit: 1\n")
+    program = "import worker.simulate.rod.compiled, numba; print(numba.config.DISABLE_JIT)"
+    result = subprocess.run(
+        [sys.executable, "-P", "-c", program],
+        cwd=tmp_path,
+        env={"PATH": "/usr/bin:/bin", "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert result.stdout.strip() == "0"
