@@ -28,7 +28,7 @@ def repair(
 ) -> None:
     """Compare folder and queue once, and queue every image that is neither done, nor waiting, nor being made."""
     dataset = open_dataset(parse_destination(place))
-    handle = handle_of(dataset, broker)
+    handle = handle_of(dataset, broker, settles=True)
     damaged = list(damaged_jobs(dataset)) if checksums else []
     for job in damaged:
         dataset.storage.remove(manifest_path(job))
@@ -45,7 +45,7 @@ def retry(
 ) -> None:
     """Take images out of quarantine, and queue them; without Redis the next farm run makes them."""
     dataset = open_dataset(parse_destination(place))
-    handle = handle_if_reachable(dataset, broker)
+    handle = handle_if_reachable(dataset, broker, settles=True)
     quarantine = Quarantine(dataset)
     released = _chosen(dataset, quarantine.look(), jobs or [])
     if handle is not None:

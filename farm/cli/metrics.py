@@ -17,7 +17,9 @@ from farm.errors import ConflictError, DestinationError, MachineError, SpecError
 from farm.run.handle import open_handle
 from farm.run.progress import RunHandle
 from farm.run.queue.broker import broker_url, connect
+from farm.run.registry.port import Refusal
 from farm.run.registry.redis import RedisRegistry
+from farm.run.serving import refusal
 
 
 def metrics(
@@ -98,9 +100,8 @@ class _Datasets:
             if run.key not in known:
                 # The registry lists runs of other stores too, whose datasets are not found here.
                 with suppress(DestinationError, ConflictError, SpecError):
-                    dataset = open_dataset(Destination(self._store or "", run.dataset))
-                    if dataset.header.spec_sha256 == run.spec_sha256:
-                        self._add(dataset)
+                    if refusal(self._store or "", run) in {None, Refusal.OTHER_RELEASE}:
+                        self._add(open_dataset(Destination(self._store or "", run.dataset)))
         return list(self._found.values())
 
     def _add(self, dataset: Dataset) -> None:

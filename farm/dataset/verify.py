@@ -12,7 +12,15 @@ from farm.dataset.completion import STALE_TEMPORARY_S
 from farm.dataset.dataset import Dataset
 from farm.dataset.manifest import FileRecord, parse_manifest
 from farm.dataset.outputs import find_faults, outputs_of
-from farm.dataset.paths import HEADER_FILE, INDEX_FILE, REPORT_FILE, file_path, manifest_path, quarantine_path
+from farm.dataset.paths import (
+    HEADER_FILE,
+    INDEX_FILE,
+    PLACE_FILE,
+    REPORT_FILE,
+    file_path,
+    manifest_path,
+    quarantine_path,
+)
 from farm.dataset.quarantine import Quarantine
 from farm.model import Model
 from farm.spec.job import Job
@@ -163,7 +171,7 @@ def _read_file(dataset: Dataset, record: FileRecord) -> bytes | Finding:
 
 
 def _extra(dataset: Dataset, files: dict[str, StoredFile]) -> Iterator[Finding]:
-    known = {HEADER_FILE, INDEX_FILE, REPORT_FILE}
+    known = {HEADER_FILE, INDEX_FILE, REPORT_FILE, PLACE_FILE}
     outputs = outputs_of(dataset.header.spec)
     for job in dataset.header.spec.jobs():
         known.add(manifest_path(job))

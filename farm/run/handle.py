@@ -1,40 +1,114 @@
 """Opens a dataset's run in Redis: its ledger, the queue and the run registry, over one client."""
 
+from collections.abc import Mapping
+
 import redis
 
+from farm import __version__
 from farm.dataset.dataset import Dataset
+from farm.dataset.place import claim_place, is_elsewhere, locate, new_id, read_place, renew_place
 from farm.run.ledger.redis import RedisLedger
 from farm.run.progress import RunHandle
 from farm.run.queue.celery import CeleryQueue
 from farm.run.queue.settings import make_app
-from farm.run.registry.port import Priority, Run
+from farm.run.registry.port import Priority, Run, RunState
 from farm.run.registry.redis import RedisRegistry
 
 
-def run_of(dataset: Dataset, priority: Priority = Priority.NORMAL) -> Run:
-    """Describe a dataset's run as at its first submission: active, with the given priority."""
-    return Run(dataset=dataset.name, spec_sha256=dataset.header.spec_sha256, priority=priority)
+def run_of(dataset: Dataset, priority: Priority = Priority.NORMAL, place: str = "") -> Run:
+    """Describe a dataset's run as at its first submission: active, with the given priority, and of this release."""
+    return Run(
+        dataset=dataset.name,
+        spec_sha256=dataset.header.spec_sha256,
+        priority=priority,
+        place=place,
+        release=__version__,
+        located=locate(dataset) if place else "",
+    )
 
 
-def open_handle(dataset: Dataset, url: str, client: "redis.Redis", priority: Priority | None = None) -> RunHandle:
-    """Open the run of a dataset.
+def open_handle(
+    dataset: Dataset, url: str, client: "redis.Redis", priority: Priority | None = None, *, settles: bool = False
+) -> RunHandle:
+    """Open the run of a dataset: the one that is up, be it of another release, else one as it would be submitted.
 
     Args:
         dataset: the dataset.
         url: address of the broker.
         client: client of the same Redis, from `farm.run.queue.broker.connect`.
         priority: priority of the run; None keeps that of the registered run, or is normal if there is none.
+        settles: whether to give the dataset's place an id if it needs one; without it nothing is written.
 
     Returns:
-        The run with its ledger, queue and registry; nothing is written.
+        The run with its ledger, queue and registry.
 
     Raises:
         BrokerError: if Redis can't be read.
+        DestinationError: if the folder can't be read, or not be written where it must.
     """
     registry = RedisRegistry(client)
-    run = run_of(dataset, priority or Priority.NORMAL)
-    present = registry.runs().get(run.key)
-    if priority is None and present is not None:
-        run = run.model_copy(update={"priority": present.priority})
-    ledger = RedisLedger(client, dataset.name, dataset.header.spec_sha256)
+    runs = registry.runs()
+    present = None
+    place = _place_of(dataset, runs, settles=False)
+    if place:
+        present = runs.get(run_of(dataset, place=place).key)
+    present = present or older_run(dataset, runs)
+    if present is None:
+        place = _place_of(dataset, runs, settles=settles)
+        run = run_of(dataset, priority or Priority.NORMAL, place)
+    else:
+        run = present.model_copy(update={"priority": priority or present.priority})
+    return _handle(run, url, client, registry)
+
+
+def open_new_run(dataset: Dataset, url: str, client: "redis.Redis", priority: Priority) -> tuple[RunHandle, Run | None]:
+    """Register a run of this release for a dataset, as a person asks for it, in place of one that is up.
+
+    Returns:
+        The run with its ledger, queue and registry; and the run that it replaced, if that was another release's.
+
+    Raises:
+        BrokerError: if Redis can't be reached.
+        DestinationError: if the folder can't be read or written.
+    """
+    registry = RedisRegistry(client)
+    runs = registry.runs()
+    handle = _handle(run_of(dataset, priority, _place_of(dataset, runs, settles=True)), url, client, registry)
+    replaced = None
+    former = runs.get(handle.run.key)
+    if former is not None and former.release != __version__:
+        # Its messages may have another form.
+        handle.queue.clear(former)
+        replaced = former
+    older = older_run(dataset, runs)
+    if older is not None and older.state is not RunState.CANCELLED and older.key != handle.run.key:
+        # Cancelled in its own release's words, so that its coordinator ends and its workers leave it.
+        registry.change(older.key, RunState.CANCELLED)
+        handle.queue.clear(older)
+        replaced = older
+    registry.replace(handle.run)
+    return handle, replaced
+
+
+def older_run(dataset: Dataset, runs: Mapping[str, Run]) -> Run | None:
+    """Find the run that a release which knows no places has registered for a dataset.
+
+    It may be that of another store's dataset of the same name and description, which such releases don't tell apart.
+    """
+    return runs.get(run_of(dataset).older_key)
+
+
+def _place_of(dataset: Dataset, runs: Mapping[str, Run], *, settles: bool) -> str:
+    place = claim_place(dataset.storage) if settles else read_place(dataset.storage)
+    if not place:
+        return ""
+    same = runs.get(run_of(dataset, place=place).key)
+    if same is None or not is_elsewhere(same.located, dataset):
+        return place
+    # The folder is a copy of one whose run is up.
+    return renew_place(dataset.storage) if settles else new_id()
+
+
+def _handle(run: Run, url: str, client: "redis.Redis", registry: RedisRegistry) -> RunHandle:
+    ledger = RedisLedger(client, run.key)
     return RunHandle(run=run, ledger=ledger, queue=CeleryQueue(make_app(url), client), registry=registry)

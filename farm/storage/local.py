@@ -103,6 +103,18 @@ class LocalStorage:
         with _as_destination_error("remove", str(self._root / path)):
             (self._root / path).unlink(missing_ok=True)
 
+    def create(self, path: str, content: bytes) -> bool:
+        """Make a file that is not there; see `Storage.create`."""
+        # Not by a link to a whole file: some file systems have no links.
+        try:
+            with (self._root / path).open("xb") as file:
+                file.write(content)
+        except FileExistsError:
+            return False
+        except OSError as error:
+            raise DestinationError(f"{self._root / path}: can't write: {error.strerror or error}") from error
+        return True
+
 
 def _sync_folder(folder: Path) -> None:
     # The move itself must reach the disk before a manifest, written later, can vouch for the file.

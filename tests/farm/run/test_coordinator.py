@@ -16,14 +16,12 @@ from farm.dataset.quarantine import Quarantine, put_in_quarantine
 from farm.dataset.verify import verify
 from farm.errors import (
     BrokerError,
-    DatasetMissingError,
     DestinationError,
     IncompleteError,
     RunCancelledError,
 )
 from farm.run.coordinator import Coordinator
 from farm.run.ledger.owner import this_process
-from farm.run.ledger.port import MAX_ABSENCES
 from farm.run.progress import Progress
 from farm.run.registry.port import Priority, Run, RunState
 from farm.spec.header import DatasetHeader
@@ -462,21 +460,6 @@ def test_folder_that_is_away_is_waited_for(dataset: Dataset) -> None:
     assert [look.trouble for look in seen if look.trouble] == ["stale file handle; waiting for it"] * 3
 
 
-def test_absences_end_the_watch(bench: Bench) -> None:
-    """If one worker after the other lacks the dataset, the watch ends and says what to do."""
-    bench.coordinator.submit_missing()
-    for _ in range(MAX_ABSENCES + 1):
-        bench.ledger.count_absence()
-    with pytest.raises(DatasetMissingError, match="--store"):
-        bench.coordinator.watch()
-
-
-def test_submission_forgives_absences(bench: Bench) -> None:
-    """A dataset that no worker had gets another chance when it is submitted again."""
-    for _ in range(MAX_ABSENCES + 1):
-        bench.ledger.count_absence()
-    bench.coordinator.submit_missing()
-    assert bench.finish().done == 4
 
 
 def test_permanent_failure_ends_the_run(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:

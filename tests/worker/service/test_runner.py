@@ -28,7 +28,7 @@ from farm.errors import (
     UnfitWorkerError,
 )
 from farm.run.ledger.owner import this_process
-from farm.run.ledger.port import MAX_ABSENCES, RETRY_OWNER
+from farm.run.ledger.port import RETRY_OWNER
 from farm.run.worker_settings import RendererSettings
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
@@ -241,19 +241,6 @@ def test_dataset_that_is_not_here(dataset: Dataset, tmp_path: Path, ledger: Memo
     assert ledger.absences() == MAX_ABSENCES + 1
     assert not (tmp_path / "elsewhere").exists()
 
-
-def test_restarted_worker_with_a_wrong_store(
-    dataset: Dataset, tmp_path: Path, runner: JobRunner, ledger: MemoryLedger
-) -> None:
-    """While another worker makes pictures, one that is started over and over fails none."""
-    wrong = runner_with(StandInRenderer(), tmp_path / "elsewhere", ledger)
-    jobs = list(dataset.header.spec.jobs())
-    for number in range(2 * MAX_ABSENCES):
-        with pytest.raises(UnfitWorkerError):
-            wrong.run(dataset.message(jobs[-1]).encode())
-        if number % 4 == 0:
-            runner.run(dataset.message(jobs[number // 4]).encode())
-    assert given_up(dataset) == {}
 
 
 def test_message_for_another_description(dataset: Dataset, runner: JobRunner, ledger: MemoryLedger) -> None:
