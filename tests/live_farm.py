@@ -66,18 +66,24 @@ class LiveFarm:
         self.logs.mkdir()
 
     def start(
-        self, name: str, limits: Mapping[str, float] | None = None, **environment: str
+        self,
+        name: str,
+        limits: Mapping[str, object] | None = None,
+        *,
+        command: Sequence[str] | None = None,
+        **environment: str,
     ) -> "subprocess.Popen[bytes]":
         """Start a worker.
 
         Args:
             name: name of the worker.
             limits: settings of the worker that differ from the usual ones.
+            command: command that starts it; None for the farm's usual one.
             environment: variables of its environment, beside those of this process.
         """
         usual = WorkerSettings(store=str(self.store), name=name, logs=self.logs, min_free_mib=0)
         process = subprocess.Popen(
-            [*self._command, *usual.model_copy(update=limits).serve_arguments()],
+            [*(command or self._command), *usual.model_copy(update=limits).serve_arguments()],
             env={**os.environ, "FARM_BROKER_URL": self.url, "STAND_IN_STARTS": str(self._journal), **environment},
             stdout=subprocess.DEVNULL,
             stderr=(self.logs / f"{name}.log").open("ab"),

@@ -150,12 +150,17 @@ class Feeder:
         waiting = self._handle.queue.length(self._handle.run)
         self._suspected_s = {job: self._suspected_s.get(job, now_s) for job in self._lost(undone, waiting)}
         self._losses = {job: count for job, count in self._losses.items() if job in undone}
-        for job, since_s in self._suspected_s.items():
+        for job, since_s in list(self._suspected_s.items()):
             losses = self._losses.get(job, 0)
-            if now_s - since_s >= min(_LONGEST_WAIT_S, self._lost_after_s * 2**losses) and job in self._on_the_way:
+            if now_s - since_s >= self._patience_s(losses):
                 self._on_the_way.discard(job)
+                # Once it is queued again, its time begins again.
+                del self._suspected_s[job]
                 self._losses[job] = losses + 1
         self.trouble = self._too_many(len(undone), waiting, now_s) or self._too_few()
+
+    def _patience_s(self, losses: int) -> float:
+        return min(_LONGEST_WAIT_S, self._lost_after_s * 2.0 ** min(losses, 10))
 
     def _too_many(self, undone: int, waiting: int, now_s: float) -> str:
         """Say that messages wait beyond the undone jobs, for longer than workers need to take doubled ones."""

@@ -63,8 +63,10 @@ class Holdings:
         """
         with self._changed:
             self._wanted = dict(runs)
-            self._answers = {key: answer for key, answer in self._answers.items() if self._holds_for(key, answer)}
-            self._waited_for &= runs.keys()
+            stale = [key for key, answer in self._answers.items() if not self._holds_for(key, answer)]
+            for key in stale:
+                del self._answers[key]
+            self._waited_for = (self._waited_for & runs.keys()) - set(stale)
             if self._due() is not None:
                 self._start()
                 self._changed.notify_all()

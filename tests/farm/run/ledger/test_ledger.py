@@ -127,7 +127,6 @@ def test_forgiven_job_begins_anew(ledger: Ledger) -> None:
     assert ledger.log_of("far-000002") == "the end"
 
 
-
 @pytest.mark.redis
 def test_nothing_stays_for_ever(redis_client: "redis.Redis") -> None:
     """Every key of a ledger lapses."""
