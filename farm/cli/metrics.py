@@ -3,6 +3,7 @@
 import importlib.util
 import signal
 import threading
+from collections import Counter
 from contextlib import suppress
 from types import FrameType
 from typing import Annotated
@@ -46,9 +47,13 @@ def metrics(
 
     if not places and store is None:
         raise SpecError("name datasets, or the --store that holds those that are worked on")
+    datasets = [open_dataset(parse_destination(place)) for place in places or ()]
+    names = Counter(dataset.name for dataset in datasets)
+    if doubled := [name for name, count in names.items() if count > 1]:
+        raise SpecError(f"{doubled[0]}: two datasets have this name, and figures go by names; serve them one by one")
     url = broker_url(broker)
     client = connect(url)
-    found = _Datasets(url, client, [open_dataset(parse_destination(place)) for place in places or ()], store)
+    found = _Datasets(url, client, datasets, store)
     registry = CollectorRegistry(auto_describe=False)
     registry.register(FarmCollector(found.find, RedisRegistry(client)))
     try:

@@ -1,8 +1,8 @@
 """The id of a dataset's place: tells its folder from any other that holds the same dataset.
 
-Datasets of one name and description may lie in several stores whose farms share one Redis. Their runs must not meet, and
-a path can't tell them apart, as each machine may have a store at another one. So a submission leaves a random id in the
-folder. It decides nothing in a picture.
+Datasets of one name and description may lie in several stores whose farms share one Redis. Their runs must not meet,
+and a path can't tell them apart, as each machine may have a store at another one. So a submission leaves a random id in
+the folder. It decides nothing in a picture.
 """
 
 import re

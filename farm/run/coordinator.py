@@ -14,7 +14,7 @@ from farm.run.feeder import LOST_AFTER_S, WINDOW, Feeder
 from farm.run.ledger.owner import is_gone, this_process
 from farm.run.progress import Progress, RunHandle, on_disk, with_handle
 from farm.run.registry.port import RunState
-from farm.run.serving import why_not_ours, why_not_yet
+from farm.run.serving import others_of, why_not_ours, why_not_yet
 from farm.spec.job import Job
 from farm.spec.job_set import JobSet
 
@@ -275,10 +275,10 @@ class Coordinator:
     def _take_down(self) -> None:
         registry, run = self._handle.registry, self._handle.run
         registry.remove(run.key)
-        older = registry.runs().get(run.older_key)
-        if older is not None and older.state is RunState.CANCELLED:
-            # This run replaced it.
-            registry.remove(older.key)
+        for other in others_of(run, registry.runs()):
+            if other.state is RunState.CANCELLED:
+                # This run replaced it.
+                registry.remove(other.key)
 
     def _end(self, progress: Progress) -> Progress:
         with suppress(BrokerError):

@@ -13,6 +13,7 @@ from farm.run.queue.celery import CeleryQueue
 from farm.run.queue.settings import make_app
 from farm.run.registry.port import Priority, Run, RunState
 from farm.run.registry.redis import RedisRegistry
+from farm.run.serving import others_of
 
 
 def run_of(dataset: Dataset, priority: Priority = Priority.NORMAL, place: str = "") -> Run:
@@ -48,11 +49,9 @@ def open_handle(
     """
     registry = RedisRegistry(client)
     runs = registry.runs()
-    present = None
-    place = _place_of(dataset, runs, settles=False)
-    if place:
-        present = runs.get(run_of(dataset, place=place).key)
-    present = present or older_run(dataset, runs)
+    run = run_of(dataset, place=_place_of(dataset, runs, settles=False))
+    others = sorted(others_of(run, runs), key=lambda other: other.state is RunState.CANCELLED)
+    present = next(iter([runs[run.key]] if run.key in runs else others), None)
     if present is None:
         place = _place_of(dataset, runs, settles=settles)
         run = run_of(dataset, priority or Priority.NORMAL, place)
@@ -80,22 +79,14 @@ def open_new_run(dataset: Dataset, url: str, client: "redis.Redis", priority: Pr
         # Its messages may have another form.
         handle.queue.clear(former)
         replaced = former
-    older = older_run(dataset, runs)
-    if older is not None and older.state is not RunState.CANCELLED and older.key != handle.run.key:
-        # Cancelled in its own release's words, so that its coordinator ends and its workers leave it.
-        registry.change(older.key, RunState.CANCELLED)
-        handle.queue.clear(older)
-        replaced = older
+    for other in others_of(handle.run, runs):
+        if other.state is not RunState.CANCELLED:
+            # Cancelled in its own release's words, so that its coordinator ends and its workers leave it.
+            registry.change(other.key, RunState.CANCELLED)
+            handle.queue.clear(other)
+            replaced = other
     registry.replace(handle.run)
     return handle, replaced
-
-
-def older_run(dataset: Dataset, runs: Mapping[str, Run]) -> Run | None:
-    """Find the run that a release which knows no places has registered for a dataset.
-
-    It may be that of another store's dataset of the same name and description, which such releases don't tell apart.
-    """
-    return runs.get(run_of(dataset).older_key)
 
 
 def _place_of(dataset: Dataset, runs: Mapping[str, Run], *, settles: bool) -> str:

@@ -27,15 +27,32 @@ def why_not_ours(run: Run, dataset: Dataset) -> str:
     )
 
 
+def others_of(run: Run, runs: Mapping[str, Run]) -> list[Run]:
+    """Find the runs that other releases have registered for a run's dataset, into the same files, under other keys.
+
+    A release that knows no places has none in its key. It may be the run of another store's dataset of the same name
+    and description, which such a release doesn't tell apart. And releases may disagree on the fingerprint.
+    """
+    return [
+        other
+        for key, other in runs.items()
+        if key != run.key
+        and (
+            key == run.older_key
+            or ((other.dataset, other.place) == (run.dataset, run.place or None) and other.release != __version__)
+        )
+    ]
+
+
 def why_not_yet(run: Run, dataset: Dataset, runs: Mapping[str, Run]) -> str:
-    """Say that a release which knows no places makes the same dataset, into the same files; empty if none does."""
-    other = runs.get(run.older_key)
-    if other is None or other.key == run.key or other.state is RunState.CANCELLED:
-        return ""
-    return (
-        f"release {release_of(other, dataset)} has a run of this dataset, too, so nothing is queued: let that one end, "
-        "or farm submit it again to replace it"
-    )
+    """Say that another release has a run of the same dataset, too; empty if none has one that is not cancelled."""
+    for other in others_of(run, runs):
+        if other.state is not RunState.CANCELLED:
+            return (
+                f"release {release_of(other, dataset)} has a run of this dataset, too, so nothing is queued: let that "
+                "one end, or farm submit it again to replace it"
+            )
+    return ""
 
 
 def refusal(store: str, run: Run, release: str = __version__) -> Refusal | None:

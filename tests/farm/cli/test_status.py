@@ -11,9 +11,10 @@ from farm.dataset.dataset import Dataset
 from farm.dataset.paths import INDEX_FILE, REPORT_FILE
 from farm.dataset.quarantine import put_in_quarantine
 from farm.errors import DestinationError, IncompleteError
-from farm.run.handle import run_of
+from farm.run.coordinator import Coordinator
+from farm.run.handle import open_handle, run_of
 from farm.run.ledger.redis import RedisLedger
-from farm.run.registry.port import RunState, WorkerReport, WorkerState
+from farm.run.registry.port import Refusal, RunState, WorkerReport, WorkerState
 from farm.run.registry.redis import RedisRegistry
 from farm.spec.job import Job
 from tests.farm.cli.result import Farm, assert_refused
@@ -105,3 +106,18 @@ def test_status_tells_of_workers_and_state(
     shown = farm("status", dataset.storage.location, "--broker", redis_url).stdout
     assert "state    paused" in shown
     assert "worker   one@host held: disk full, 7 done" in shown
+
+
+@pytest.mark.redis
+def test_run_that_nobody_serves(farm: Farm, dataset: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
+    """The status says that no worker serves a run, and why; of a paused one there is nothing to say."""
+    place = [dataset.storage.location, "--broker", redis_url]
+    handle = open_handle(dataset, redis_url, redis_client, settles=True)
+    Coordinator(dataset, handle).submit_missing()
+    refuses = {handle.run.key: str(Refusal.NOT_HERE)}
+    handle.registry.report(WorkerReport(name="w@host", state=WorkerState.IDLE, release="0.1.0", refuses=refuses))
+    words = "no worker serves this run: 1 worker without this dataset in its --store"
+    assert f"served   {words}" in farm("status", *place).stdout.splitlines()
+    assert json.loads(farm("status", *place, "--json").stdout)["unserved"] == words
+    farm("pause", *place)
+    assert json.loads(farm("status", *place, "--json").stdout)["unserved"] is None

@@ -190,8 +190,8 @@ def test_messages_that_go_astray_are_noticed(bench: Bench, monkeypatch: pytest.M
         bench.queue.messages.clear()  # as if they went to another Redis
     assert [told[0], told[-1][1]] == [(0, False), True]
     assert "another Redis" in mending.trouble
-    # Ten jobs at a time from a hundred; without the pauses there would be 3600 messages.
-    assert queued <= 100 * 10
+    # In an hour each job is queued a dozen times at most, however often the queue is looked at.
+    assert queued <= 100 * 12
 
 
 def test_job_that_a_worker_begins_is_not_astray(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:

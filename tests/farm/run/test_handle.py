@@ -129,6 +129,18 @@ def test_submission_takes_over_the_run_of_the_first_release(desk: Desk, old: Dat
     assert registry.runs() == {}
 
 
+def test_releases_that_disagree_on_the_fingerprint(desk: Desk, dataset: Dataset) -> None:
+    """The run of a release that computes another fingerprint is known by its place: it is respected, and taken over."""
+    handle = desk.open(dataset, settles=True)
+    theirs = handle.run.model_copy(update={"release": "9.9.9", "spec_sha256": "f" * 64, "state": RunState.PAUSED})
+    handle.registry.replace(theirs)
+    assert desk.open(dataset, settles=True).run == theirs
+    mine = desk.submit(dataset)
+    assert desk.replaced == theirs
+    assert mine.registry.runs()[theirs.key].state is RunState.CANCELLED
+    assert desk.open(dataset).run == mine.run
+
+
 def test_submission_takes_over_the_run_of_another_release(desk: Desk, dataset: Dataset) -> None:
     """A run that a later release registered is replaced, and its messages, which may have another form, are removed."""
     handle = desk.open(dataset, settles=True)

@@ -160,3 +160,12 @@ def test_served_to_prometheus(
         assert process.wait(30) == 0
     assert values["farm_images", "far", "cables", "done"] == 1
     assert values["farm_queue_length", "cables"] == 0
+
+
+def test_workers_of_a_run(dataset: Dataset, handle: RunHandle) -> None:
+    """The workers that serve a run are counted, so that an alarm can tell a run that nobody serves."""
+    collector = FarmCollector(lambda: [(dataset, handle)], handle.registry)
+    assert values_of(collector)["farm_run_workers", "cables"] == 0
+    handle.registry.report(WorkerReport(name="a@host", state=WorkerState.IDLE, serves=(handle.run.key,)))
+    handle.registry.report(WorkerReport(name="b@host", state=WorkerState.IDLE, serves=("wires:000000000000",)))
+    assert values_of(collector)["farm_run_workers", "cables"] == 1
