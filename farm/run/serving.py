@@ -99,22 +99,21 @@ def why_unserved(key: str, release: str, reports: Sequence[WorkerReport]) -> str
     for report in reports:
         refused = report.refuses.get(key)
         if report.state is WorkerState.DRAINING:
-            causes["{} about to end"] += 1
+            causes["about to end"] += 1
         elif key in report.serves:
             return None
         elif refused == Refusal.NOT_HERE:
-            causes["{} without this dataset in its --store"] += 1
+            causes["without this dataset in its --store"] += 1
         elif refused == Refusal.OTHER_DESCRIPTION:
-            causes["{} whose --store holds another dataset of this name"] += 1
+            causes["whose --store holds another dataset of this name"] += 1
         elif not report.release or report.release != release:
-            # Escaped, as a version is filled in like the number.
-            other = report.release.replace("{", "{{").replace("}", "}}") or "an earlier one"
-            causes[f"{{}} of release {other}, it needs {release}"] += 1
+            other = f"release {report.release}" if report.release else "an earlier release"
+            causes[f"of {other}, it needs {release}"] += 1
         elif refused is None:
             return None
         else:
-            causes["{} that can't read this dataset in its --store"] += 1
-    found = [cause.format(_workers(count)) for cause, count in sorted(causes.items())]
+            causes["that can't read this dataset in its --store"] += 1
+    found = [f"{_workers(count)} {cause}" for cause, count in sorted(causes.items())]
     return f"no worker serves this run: {'; '.join(found) or 'no worker is there'}"
 
 

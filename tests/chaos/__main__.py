@@ -31,7 +31,7 @@ _SIDE_BY_SIDE = 2
 def main(arguments: Sequence[str]) -> int:
     """Play the scenarios; print, and write `chaos.json` and `chaos.png`."""
     options = _parser().parse_args(arguments)
-    names = {scenario.name for scenario in (*SCENARIOS, *UPGRADES, *BLENDER_SCENARIOS)}
+    names = {scenario.name for scenario in (*SCENARIOS, *BLENDER_SCENARIOS)} | {upgrade.name for upgrade in UPGRADES}
     if unknown := set(options.only) - names:
         sys.stderr.write(f"no scenario {', '.join(sorted(unknown))}; there are {', '.join(sorted(names))}\n")
         return 2

@@ -93,8 +93,8 @@ class Holdings:
         for key in self._wanted:
             if key not in self._answers:
                 return key
-        key = min(self._answers, key=lambda key: self._answers[key].again_s, default=None)
-        return key if key is not None and self._answers[key].again_s <= self._clock() else None
+        longest = min(self._answers, key=lambda key: self._answers[key].again_s, default=None)
+        return longest if longest is not None and self._answers[longest].again_s <= self._clock() else None
 
     def _start(self) -> None:
         if self._thread is None or not self._thread.is_alive():

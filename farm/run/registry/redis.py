@@ -56,7 +56,7 @@ class RedisRegistry:
         """See `RunRegistry.change`."""
         changes = {"state": state.value} | ({} if priority is None else {"priority": priority.value})
 
-        def change(pipe: Any) -> bool:
+        def change(pipe: Any) -> Any:
             text = pipe.hget(_RUNS, key)
             if text is None:
                 return False
@@ -68,7 +68,7 @@ class RedisRegistry:
 
         with as_broker_error():
             # Run again if another client changes an entry meanwhile.
-            return bool(self._client.transaction(change, _RUNS, value_from_callable=True))
+            return bool(cast(Any, self._client).transaction(change, _RUNS, value_from_callable=True))
 
     def remove(self, key: str) -> None:
         """See `RunRegistry.remove`."""

@@ -92,7 +92,7 @@ def worker(state: WorkerState = WorkerState.IDLE, **told: object) -> WorkerRepor
 
 def refusing(why: Refusal, **told: object) -> WorkerReport:
     """The report of a worker that refuses the run."""
-    return worker(refuses={KEY: str(why)}, **told)
+    return worker(WorkerState.IDLE, refuses={KEY: str(why)}, **told)
 
 
 @pytest.mark.parametrize(
@@ -106,7 +106,7 @@ def refusing(why: Refusal, **told: object) -> WorkerReport:
         ([refusing(Refusal.NOT_HERE)] * 3, "3 workers without this dataset in its --store"),
         ([refusing(Refusal.UNREADABLE)], "1 worker that can't read this dataset in its --store"),
         ([refusing(Refusal.OTHER_DESCRIPTION)], "1 worker whose --store holds another dataset of this name"),
-        ([worker(release="")], "1 worker of release an earlier one, it needs 0.2.0"),
+        ([worker(release="")], "1 worker of an earlier release, it needs 0.2.0"),
         (
             [refusing(Refusal.OTHER_RELEASE, release="0.1.{0}"), refusing(Refusal.NOT_HERE)],
             "1 worker of release 0.1.{0}, it needs 0.2.0; 1 worker without this dataset in its --store",
