@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import cast
 
 import pytest
 import redis
@@ -14,8 +15,12 @@ from farm.dataset.destination import Destination
 from farm.dataset.quarantine import Quarantine
 from farm.dataset.verify import verify
 from farm.run.progress import RunHandle, on_disk, with_handle
+from farm.run.queue.settings import make_app
+from farm.run.registry.port import WorkerReport, WorkerState
 from tests.live_farm import LiveFarm, is_once_each, live_farm, wait_for, wait_until_done
 from tests.stand_in import stand_in_header
+from worker.service.process import _Observer
+from worker.service.supervisor import Supervisor
 
 pytestmark = pytest.mark.redis
 
@@ -60,3 +65,24 @@ def test_only_workers_of_its_store_and_release_serve_a_run(farm: LiveFarm, tmp_p
     assert is_once_each(farm.starts(since), other)
     assert verify(other).clean
     assert Quarantine(other).look() == handle.ledger.claims() == {}
+
+
+def test_watchdog_expects_nothing_of_runs_that_are_not_served(farm: LiveFarm) -> None:
+    """Jobs that wait beside an idle worker are a fault of that worker only if it serves their run."""
+    handle = farm.submit(farm.dataset("cables", far=2))
+
+    class Idle:
+        """A supervisor that has nothing to do."""
+
+        served: tuple[str, ...] = ()
+        ticked_s = 0.0
+
+        def report(self) -> WorkerReport:
+            """The worker's report."""
+            return WorkerReport(name="w@host", state=WorkerState.IDLE)
+
+    idle = Idle()
+    observer = _Observer(farm.url, cast(Supervisor, idle), make_app(farm.url))
+    assert not observer.observe().jobs_wait
+    idle.served = (handle.run.key,)
+    assert observer.observe().jobs_wait
