@@ -14,7 +14,7 @@ from farm.dataset.dataset import Dataset, create_dataset
 from farm.dataset.destination import Destination
 from farm.local.processes import stop
 from farm.run.coordinator import Coordinator
-from farm.run.handle import open_handle
+from farm.run.handle import open_handle, open_new_run
 from farm.run.progress import RunHandle
 from farm.run.queue.broker import connect
 from farm.run.registry.port import Priority, RunState, WorkerReport, WorkerState
@@ -66,18 +66,24 @@ class LiveFarm:
         self.logs.mkdir()
 
     def start(
-        self, name: str, limits: Mapping[str, float] | None = None, **environment: str
+        self,
+        name: str,
+        limits: Mapping[str, object] | None = None,
+        *,
+        command: Sequence[str] | None = None,
+        **environment: str,
     ) -> "subprocess.Popen[bytes]":
         """Start a worker.
 
         Args:
             name: name of the worker.
             limits: settings of the worker that differ from the usual ones.
+            command: command that starts it; None for the farm's usual one.
             environment: variables of its environment, beside those of this process.
         """
         usual = WorkerSettings(store=str(self.store), name=name, logs=self.logs, min_free_mib=0)
         process = subprocess.Popen(
-            [*self._command, *usual.model_copy(update=limits).serve_arguments()],
+            [*(command or self._command), *usual.model_copy(update=limits).serve_arguments()],
             env={**os.environ, "FARM_BROKER_URL": self.url, "STAND_IN_STARTS": str(self._journal), **environment},
             stdout=subprocess.DEVNULL,
             stderr=(self.logs / f"{name}.log").open("ab"),
@@ -97,7 +103,7 @@ class LiveFarm:
 
     def handle(self, dataset: Dataset, priority: Priority = Priority.NORMAL) -> RunHandle:
         """The handle of a dataset's run."""
-        return open_handle(dataset, self.url, self.client, priority)
+        return open_handle(dataset, self.url, self.client, priority, settles=True)
 
     def workers(self, state: WorkerState) -> list[WorkerReport]:
         """The reports of the workers in a state."""
@@ -105,16 +111,14 @@ class LiveFarm:
 
     def submit(self, dataset: Dataset, priority: Priority = Priority.NORMAL) -> RunHandle:
         """Register a dataset's run, and queue its missing jobs."""
-        handle = self.handle(dataset, priority)
-        handle.registry.replace(handle.run)
+        handle, _ = open_new_run(dataset, self.url, self.client, priority)
         Coordinator(dataset, handle).submit_missing()
         return handle
 
     def submit_without_look(self, dataset: Dataset) -> RunHandle:
         """Queue the jobs of a dataset whose folder can't be read."""
-        handle = self.handle(dataset)
-        handle.registry.replace(handle.run)
-        handle.queue.submit(handle.run, [dataset.message(job) for job in dataset.header.spec.jobs()])
+        handle, _ = open_new_run(dataset, self.url, self.client, Priority.NORMAL)
+        handle.queue.submit(handle.run, [dataset.message(job, handle.run.place) for job in dataset.header.spec.jobs()])
         return handle
 
     @staticmethod

@@ -37,10 +37,9 @@ def cancel(place: DatasetPlace, broker: Broker = None) -> None:
 def _change(place: str, broker: str | None, state: RunState, priority: Priority | None = None) -> RunHandle:
     dataset = open_dataset(parse_destination(place))
     handle = handle_of(dataset, broker, priority)
-    if handle.run.key not in handle.registry.runs():
+    if not handle.registry.change(handle.run.key, state, priority):
         raise ConflictError(f"{place}: it was not submitted to this Redis, or all is done; see farm status {place}")
     if priority is not None and (waiting := handle.queue.length(handle.run)):
         # The queued messages lie in the lists of the old priority.
         typer.echo(f"the {waiting} images that wait keep their priority", err=True)
-    handle.registry.replace(handle.run.model_copy(update={"state": state}))
     return handle

@@ -52,6 +52,8 @@ def summary(progress: DatasetProgress) -> str:
     held = [report for report in progress.workers or () if report.state is WorkerState.HELD]
     if held:
         parts.append(f"{len(held)} workers held back: {held[0].reason}")
+    if progress.unserved:
+        parts.append(progress.unserved)
     if progress.trouble:
         parts.append(progress.trouble)
     return ", ".join(parts)

@@ -27,7 +27,7 @@ def repair(
 ) -> None:
     """Compare folder and queue once, and queue every image that is neither done, nor waiting, nor being made."""
     dataset = open_dataset(parse_destination(place))
-    handle = handle_of(dataset, broker)
+    handle = handle_of(dataset, broker, settles=True)
     damaged = list(damaged_jobs(dataset)) if checksums else []
     for job in damaged:
         dataset.storage.remove(manifest_path(job))
@@ -46,7 +46,7 @@ def retry(
     for job_id in jobs or []:
         job_of(job_id)
     dataset = open_dataset(parse_destination(place))
-    handle = handle_if_reachable(dataset, broker)
+    handle = handle_if_reachable(dataset, broker, settles=True)
     quarantine = Quarantine(dataset)
     released = _chosen(dataset, quarantine.look(), jobs or [])
     if handle is not None:

@@ -3,6 +3,7 @@
 import importlib.util
 import signal
 import threading
+from collections import Counter
 from contextlib import suppress
 from types import FrameType
 from typing import Annotated
@@ -17,7 +18,9 @@ from farm.errors import ConflictError, DestinationError, MachineError, SpecError
 from farm.run.handle import open_handle
 from farm.run.progress import RunHandle
 from farm.run.queue.broker import broker_url, connect
+from farm.run.registry.port import Refusal
 from farm.run.registry.redis import RedisRegistry
+from farm.run.serving import refusal
 
 
 def metrics(
@@ -44,9 +47,13 @@ def metrics(
 
     if not places and store is None:
         raise SpecError("name datasets, or the --store that holds those that are worked on")
+    datasets = [open_dataset(parse_destination(place)) for place in places or ()]
+    names = Counter(dataset.name for dataset in datasets)
+    if doubled := [name for name, count in names.items() if count > 1]:
+        raise SpecError(f"{doubled[0]}: two datasets have this name, and figures go by names; serve them one by one")
     url = broker_url(broker)
     client = connect(url)
-    found = _Datasets(url, client, [open_dataset(parse_destination(place)) for place in places or ()], store)
+    found = _Datasets(url, client, datasets, store)
     registry = CollectorRegistry(auto_describe=False)
     registry.register(FarmCollector(found.find, RedisRegistry(client)))
     try:
@@ -98,9 +105,8 @@ class _Datasets:
             if run.key not in known:
                 # The registry lists runs of other stores too, whose datasets are not found here.
                 with suppress(DestinationError, ConflictError, SpecError):
-                    dataset = open_dataset(Destination(self._store or "", run.dataset))
-                    if dataset.identity == run.spec_sha256:
-                        self._add(dataset)
+                    if refusal(self._store or "", run) in {None, Refusal.OTHER_RELEASE}:
+                        self._add(open_dataset(Destination(self._store or "", run.dataset)))
         return list(self._found.values())
 
     def _add(self, dataset: Dataset) -> None:

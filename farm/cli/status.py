@@ -53,6 +53,8 @@ def _lines(progress: Progress, *, broker_is_there: bool) -> list[str]:
     lines = [] if progress.state in {None, RunState.ACTIVE} else [f"state    {progress.state}"]
     lines += [f"rate     {rate}{left}", f"waiting  {progress.waiting or 0}"]
     lines += [f"running  {', '.join(progress.running or ()) or 'nothing'}", f"last     {last}"]
+    if progress.unserved is not None:
+        lines.append(f"served   {progress.unserved}")
     lines += [f"worker   {_worker(report)}" for report in progress.workers or ()]
     return lines + given_up
 
@@ -65,7 +67,7 @@ def _worker(report: WorkerReport) -> str:
 def watch(place: DatasetPlace, broker: Broker = None) -> None:
     """Wait until a dataset is done; queue the images that are missing, and again those that are lost meanwhile."""
     dataset = open_dataset(parse_destination(place))
-    watch_to_the_end(dataset, Coordinator(dataset, handle_of(dataset, broker)))
+    watch_to_the_end(dataset, Coordinator(dataset, handle_of(dataset, broker, settles=True)))
 
 
 def watch_to_the_end(dataset: Dataset, coordinator: Coordinator) -> None:

@@ -4,7 +4,6 @@ from typing import Annotated
 
 import typer
 
-from farm.cli.connection import handle_of
 from farm.cli.display import console
 from farm.cli.installed_assets import InstalledAssets
 from farm.cli.options import Broker, DatasetOptions, Logs, Out, log_folder, takes_dataset_options
@@ -13,8 +12,10 @@ from farm.cli.worker_program import ask_worker, blender_is_installed
 from farm.dataset.dataset import create_dataset
 from farm.dataset.destination import parse_destination
 from farm.run.coordinator import Coordinator
+from farm.run.handle import open_new_run
 from farm.run.queue.broker import broker_url, connect_to_write
 from farm.run.registry.port import Priority
+from farm.run.serving import release_of
 from farm.spec.make_header import make_header
 
 
@@ -34,13 +35,17 @@ def submit(
     description = options.describe()
     header = make_header(description.spec, description.inputs, InstalledAssets())
     # Before the header: a Redis that takes no jobs leaves no dataset without them.
-    connect_to_write(broker_url(broker)).close()
+    url = broker_url(broker)
+    client = connect_to_write(url)
     if description.inputs.template is not None and blender_is_installed():
         ask_worker(["check"], header, log_folder(logs))
     dataset = create_dataset(destination, header)
-    handle = handle_of(dataset, broker, priority)
     # A run that was paused or cancelled goes on when it is submitted again.
-    handle.registry.replace(handle.run)
+    handle, replaced = open_new_run(dataset, url, client, priority)
+    if replaced is not None:
+        typer.echo(
+            f"its run of release {release_of(replaced, dataset)} is replaced; that release's workers leave it", err=True
+        )
     coordinator = Coordinator(dataset, handle)
     screen = console()
     with screen.status("queueing") as status:

@@ -28,9 +28,9 @@ class Dataset:
     header: DatasetHeader
     identity: str
 
-    def message(self, job: Job) -> JobMessage:
-        """Make the message that asks a worker for one of the dataset's images."""
-        return JobMessage(dataset=self.name, spec_sha256=self.identity, job_id=job.id)
+    def message(self, job: Job, place: str = "") -> JobMessage:
+        """Make the message that asks a worker for one of the dataset's images, in the place with this id."""
+        return JobMessage(dataset=self.name, spec_sha256=self.identity, place=place, job_id=job.id)
 
     def asks_for(self, job: Job) -> bool:
         """Whether the job is within the quotas."""

@@ -7,6 +7,10 @@ from farm.spec.job import Job
 HEADER_FILE = "dataset.json"
 INDEX_FILE = "index.jsonl"
 REPORT_FILE = "report.html"
+PLACE_FILE = ".farm-place"
+"""File that tells this folder from every other; see `farm.dataset.place`. Its name starts with a dot, so that a copy of
+`folder/*` leaves it behind."""
+
 QUARANTINE_FOLDER = "quarantine"
 
 

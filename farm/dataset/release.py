@@ -1,22 +1,22 @@
 """Keeps the pictures of two releases apart: the same description may look otherwise in another release."""
 
 from farm import __version__
+from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset
+from farm.dataset.quarantine import Quarantine
 from farm.errors import ConflictError
 
 
-def begun_by_another(dataset: Dataset) -> bool:
-    """Whether another release began the dataset."""
-    return dataset.header.farm_version != __version__
-
-
 def refuse_to_mix(dataset: Dataset) -> None:
-    """Refuse to add pictures to a dataset of another release.
+    """Refuse to add pictures to a dataset of another release; one in which nothing is missing is no matter.
 
     Raises:
-        ConflictError: if another release began it.
+        ConflictError: if another release began it, and pictures are missing.
+        DestinationError: if its folder can't be read.
     """
-    if begun_by_another(dataset):
+    if dataset.header.farm_version == __version__:
+        return
+    if len(Completion(dataset).audit().others()) > len(Quarantine(dataset).look()):
         place = dataset.storage.location
         raise ConflictError(
             f"{place}: begun by cable-farm {dataset.header.farm_version}, whose pictures may differ from those of this "

@@ -16,7 +16,15 @@ from farm.dataset.dataset import Dataset
 from farm.dataset.instances import find_empty_fault, list_instances
 from farm.dataset.manifest import FileRecord, Manifest, parse_manifest, parse_receipt
 from farm.dataset.outputs import INSTANCES, find_faults, outputs_of
-from farm.dataset.paths import HEADER_FILE, INDEX_FILE, REPORT_FILE, file_path, manifest_path, quarantine_path
+from farm.dataset.paths import (
+    HEADER_FILE,
+    INDEX_FILE,
+    PLACE_FILE,
+    REPORT_FILE,
+    file_path,
+    manifest_path,
+    quarantine_path,
+)
 from farm.dataset.quarantine import Quarantine
 from farm.model import Model
 from farm.spec.job import Job
@@ -187,7 +195,7 @@ def _read_file(dataset: Dataset, record: FileRecord) -> bytes | Finding:
 
 
 def _extra(dataset: Dataset, files: dict[str, StoredFile]) -> Iterator[Finding]:
-    known = {HEADER_FILE, INDEX_FILE, REPORT_FILE}
+    known = {HEADER_FILE, INDEX_FILE, REPORT_FILE, PLACE_FILE}
     outputs = outputs_of(dataset.header.spec)
     for job in dataset.header.spec.jobs():
         known.add(manifest_path(job))

@@ -9,14 +9,15 @@ from typing import TypeVar
 from farm.aside import patiently
 from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset
+from farm.dataset.header_file import read_header
 from farm.dataset.paths import HEADER_FILE
 from farm.dataset.quarantine import Quarantine
-from farm.errors import BrokerError, DatasetMissingError, DestinationError, IncompleteError, RunCancelledError
+from farm.errors import BrokerError, ConflictError, DestinationError, IncompleteError, RunCancelledError
 from farm.run.feeder import LOST_AFTER_S, WINDOW, Feeder
 from farm.run.ledger.owner import is_gone, this_process
-from farm.run.ledger.port import MAX_ABSENCES
 from farm.run.progress import Progress, RunHandle, on_disk, with_handle
 from farm.run.registry.port import RunState
+from farm.run.serving import others_of, why_not_ours, why_not_yet
 from farm.spec.job import Job
 from farm.spec.job_set import JobSet
 
@@ -38,6 +39,8 @@ _LEAD_S = 30.0
 
 _SILENCE_S = 10.0
 """Seconds without an answer of the folder after which this is told, and told again after as many more."""
+_UNSERVED_S = 20.0
+"""Time, in seconds, for which no worker must have served a run before a watch says so: workers load Blender first."""
 
 _REASONS_SHOWN = 20
 """Failed jobs listed at most in the error message."""
@@ -73,6 +76,7 @@ class Coordinator:
         self._feeder = Feeder(dataset, handle, window=window, lost_after_s=lost_after_s)
         self._quarantined: Mapping[str, str] = {}
         self._leads = False
+        self._unserved_since_s: float | None = None
         self._audited_s = float("-inf")
         self._audit_took_s = 0.0
 
@@ -89,6 +93,7 @@ class Coordinator:
             BrokerError: if Redis can't be reached.
             DestinationError: if the folder can't be read.
             RunCancelledError: if the run was cancelled, and not submitted again since.
+            ConflictError: if the run is another release's.
         """
         self._audit()
         self._completion.remove_leftovers(time.time())
@@ -96,9 +101,10 @@ class Coordinator:
         undone = self._undone()
         if len(undone):
             self._follow_notice()
-            self._handle.ledger.forgive([])
+            if theirs := why_not_ours(self._handle.run, self._dataset):
+                raise ConflictError(f"{self._dataset.storage.location}: {theirs}")
         else:
-            self._handle.registry.remove(self._handle.run.key)
+            self._take_down()
         self._feeder.survey()
         return self._feeder.feed(undone, on_submitted)
 
@@ -144,7 +150,7 @@ class Coordinator:
         Raises:
             IncompleteError: if jobs were given up; it lists their reasons.
             RunCancelledError: if somebody cancelled the run.
-            DatasetMissingError: if worker after worker finds no such dataset in its store.
+            ConflictError: if the dataset's header was replaced by another's.
             FarmError: if `supervise` raises one.
         """
 
@@ -194,8 +200,8 @@ class Coordinator:
         progress = on_disk(self._dataset, self._completion.done, self._quarantined)
         try:
             if trouble is None and mend and not progress.ended:
-                self._tend()
-            progress = with_handle(progress, self._handle)
+                trouble = self._tend() or None
+            progress = self._told(with_handle(progress, self._handle))
         except BrokerError as error:
             # Redis may come back empty, without the jobs that were queued: the next lead begins with a survey.
             self._leads = False
@@ -223,26 +229,50 @@ class Coordinator:
     def _require_header(self) -> None:
         # A folder that is gone, for example with its mount, lists no file, as if no job were done.
         try:
-            self._dataset.storage.read(HEADER_FILE)
+            present = read_header(self._dataset.storage)
         except FileNotFoundError as error:
             raise DestinationError(f"{self._dataset.storage.location}: its {HEADER_FILE} is gone") from error
-
-    def _tend(self) -> None:
-        self._follow_notice()
-        if self._handle.run.state is RunState.PAUSED or not self._take_the_lead():
-            return
-        if self._handle.ledger.absences() > MAX_ABSENCES:
-            raise DatasetMissingError(
-                f"{self._dataset.storage.location}: {MAX_ABSENCES} workers in a row found no such dataset in their "
-                "store; give them the --store that holds it, then submit it again"
+        if present.identity != self._dataset.identity:
+            # Two commands began different datasets here at once, and the other one wrote last.
+            raise ConflictError(
+                f"{self._dataset.storage.location}: its {HEADER_FILE} is another dataset's by now; choose another --out"
             )
+
+    def _told(self, progress: Progress) -> Progress:
+        """Leave out that nobody serves the run until this has lasted: workers take a while to start."""
+        if progress.unserved is None:
+            self._unserved_since_s = None
+            return progress
+        now_s = time.monotonic()
+        self._unserved_since_s = now_s if self._unserved_since_s is None else self._unserved_since_s
+        lasts = now_s - self._unserved_since_s >= _UNSERVED_S
+        return progress if lasts else progress.model_copy(update={"unserved": None})
+
+    def _tend(self) -> str:
+        """Queue what is missing, if that is this coordinator's task; returns the reason why it can't be done."""
+        try:
+            self._follow_notice()
+        except ConflictError as error:
+            return str(error)
+        if self._handle.run.state is RunState.PAUSED:
+            return ""
+        run = self._handle.run
+        if theirs := why_not_ours(run, self._dataset) or why_not_yet(run, self._dataset, self._handle.registry.runs()):
+            return theirs
+        if not self._take_the_lead():
+            return ""
         undone = self._undone()
         self._feeder.mend(undone)
         self._feeder.top_up(undone)
+        return self._feeder.trouble
 
     def _follow_notice(self) -> None:
         """Register the run as it was last seen, and take up its changes: a Redis that lost its data keeps a pause."""
-        run = self._handle.registry.register(self._handle.run)
+        run = self._handle.run
+        if why_not_ours(run, self._dataset):
+            run = self._handle.registry.runs().get(run.key, run)
+        else:
+            run = self._handle.registry.register(run)
         self._handle = replace(self._handle, run=run)
         self._feeder.follow(run)
         if run.state is RunState.CANCELLED:
@@ -273,9 +303,17 @@ class Coordinator:
             return False
         return not len(self._undone())
 
+    def _take_down(self) -> None:
+        registry, run = self._handle.registry, self._handle.run
+        registry.remove(run.key)
+        for other in others_of(run, registry.runs()):
+            if other.state is RunState.CANCELLED:
+                # This run replaced it.
+                registry.remove(other.key)
+
     def _end(self, progress: Progress) -> Progress:
         with suppress(BrokerError):
-            self._handle.registry.remove(self._handle.run.key)
+            self._take_down()
             self._handle.queue.clear(self._handle.run)
         if progress.quarantined:
             raise IncompleteError(_reasons(progress))

@@ -26,6 +26,14 @@ a message is in no list: a worker has taken it and has not claimed its job yet. 
 costs a look."""
 
 
+_LOST_OFTEN = 2
+"""Losses of one job after which this is told: a message or two may get lost, but this one is taken by somebody."""
+
+_LONGEST_WAIT_S = 600.0
+"""Longest time, in seconds, before a job that gets lost again and again is queued again: where its messages go to no
+worker, they don't become many."""
+
+
 class Feeder:
     """Puts a dataset's undone jobs into its queue.
 
@@ -33,7 +41,11 @@ class Feeder:
         dataset: the dataset.
         handle: ledger, queue and registry of the dataset's run in Redis.
         window: number of jobs that may wait; see `WINDOW`.
-        lost_after_s: time, in seconds, after which a missing job counts as lost; see `LOST_AFTER_S`.
+        lost_after_s: time, in seconds, after which a missing job counts as lost; see `LOST_AFTER_S`. It doubles with
+            each loss of the job.
+
+    Attributes:
+        trouble: line that says that the queue is not as it can be by this feeder's doing; empty while it is.
     """
 
     def __init__(
@@ -45,6 +57,9 @@ class Feeder:
         self._lost_after_s = lost_after_s
         self._on_the_way = self._none()
         self._suspected_s: dict[Job, float] = {}
+        self._losses: dict[Job, int] = {}
+        self._too_long_since_s: float | None = None
+        self.trouble = ""
 
     def _none(self) -> JobSet:
         return JobSet(self._dataset.header.spec.quotas)
@@ -109,8 +124,10 @@ class Feeder:
             BrokerError: if Redis can't be reached; the jobs that this call has queued then count as not on their way.
         """
         waiting = self._handle.queue.length(self._handle.run)
-        jobs = list(itertools.islice(undone - self._on_the_way, max(0, self._window - waiting)))
-        messages = (self._dataset.message(job) for job in _counted(jobs, on_submitted))
+        # Never more messages than undone jobs, whoever has queued them.
+        room = max(0, min(self._window, len(undone)) - waiting)
+        jobs = list(itertools.islice(undone - self._on_the_way, room))
+        messages = (self._dataset.message(job, self._handle.run.place) for job in _counted(jobs, on_submitted))
         count = self._handle.queue.submit(self._handle.run, messages) if jobs else 0
         for job in jobs:
             self._on_the_way.add(job)
@@ -130,17 +147,52 @@ class Feeder:
             BrokerError: if Redis can't be read.
         """
         now_s = time.monotonic()
-        self._suspected_s = {job: self._suspected_s.get(job, now_s) for job in self._lost(undone)}
-        for job, since_s in self._suspected_s.items():
-            if now_s - since_s >= self._lost_after_s:
+        waiting = self._handle.queue.length(self._handle.run)
+        self._suspected_s = {job: self._suspected_s.get(job, now_s) for job in self._lost(undone, waiting)}
+        self._losses = {job: count for job, count in self._losses.items() if job in undone}
+        for job, since_s in list(self._suspected_s.items()):
+            losses = self._losses.get(job, 0)
+            if now_s - since_s >= self._patience_s(losses):
                 self._on_the_way.discard(job)
+                # Once it is queued again, its time begins again.
+                del self._suspected_s[job]
+                self._losses[job] = losses + 1
+        self.trouble = self._too_many(len(undone), waiting, now_s) or self._too_few()
 
-    def _lost(self, undone: JobSet) -> JobSet:
+    def _patience_s(self, losses: int) -> float:
+        return min(_LONGEST_WAIT_S, self._lost_after_s * 2.0 ** min(losses, 10))
+
+    def _too_many(self, undone: int, waiting: int, now_s: float) -> str:
+        """Say that messages wait beyond the undone jobs, for longer than workers need to take doubled ones."""
+        if waiting <= undone:
+            self._too_long_since_s = None
+            return ""
+        self._too_long_since_s = now_s if self._too_long_since_s is None else self._too_long_since_s
+        if now_s - self._too_long_since_s < self._lost_after_s:
+            return ""
+        return (
+            f"{waiting} messages wait for {undone} missing images, so nothing is queued: another program adds to this "
+            "queue, or the images are made elsewhere; farm cancel empties it"
+        )
+
+    def _too_few(self) -> str:
+        """Say that jobs get lost again and again."""
+        often = sum(count >= _LOST_OFTEN for count in self._losses.values())
+        if not often:
+            return ""
+        return (
+            f"{often} images were queued {_LOST_OFTEN + 1} times, and no worker has begun them: their messages go to "
+            "another Redis, or another program takes them from this one"
+        )
+
+    def _lost(self, undone: JobSet, waiting: int) -> JobSet:
         outstanding = undone & self._on_the_way
+        claimed = self._claimed()
+        for job in [job for job in self._losses if job in claimed]:
+            del self._losses[job]
         # The queue is searched only if it is shorter than it should be: claimed jobs are not in it, and duplicates hide
         # a loss only until a worker takes them.
-        waiting = self._handle.queue.length(self._handle.run)
-        if len(outstanding - self._claimed()) <= waiting:
+        if len(outstanding - claimed) <= waiting:
             return self._none()
         return outstanding - self._waiting() - self._claimed()
 

@@ -19,7 +19,7 @@ from farm.errors import BrokerError, DestinationError
 from farm.run.ledger.owner import live_claims
 from farm.run.ledger.port import RETRY_OWNER
 from farm.run.progress import RunHandle
-from farm.run.registry.port import RunRegistry, RunState, WorkerState
+from farm.run.registry.port import RunRegistry, RunState, WorkerReport, WorkerState
 from farm.spec.job import Job
 from farm.spec.job_set import JobSet
 
@@ -99,6 +99,8 @@ class FarmCollector(Collector):
         running = GaugeMetricFamily("farm_jobs_running", "Jobs that workers hold.", labels=["dataset"])
         retrying = GaugeMetricFamily("farm_jobs_postponed", "Jobs that wait for their next try.", labels=["dataset"])
         active = GaugeMetricFamily("farm_run_active", "Whether the run may be worked on.", labels=["dataset"])
+        serving = GaugeMetricFamily("farm_run_workers", "Workers that serve the run.", labels=["dataset"])
+        reports = self._registry.workers()
         totals = _Totals()
         for dataset, handle in self._known:
             owners = list(live_claims(handle.ledger).values())
@@ -107,9 +109,10 @@ class FarmCollector(Collector):
             running.add_metric([dataset.name], sum(owner != RETRY_OWNER for owner in owners))
             retrying.add_metric([dataset.name], sum(owner == RETRY_OWNER for owner in owners))
             active.add_metric([dataset.name], float(run is not None and run.state is RunState.ACTIVE))
+            serving.add_metric([dataset.name], sum(handle.run.key in report.serves for report in reports))
             totals.add(dataset.name, handle.ledger.figures())
-        yield from (waiting, running, retrying, active, *totals.families())
-        yield from _workers(self._registry)
+        yield from (waiting, running, retrying, active, serving, *totals.families())
+        yield from _workers(reports)
 
 
 class _Totals:
@@ -157,13 +160,12 @@ def _folder(dataset: Dataset) -> _Folder:
     return _Folder(Completion(dataset), Quarantine(dataset), JobSet(dataset.header.spec.quotas))
 
 
-def _workers(registry: RunRegistry) -> Iterator[Metric]:
+def _workers(reports: Sequence[WorkerReport]) -> Iterator[Metric]:
     states = GaugeMetricFamily("farm_workers", "Workers by state.", labels=["state"])
     done = CounterMetricFamily("farm_worker_jobs", "Jobs a worker finished since it started.", labels=["worker"])
     memory = GaugeMetricFamily(
         "farm_worker_resident_memory_bytes", "Resident memory of a worker's renderers.", labels=["worker"]
     )
-    reports = registry.workers()
     for state in WorkerState:
         states.add_metric([str(state)], sum(report.state is state for report in reports))
     for report in reports:

@@ -9,6 +9,7 @@ from farm.run.ledger.owner import live_claims
 from farm.run.ledger.port import RETRY_OWNER, Ledger
 from farm.run.queue.port import JobQueue
 from farm.run.registry.port import Run, RunRegistry, RunState, WorkerReport
+from farm.run.serving import why_unserved
 from farm.spec.category import Category
 from farm.spec.job import Job
 from farm.spec.job_set import JobSet
@@ -27,12 +28,14 @@ class Progress(Model):
     Attributes:
         location: folder or URL of the dataset.
         spec_sha256: fingerprint of the dataset's description.
+        release: version of the farm that made the dataset.
         categories: images done and asked for, by category.
         quarantined: reason for each job that is given up, by its id.
         state: state of the run that a person asked for; None also if nothing was submitted.
         waiting: number of messages in the run's queue.
         running: ids of the jobs that workers hold now.
         workers: reports of all workers of the farm, including those that work for other runs.
+        unserved: line that says that no worker serves the run, and why; None if one does, or none needs to.
         images_per_hour: images that the farm makes an hour; None also while too few are made to tell.
         seconds_left: time until all images are done at this rate, in seconds.
         last_picture: path of the newest picture below the folder.
@@ -43,10 +46,12 @@ class Progress(Model):
     spec_sha256: str
     categories: Mapping[Category, CategoryProgress]
     quarantined: Mapping[str, str]
+    release: str = ""
     state: RunState | None = None
     waiting: int | None = None
     running: tuple[str, ...] | None = None
     workers: tuple[WorkerReport, ...] | None = None
+    unserved: str | None = None
     images_per_hour: float | None = None
     seconds_left: float | None = None
     last_picture: str | None = None
@@ -100,6 +105,7 @@ def on_disk(dataset: Dataset, done: JobSet, quarantined: Mapping[str, str]) -> P
     return Progress(
         location=dataset.storage.location,
         spec_sha256=dataset.identity,
+        release=dataset.header.farm_version,
         categories={
             category: CategoryProgress(done=counts[category], quota=quota)
             for category, quota in dataset.header.spec.quotas.items()
@@ -126,12 +132,17 @@ def with_handle(progress: Progress, handle: RunHandle) -> Progress:
     rate = activity.images_per_hour
     claims = live_claims(handle.ledger)
     run = handle.registry.runs().get(handle.run.key)
+    workers = handle.registry.workers()
+    unserved = None
+    if run is not None and run.state is RunState.ACTIVE and not progress.ended:
+        unserved = why_unserved(run.key, run.release or progress.release, workers)
     return progress.model_copy(
         update={
             "state": None if run is None else run.state,
             "waiting": handle.queue.length(handle.run),
             "running": tuple(sorted(job_id for job_id, owner in claims.items() if owner != RETRY_OWNER)),
-            "workers": handle.registry.workers(),
+            "workers": workers,
+            "unserved": unserved,
             "images_per_hour": rate,
             "seconds_left": left / rate * 3600.0 if rate and left else None,
             "last_picture": activity.last_picture,

@@ -31,6 +31,9 @@ it."""
 _KEY_CHARACTERS = 100
 """Most characters of a dataset's name in the keys of its run: Celery's ids have at most 250."""
 
+PlaceId = Annotated[str, Field(pattern=r"^([0-9a-f]{16})?$")]
+"""The id of a dataset's place, from `farm.dataset.place`; empty where none is known, as in earlier releases."""
+
 _MOST_KEYS = 32
 """Number of keys above which a message is refused at once, as each unknown key would cost a validation error."""
 
@@ -79,12 +82,14 @@ class JobMessage(Model):
         version: version of this format.
         dataset: name of the dataset.
         spec_sha256: fingerprint of the dataset's header.
+        place: id of the dataset's place; empty in messages of earlier releases.
         job_id: id of the job.
     """
 
     version: Annotated[int, Field(ge=1, le=1)] = 1  # not Literal[1], which takes true for 1
     dataset: DatasetName
     spec_sha256: Sha256
+    place: PlaceId = ""
     job_id: Annotated[str, Field(max_length=80)]
 
     @property
@@ -93,13 +98,18 @@ class JobMessage(Model):
         return Job.from_id(self.job_id)
 
     @property
+    def key(self) -> str:
+        """Tells runs apart; see `queue_key`."""
+        return queue_key(self.dataset, self.spec_sha256, self.place)
+
+    @property
     def task_id(self) -> str:
-        """Id of the Celery task, readable in Flower. The fingerprint tells datasets of the same name apart."""
-        return f"{queue_key(self.dataset, self.spec_sha256)}:{self.job_id}"
+        """Id of the Celery task, readable in Flower. Its first part tells datasets of the same name apart."""
+        return f"{self.key}:{self.job_id}"
 
     def encode(self) -> dict[str, object]:
-        """Turn the message into values that JSON can hold."""
-        return self.model_dump(mode="json")
+        """Turn the message into values that JSON can hold; without a place it is as earlier releases write it."""
+        return self.model_dump(mode="json", exclude=None if self.place else {"place"})
 
     @classmethod
     def decode(cls, payload: object) -> Self:
@@ -124,14 +134,14 @@ class JobMessage(Model):
         return message
 
 
-def queue_key(dataset: str, spec_sha256: str) -> str:
-    """Build the prefix of a dataset's task ids and ledger keys: its name and 12 digits of its fingerprint.
+def queue_key(dataset: str, spec_sha256: str, place: str = "") -> str:
+    """Build the prefix of a run's task ids and ledger keys: name, 12 digits of the fingerprint, and id of the place.
 
-    The name is percent-encoded, since Celery's ids are plain ASCII; one that is long then is shortened, and told apart
-    by its checksum.
+    Without a place it is that of earlier releases. The name is percent-encoded, since Celery's ids are plain ASCII; one
+    that is long then is shortened, and told apart by its checksum.
     """
     name = quote(dataset, safe="")
     if len(name) > _KEY_CHARACTERS:
         checksum = hashlib.sha256(dataset.encode()).hexdigest()[:16]
         name = f"{name[: _KEY_CHARACTERS - len(checksum) - 1]}~{checksum}"
-    return f"{name}:{spec_sha256[:12]}"
+    return ":".join((name, spec_sha256[:12], *([place] if place else [])))

@@ -176,6 +176,18 @@ class LocalStorage:
         except OSError as error:
             raise folder_error(error, action, self._root / self._anchor) from error
 
+    def create(self, path: str, content: bytes) -> bool:
+        """Make a file that is not there; see `Storage.create`."""
+        # Not by a link to a whole file: some file systems have no links.
+        try:
+            with (self._root / path).open("xb") as file:
+                file.write(content)
+        except FileExistsError:
+            return False
+        except OSError as error:
+            raise DestinationError(f"{self._root / path}: can't write: {error.strerror or error}") from error
+        return True
+
 
 def _is_of_a_system(name: str) -> bool:
     return name in _OF_SYSTEMS or name.startswith(_OF_SYSTEMS_START)

@@ -57,6 +57,28 @@ class ObjectStorage:
         except FileNotFoundError as error:
             raise DestinationError(f"{place}: can't write: {error}; check the bucket") from error
 
+    def create(self, path: str, content: bytes) -> bool:
+        """Put an object that is not there; see `Storage.create`."""
+        place, options = f"{self._location}/{path}", self._service.put_options(len(content))
+        if self._is_there(path):
+            return False
+        try:
+            with as_destination_error("write", place):
+                self._filesystem.pipe_file(self._full(path), content, mode="create", **options)
+        except (FileNotFoundError, DestinationError):
+            if self._is_there(path):
+                return False
+            # The store knows no put on a condition, or it is out of order, and then this fails too.
+            self.write(path, content)
+        return self.read(path) == content
+
+    def _is_there(self, path: str) -> bool:
+        try:
+            self.read(path)
+        except FileNotFoundError:
+            return False
+        return True
+
     def _holds(self, path: str, content: bytes) -> bool:
         info = self._filesystem.info(self._full(path))
         if int(info["size"]) != len(content):

@@ -41,6 +41,17 @@ class Storage(Protocol):
         """
         ...
 
+    def create(self, path: str, content: bytes) -> bool:
+        """Put a small file in place unless one is there; of several writers at once, one succeeds.
+
+        Returns:
+            Whether the file is this caller's. A reader may meet it half written for an instant.
+
+        Raises:
+            DestinationError: if it can't be written.
+        """
+        ...
+
     def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
         """List every file below the folder, by path; none if the folder does not exist.
 

@@ -23,6 +23,7 @@ from tests.chaos.play import Outcome, play
 from tests.chaos.report import remarks, table, write_json, write_plot
 from tests.chaos.scenarios import BLENDER_SCENARIOS, SCENARIOS, Scenario
 from tests.chaos.schedule import draw_schedule
+from tests.chaos.upgrade import UPGRADES, Upgrade, play_upgrade
 
 _SIDE_BY_SIDE = 2
 
@@ -30,7 +31,7 @@ _SIDE_BY_SIDE = 2
 def main(arguments: Sequence[str]) -> int:
     """Play the scenarios; print, and write `chaos.json` and `chaos.png`."""
     options = _parser().parse_args(arguments)
-    names = {scenario.name for scenario in (*SCENARIOS, *BLENDER_SCENARIOS)}
+    names = {scenario.name for scenario in (*SCENARIOS, *BLENDER_SCENARIOS)} | {upgrade.name for upgrade in UPGRADES}
     if unknown := set(options.only) - names:
         sys.stderr.write(f"no scenario {', '.join(sorted(unknown))}; there are {', '.join(sorted(names))}\n")
         return 2
@@ -39,6 +40,8 @@ def main(arguments: Sequence[str]) -> int:
     folder = Path(tempfile.mkdtemp(prefix="chaos-"))
     start_s = time.monotonic()
     outcomes = _play_stand_ins(_chosen(SCENARIOS, options.only), options.seed, folder, options.jobs, console)
+    upgrades = [upgrade for upgrade in UPGRADES if not options.only or upgrade.name in options.only]
+    outcomes += _play_upgrades(upgrades, options.seed, folder, options.jobs, console)
     if not options.skip_blender and (of_blender := _chosen(BLENDER_SCENARIOS, options.only)):
         outcomes += _play_blender(of_blender, options.seed, folder, console)
     seconds = time.monotonic() - start_s
@@ -91,6 +94,16 @@ def _play_stand_ins(
     # The threads live until all is played, since a farm's processes end with the thread that started them.
     with ThreadPoolExecutor(side_by_side) as threads:
         return list(threads.map(play_one, scenarios))
+
+
+def _play_upgrades(
+    upgrades: Sequence[Upgrade], seed: int, folder: Path, side_by_side: int, console: Console
+) -> list[Outcome]:
+    def play_one(upgrade: Upgrade) -> Outcome:
+        return _tell(play_upgrade(upgrade, seed, folder), console)
+
+    with ThreadPoolExecutor(side_by_side) as threads:
+        return list(threads.map(play_one, upgrades))
 
 
 def _play_blender(scenarios: Sequence[Scenario], seed: int, folder: Path, console: Console) -> list[Outcome]:

@@ -43,6 +43,9 @@ class Plan:
         with_clock: whether the processes use a clock that can be set wrong.
         with_disk: whether the store is on a small disk of its own.
         with_hang: whether the store can be made to hang.
+        other: folder of the packages of another release; see `tests.chaos.other_release`.
+        theirs: names of the services that are of that release: a worker's number, or `coordinator`.
+        late: names of the services that aren't started with the farm.
     """
 
     dataset: str
@@ -53,6 +56,9 @@ class Plan:
     with_clock: bool = False
     with_disk: bool = False
     with_hang: bool = False
+    other: Path | None = None
+    theirs: frozenset[str] = frozenset()
+    late: frozenset[str] = frozenset()
 
 
 class FarmUnderTest:
@@ -86,13 +92,18 @@ class FarmUnderTest:
         )
         of_workers = {**shared, **plan.environment, "STAND_IN_STARTS": str(self.journal)}
         self.workers = [
-            Service(name, self._worker_command(name), of_workers, self.logs / f"{name}.out")
-            for name in (f"{plan.dataset}-{number}" for number in range(1, plan.workers + 1))
+            Service(
+                f"{plan.dataset}-{number}",
+                self._worker_command(number),
+                {**of_workers, **self._release_of(number)},
+                self.logs / f"{plan.dataset}-{number}.out",
+            )
+            for number in map(str, range(1, plan.workers + 1))
         ]
         self.coordinator = Service(
             "coordinator",
             [self._python, "-P", "-m", "farm", "watch", str(self.folder)],
-            shared,
+            {**shared, **self._release_of("coordinator")},
             self.logs / "coordinator.out",
             final_codes=frozenset({0, IncompleteError.exit_code}),
         )
@@ -103,20 +114,31 @@ class FarmUnderTest:
     def _python(self) -> str:
         return self.plan.worker[0]
 
-    def _worker_command(self, name: str) -> list[str]:
+    def _release_of(self, name: str) -> dict[str, str]:
+        return {"PYTHONPATH": str(self.plan.other)} if name in self.plan.theirs else {}
+
+    def _worker_command(self, number: str) -> list[str]:
+        program = list(self.plan.worker)
+        if number in self.plan.theirs:
+            program[-1] = f"{self.plan.other}/tests/{Path(program[-1]).name}"
         settings = WorkerSettings(
             store=str(self.store),
-            name=name,
+            name=f"{self.plan.dataset}-{number}",
             logs=self.logs,
             renderer=RendererSettings(device=DeviceChoice.CPU, threads=1),
             min_free_mib=_MIN_FREE_MIB,
         )
-        return [*self.plan.worker, *settings.serve_arguments()]
+        return [*program, *settings.serve_arguments()]
 
     @property
     def services(self) -> list[Service]:
         """The supervised services."""
         return [*self.workers, self.coordinator]
+
+    @property
+    def late(self) -> list[Service]:
+        """The services that aren't started with the farm."""
+        return [service for service in self.services if service.name.rpartition("-")[2] in self.plan.late]
 
     def supervise(self) -> None:
         """Restart the services that failed."""
@@ -168,7 +190,8 @@ def farm_under_test(root: Path, plan: Plan) -> Iterator[FarmUnderTest]:
         redis.start()
         for service in farm.services:
             stack.callback(service.kill)
-            service.start()
+            if service not in farm.late:
+                service.start()
         yield farm
 
 

@@ -76,7 +76,7 @@ def judge(farm: FarmUnderTest, claims: Claims) -> Judgement:
         farm.redis.start()
     findings += _drain(farm)
     notes = []
-    status = _status(farm)
+    status = status_of(farm)
     left = unacknowledged(farm.redis.client)
     if left:
         notes.append(f"{left} messages of ended workers wait for the visibility timeout")
@@ -126,7 +126,8 @@ def _drain(farm: FarmUnderTest) -> Iterator[str]:
         time.sleep(0.1)
 
 
-def _status(farm: FarmUnderTest) -> Mapping[str, Any]:
+def status_of(farm: FarmUnderTest) -> Mapping[str, Any]:
+    """What `farm status --json` of this release tells; its error under `error` if it fails."""
     command = [sys.executable, "-P", "-m", "farm", "status", str(farm.folder), "--json", "--broker", farm.proxy.url]
     # They run without the clock of the farm under test, which was put right long before.
     told = subprocess.run(command, check=False, capture_output=True, text=True, timeout=_STATUS_S, env=os.environ)

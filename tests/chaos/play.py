@@ -65,7 +65,7 @@ class Outcome:
 
 
 @dataclass(slots=True)
-class _Course:
+class Course:
     """The progress of a scenario."""
 
     waiting: list[Event]
@@ -89,7 +89,7 @@ def play(
     """
     root = folder / plan.dataset
     with farm_under_test(root, plan) as farm:
-        course = _Course(list(events))
+        course = Course(list(events))
         in_time = _run(farm, course, patience_s)
         seconds = time.monotonic() - course.start_s
         findings = [] if in_time else [_unfinished(farm, course, patience_s)]
@@ -99,15 +99,16 @@ def play(
         findings += verdict.findings
         if findings and farm.disk is not None:
             shutil.copytree(farm.store, root / "store-kept")  # The disk is removed with the farm.
-    outcome = _outcome(farm, course, verdict, tuple(findings), seconds)
+    outcome = outcome_of(farm, course, verdict, tuple(findings), seconds)
     if outcome.held and not keep:
         shutil.rmtree(root)
     return outcome
 
 
-def _outcome(
-    farm: FarmUnderTest, course: _Course, verdict: Judgement, findings: tuple[str, ...], seconds: float
+def outcome_of(
+    farm: FarmUnderTest, course: Course, verdict: Judgement, findings: tuple[str, ...], seconds: float
 ) -> Outcome:
+    """The outcome of a scenario whose farm was judged."""
     begun = starts(farm)
     return Outcome(
         scenario=farm.plan.dataset,
@@ -126,7 +127,7 @@ def _outcome(
     )
 
 
-def _run(farm: FarmUnderTest, course: _Course, patience_s: float) -> bool:
+def _run(farm: FarmUnderTest, course: Course, patience_s: float) -> bool:
     """Run the farm and its faults until the coordinator ends; returns whether it ended in time."""
     try:
         while time.monotonic() - course.start_s < patience_s:
@@ -152,7 +153,7 @@ def _remember_early(farm: FarmUnderTest) -> None:
         remember(farm)
 
 
-def _undo_what_is_over(course: _Course) -> None:
+def _undo_what_is_over(course: Course) -> None:
     now = time.monotonic()
     over = [undo for until_s, undo in course.undo if until_s <= now]
     course.undo = [(until_s, undo) for until_s, undo in course.undo if until_s > now]
@@ -160,7 +161,7 @@ def _undo_what_is_over(course: _Course) -> None:
         undo()
 
 
-def _strike_what_is_due(farm: FarmUnderTest, course: _Course) -> None:
+def _strike_what_is_due(farm: FarmUnderTest, course: Course) -> None:
     done = len(farm.manifests.seen())
     for event in list(course.waiting):
         if event.after * farm.plan.header.spec.total > done:
@@ -174,7 +175,7 @@ def _strike_what_is_due(farm: FarmUnderTest, course: _Course) -> None:
                 course.undo.append((now + event.lasts_s, undo))
 
 
-def _unfinished(farm: FarmUnderTest, course: _Course, patience_s: float) -> str:
+def _unfinished(farm: FarmUnderTest, course: Course, patience_s: float) -> str:
     missing = [job.id for job in Completion(farm.dataset).look().others()]
     shown = ", ".join(missing[:5]) + (" and more" if len(missing) > 5 else "")
     words = "; ".join(f"{service.name} said last: {service.last_words()}" for service in farm.services)

@@ -15,7 +15,6 @@ class MemoryLedger:
         self._claims: dict[str, tuple[str, float]] = {}
         self._starts: Counter[str] = Counter()
         self._troubles: Counter[str] = Counter()
-        self._absences = 0
         self._logs: dict[str, str] = {}
         self._leader: tuple[str, float] | None = None
         self._figures: Counter[str] = Counter()
@@ -78,15 +77,6 @@ class MemoryLedger:
         self._troubles[job_id] += 1
         return self._troubles[job_id]
 
-    def count_absence(self) -> int:
-        """Implement `Ledger.count_absence`."""
-        self._absences += 1
-        return self._absences
-
-    def absences(self) -> int:
-        """Implement `Ledger.absences`."""
-        return self._absences
-
     def keep_log(self, job_id: str, text: str) -> None:
         """Implement `Ledger.keep_log`."""
         self._logs[job_id] = text
@@ -100,7 +90,6 @@ class MemoryLedger:
         for job_id in job_ids:
             for counted in (self._starts, self._troubles, self._logs):
                 counted.pop(job_id, None)
-        self._absences = 0
 
     def lead(self, owner: str, ttl_s: float) -> bool:
         """Implement `Ledger.lead`."""

@@ -25,12 +25,10 @@ class MemoryQueue:
 
     def queued(self, run: Run) -> Iterable[Job]:
         """Implement `JobQueue.queued`."""
-        asked = (run.dataset, run.spec_sha256)
-        return [message.job for message in self.messages if (message.dataset, message.spec_sha256) == asked]
+        return [message.job for message in self.messages if message.key == run.key]
 
     def clear(self, run: Run) -> int:
         """Implement `JobQueue.clear`."""
         count = self.length(run)
-        asked = (run.dataset, run.spec_sha256)
-        self.messages = deque(message for message in self.messages if (message.dataset, message.spec_sha256) != asked)
+        self.messages = deque(message for message in self.messages if message.key != run.key)
         return count

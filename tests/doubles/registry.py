@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from farm.run.registry.port import Run, WorkerReport
+from farm.run.registry.port import Priority, Run, RunState, WorkerReport
 
 
 class MemoryRegistry:
@@ -19,6 +19,14 @@ class MemoryRegistry:
     def replace(self, run: Run) -> None:
         """Implement `RunRegistry.replace`."""
         self._runs[run.key] = run
+
+    def change(self, key: str, state: RunState, priority: Priority | None = None) -> bool:
+        """Implement `RunRegistry.change`."""
+        if key not in self._runs:
+            return False
+        changes = {"state": state} | ({} if priority is None else {"priority": priority})
+        self._runs[key] = self._runs[key].model_copy(update=changes)
+        return True
 
     def remove(self, key: str) -> None:
         """Implement `RunRegistry.remove`."""

@@ -7,7 +7,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from farm.errors import DestinationError
-from farm.spec.job import JobMessage, queue_key
+from farm.spec.job import JobMessage
 
 MAX_BYTES = 256 * 1024
 """Maximum bytes of a finished job's log; a longer one keeps its end."""
@@ -38,8 +38,7 @@ class JobLogs:
 
     def path(self, message: JobMessage) -> Path:
         """The file of a job's log."""
-        run = queue_key(message.dataset, message.spec_sha256).replace(":", "-")
-        return self._folder / run / f"{message.job_id}.log"
+        return self._folder / message.key.replace(":", "-") / f"{message.job_id}.log"
 
     @contextmanager
     def taking(self, message: JobMessage) -> Iterator[None]:

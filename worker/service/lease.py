@@ -18,6 +18,14 @@ from farm.run.ledger.port import CLAIM_S, Ledger
 log = logging.getLogger(__name__)
 
 
+def _awake_or_asleep_s() -> float:
+    """Count seconds that never stand still or go back, also while the machine sleeps; other clocks may rest with it."""
+    return time.clock_gettime(time.CLOCK_BOOTTIME)
+
+
+_CLOCK = _awake_or_asleep_s if hasattr(time, "CLOCK_BOOTTIME") else time.monotonic
+
+
 class LeaseLostError(FarmError):
     """The job belongs to another worker by now, or may belong to one."""
 
@@ -31,7 +39,7 @@ class Lease:
         owner: the process that has claimed it, just now.
         ttl_s: seconds after which the claim lapses unless it is renewed.
         every_s: seconds between two renewals; by default a sixth of `ttl_s`.
-        clock: clock that counts seconds, also while the process is stopped.
+        clock: clock that counts seconds, also while the process is stopped or the machine sleeps.
     """
 
     def __init__(
@@ -42,7 +50,7 @@ class Lease:
         *,
         ttl_s: float = CLAIM_S,
         every_s: float | None = None,
-        clock: Callable[[], float] = time.monotonic,
+        clock: Callable[[], float] = _CLOCK,
     ) -> None:
         self._ledger = ledger
         self._job_id = job_id

@@ -4,6 +4,7 @@ import logging
 import os
 import signal
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -18,10 +19,12 @@ from farm.run.queue.broker import connect
 from farm.run.queue.celery import CeleryQueue
 from farm.run.queue.settings import QUEUE, SOFT_LIMIT_S, make_app
 from farm.run.queue.wire import install, keep_only_task
-from farm.run.registry.port import RunState, WorkerState
+from farm.run.registry.port import WorkerState
+from farm.run.serving import refusal
 from farm.run.worker_settings import HARD_LIMIT_S, WorkerSettings
 from farm.storage import open_storage
 from worker.service.backoff import Backoff
+from worker.service.holdings import Holdings
 from worker.service.job_log import JobLogs
 from worker.service.kept_renderer import KeptRenderer, OpenRenderer
 from worker.service.process_log import prepare_log, send_output_to
@@ -97,6 +100,7 @@ def _supervisor(settings: WorkerSettings, name: str, redis: RedisOfProcess) -> S
         open_registry=redis.registry,
         open_ledger=redis.ledger,
         backoff=Backoff(settings.store, settings.min_free_mib * 2**20),
+        holdings=Holdings(partial(refusal, settings.store)),
         logs=_job_logs(settings),
         memory_per_child_kib=settings.memory_per_child_kib,
     )
@@ -167,7 +171,8 @@ class _Observer:
         Raises:
             BrokerError: while Redis is away.
         """
-        runs = [run for run in self._redis.registry().runs().values() if run.state is RunState.ACTIVE]
+        served = self._supervisor.served
+        runs = [run for key, run in self._redis.registry().runs().items() if key in served]
         queue = CeleryQueue(self._app, self._redis.client())
         report = self._supervisor.report()
         if is_stopping():

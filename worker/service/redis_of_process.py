@@ -21,7 +21,7 @@ class RedisOfProcess:
         self._broker_url = broker_url
         self._client: Any = None
         self._process = 0
-        self._ledgers: dict[tuple[str, str], Ledger] = {}
+        self._ledgers: dict[str, Ledger] = {}
 
     def client(self) -> Any:
         """The connection pool of the calling process.
@@ -37,10 +37,9 @@ class RedisOfProcess:
         """The registry of runs and workers."""
         return RedisRegistry(self.client())
 
-    def ledger(self, dataset: str, spec_sha256: str) -> Ledger:
-        """The ledger of a dataset."""
+    def ledger(self, run_key: str) -> Ledger:
+        """The ledger of a run."""
         client = self.client()
-        key = (dataset, spec_sha256)
-        if key not in self._ledgers:
-            self._ledgers[key] = RedisLedger(client, dataset, spec_sha256)
-        return self._ledgers[key]
+        if run_key not in self._ledgers:
+            self._ledgers[run_key] = RedisLedger(client, run_key)
+        return self._ledgers[run_key]

@@ -8,20 +8,22 @@ from farm.dataset.completion import is_done
 from farm.dataset.dataset import Dataset, open_for_message
 from farm.dataset.manifest import Manifest
 from farm.dataset.outputs import IMAGE
+from farm.dataset.place import read_place
 from farm.dataset.quarantine import is_in_quarantine
 from farm.errors import (
     BrokerError,
     ConflictError,
-    DatasetMissingError,
     DestinationError,
     FarmError,
+    MessageError,
     PermanentError,
     RetryableError,
+    SpecError,
     StaleMessageError,
     UnfitWorkerError,
 )
 from farm.run.ledger.owner import is_gone, this_process
-from farm.run.ledger.port import CLAIM_S, MAX_ABSENCES, Ledger, LedgerFactory
+from farm.run.ledger.port import CLAIM_S, Ledger, LedgerFactory
 from farm.spec.job import Job, JobMessage
 from worker.service.failures import Failures, TryLaterError
 from worker.service.job_log import JobLogs
@@ -58,7 +60,7 @@ class JobRunner:
     Args:
         store: folder or URL below which the datasets lie.
         renderer: renderer of the pictures of every dataset.
-        open_ledger: function that opens the ledger of a dataset.
+        open_ledger: function that opens the ledger of a run.
         logs: files for the output of jobs; None leaves their output alone.
     """
 
@@ -71,7 +73,6 @@ class JobRunner:
         self._logs = logs
         self._failures = Failures(logs)
         self._must_probe = False
-        self._found: set[str] = set()
 
     def run(self, payload: object) -> Outcome:
         """Run the job that a message asks for, unless it is done.
@@ -88,13 +89,17 @@ class JobRunner:
             UnfitWorkerError: if this worker can't do the job, but another may; the message must go back to the queue.
         """
         message = JobMessage.decode(payload)
-        ledger = self._open_ledger(message.dataset, message.spec_sha256)
+        ledger = self._open_ledger(message.key)
         start = _claim(ledger, message.job_id)
         try:
             return self._run_claimed(message, ledger, start)
         except StaleMessageError as error:
             # Its dataset was replaced by another of the same name, whose own jobs were submitted then.
+            ledger.give_back(message.job_id, this_process())
             return Outcome(f"dropped: {error}")
+        except MessageError:
+            ledger.give_back(message.job_id, this_process())
+            raise
         except LeaseLostError as error:
             # Another worker has the job, or Redis came back without its memory; the next delivery finds out.
             raise TryLaterError(str(error), _LOST_CLAIM_S) from error
@@ -110,10 +115,7 @@ class JobRunner:
 
     def _run_claimed(self, message: JobMessage, ledger: Ledger, start: int) -> Outcome:
         job = message.job
-        dataset = self._open_dataset(message, ledger)
-        if dataset is None:
-            ledger.give_back(job.id, this_process())
-            return Outcome(f"dropped: {message.task_id}: {MAX_ABSENCES} other workers lacked its dataset, too")
+        dataset = self._open_dataset(message)
         self._probe(dataset, job)
         if nothing_to_do := _nothing_to_do(dataset, job):
             # A second delivery of a job's message does not count as a start.
@@ -136,21 +138,14 @@ class JobRunner:
         self._failures.note_success()
         return Outcome(_note_done(message, manifest, ledger), made=True)
 
-    def _open_dataset(self, message: JobMessage, ledger: Ledger) -> Dataset | None:
-        """Open the message's dataset; None if more than `MAX_ABSENCES` workers lack it: its run has ended then."""
+    def _open_dataset(self, message: JobMessage) -> Dataset:
         try:
             dataset = open_for_message(self._store, message)
-        except DatasetMissingError as error:
-            if message.dataset in self._found:
-                # The dataset was there before, so its store has gone, for example a mount, and may come back.
-                raise DestinationError(str(error)) from error
-            if ledger.count_absence() > MAX_ABSENCES:
-                return None
-            raise UnfitWorkerError(f"{error}; or give this worker the right --store", error.exit_code) from error
-        except ConflictError as error:
-            # Its header is of another version of the farm, or damaged: another worker may read it.
-            raise UnfitWorkerError(str(error), error.exit_code) from error
-        self._found.add(message.dataset)
+        except (ConflictError, SpecError) as error:
+            # The supervisor could read the header before, so it was replaced, and looks again.
+            raise DestinationError(str(error)) from error
+        if message.place and read_place(dataset.storage) != message.place:
+            raise StaleMessageError(f"{message.task_id}: {dataset.storage.location} is another place by now")
         return dataset
 
     def _probe(self, dataset: Dataset, job: Job) -> None:

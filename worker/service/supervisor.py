@@ -3,11 +3,12 @@
 It runs once a second in Celery's event loop, as a step of its consumer, so it may change which queues are consumed.
 """
 
+import itertools
 import logging
 import os
 import signal
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -16,21 +17,26 @@ from celery import bootsteps
 from celery.worker import state
 from kombu.entity import Queue
 
+from farm import __version__
 from farm.aside import Aside
 from farm.errors import BrokerError, DestinationError, MessageError, RenderError, UnfitWorkerError
 from farm.run.ledger.owner import process_of_this_machine
 from farm.run.ledger.port import LedgerFactory
 from farm.run.queue.settings import QUEUE, queue_name
-from farm.run.registry.port import RunRegistry, RunState, WorkerReport, WorkerState
+from farm.run.registry.port import Refusal, RunRegistry, RunState, WorkerReport, WorkerState
 from farm.spec.job import JobMessage
 from worker.service.backoff import Backoff
 from worker.service.failures import FAILED_IN_A_ROW
+from worker.service.holdings import Holdings
 from worker.service.job_log import JobLogs
 
 log = logging.getLogger(__name__)
 
 TICK_S = 1.0
 """Seconds between two looks at the registry, the store and the children."""
+
+_REFUSALS_TOLD = 200
+"""Runs, at most, of which a report says why they are not served: a shared Redis may hold the runs of many farms."""
 
 _KILL_RATIO = 2
 """Memory above which a child is killed during a job, as a multiple of that above which it is replaced after a job."""
@@ -42,8 +48,9 @@ class Supervisor:
     Args:
         name: name of the worker, as `NAME@HOST`.
         open_registry: function that opens the registry of runs and workers; called in the main process, at first use.
-        open_ledger: function that opens a dataset's ledger; called in the main process, at first use.
+        open_ledger: function that opens a run's ledger; called in the main process, at first use.
         backoff: source of the reason why no job may be taken.
+        holdings: what the store holds of the registered runs.
         logs: logs of the jobs that run here.
         memory_per_child_kib: memory above which a child is replaced after its job; see
             `farm.run.worker_settings.WorkerSettings`.
@@ -59,6 +66,7 @@ class Supervisor:
         open_registry: Callable[[], RunRegistry],
         open_ledger: LedgerFactory,
         backoff: Backoff,
+        holdings: Holdings,
         logs: JobLogs,
         memory_per_child_kib: int,
     ) -> None:
@@ -66,12 +74,14 @@ class Supervisor:
         self._open_registry = open_registry
         self._open_ledger = open_ledger
         self._backoff = backoff
+        self._holdings = holdings
         self._logs = logs
         # Logs may lie on a file server, too.
         self._bounding = Aside(self._bound_logs)
         self._most_bytes = _KILL_RATIO * memory_per_child_kib * 1024
         self._consumer: Any = None
         self._joined: set[str] = set()
+        self._refusals: Mapping[str, Refusal | None] = {}
         self._crashed: list[str] = []
         self._done = 0
         self._held_reason = ""
@@ -106,14 +116,23 @@ class Supervisor:
         self.ticked_s = time.monotonic()
         self._held_reason = self._backoff.reason()
         try:
-            runs = {} if self._held_reason or self.fault else self._open_registry().runs()
-            self._join({queue_name(key) for key, run in runs.items() if run.state is RunState.ACTIVE})
+            runs = self._open_registry().runs()
+            self._refusals = self._holdings.judge(
+                {key: run for key, run in runs.items() if run.state is RunState.ACTIVE}
+            )
+            held = self._held_reason or self.fault
+            self._join(set() if held else {queue_name(key) for key in self.served})
             self._open_registry().report(self.report())
         except BrokerError as error:
             # Celery notices the lost connection as well, and connects again.
             log.warning("%s", error)
         self._keep_memory()
         self._bounding.begin()
+
+    @property
+    def served(self) -> tuple[str, ...]:
+        """Keys of the active runs that this worker serves, in order."""
+        return tuple(sorted(key for key, refused in self._refusals.items() if refused is None))
 
     def _join(self, wanted: set[str]) -> None:
         for name in sorted(self._joined - wanted):
@@ -129,6 +148,7 @@ class Supervisor:
         jobs = tuple(str(request.id).rpartition(":")[2] for request in list(state.active_requests))
         unoccupied = WorkerState.HELD if self._held_reason else WorkerState.IDLE
         doing = WorkerState.WORKING if jobs else unoccupied
+        refused = ((key, str(why)) for key, why in sorted(self._refusals.items()) if why is not None)
         memory = sum(_rss_bytes(pid) for pid in self._children())
         return WorkerReport(
             name=self._name,
@@ -137,6 +157,9 @@ class Supervisor:
             jobs=jobs,
             done=self._done,
             rss_bytes=memory,
+            release=__version__,
+            serves=self.served,
+            refuses=dict(itertools.islice(refused, _REFUSALS_TOLD)),
         )
 
     def _children(self) -> list[int]:
@@ -170,6 +193,8 @@ class Supervisor:
     def note_full(self, error: DestinationError) -> None:
         """Note that the store could not be written: take no job for a while. Called before the message goes back."""
         self._backoff.fail(str(error))
+        # The dataset may be gone, or another may be in its place.
+        self._holdings.ask_again()
         self._join(set())
 
     def note_crash(self, request: Any) -> None:
@@ -181,11 +206,11 @@ class Supervisor:
             if self._backoff.store_hangs:
                 # It waited for its store until the time limit: neither the job nor this worker is at fault.
                 owner = process_of_this_machine(request.worker_pid)
-                self._open_ledger(message.dataset, message.spec_sha256).give_back(message.job_id, owner)
+                self._open_ledger(message.key).give_back(message.job_id, owner)
                 return
             self._logs.bound(message)
             printed = self._logs.tail(message)
-            ledger = self._open_ledger(message.dataset, message.spec_sha256)
+            ledger = self._open_ledger(message.key)
             ledger.add_figures({"crashes": 1})
             if printed:
                 ledger.keep_log(message.job_id, printed)

@@ -5,9 +5,8 @@
 -- KEYS[3]  starts: hash from job id to the number of its starts
 -- KEYS[4]  troubles: hash from job id to the number of its failures that may pass
 -- KEYS[5]  logs: hash from job id to what it printed before its process ended
--- KEYS[6]  absences: number of workers in a row whose store lacks the dataset
--- KEYS[7]  finished: list of when jobs were finished, in seconds of the Unix epoch, the newest first
--- KEYS[8]  last: path of the newest picture below the dataset's folder
+-- KEYS[6]  finished: list of when jobs were finished, in seconds of the Unix epoch, the newest first
+-- KEYS[7]  last: path of the newest picture below the dataset's folder
 -- ARGV[1]  job id
 -- ARGV[2]  owner that holds the claim
 -- ARGV[3]  path of the job's picture below the dataset's folder
@@ -25,9 +24,8 @@ redis.call('ZREM', KEYS[1], ARGV[1])
 for place = 2, 5 do
     redis.call('HDEL', KEYS[place], ARGV[1])
 end
-redis.call('DEL', KEYS[6])
-redis.call('LPUSH', KEYS[7], string.format('%.3f', now))
-redis.call('LTRIM', KEYS[7], 0, ARGV[4] - 1)
-redis.call('EXPIRE', KEYS[7], ARGV[5])
-redis.call('SET', KEYS[8], ARGV[3], 'EX', ARGV[5])
+redis.call('LPUSH', KEYS[6], string.format('%.3f', now))
+redis.call('LTRIM', KEYS[6], 0, ARGV[4] - 1)
+redis.call('EXPIRE', KEYS[6], ARGV[5])
+redis.call('SET', KEYS[7], ARGV[3], 'EX', ARGV[5])
 return 1

@@ -17,9 +17,6 @@ RECENT_COMPLETIONS = 200
 RECENT_S = 3600.0
 """Largest age of these pictures, in seconds, so that yesterday's run doesn't lower today's rate."""
 
-MAX_ABSENCES = 6
-"""Largest number of workers in a row that may end since their store lacks a dataset; one more ends its run."""
-
 RETRY_OWNER = ""
 """Owner's name of a job that waits for its next attempt. Any worker may take the job over."""
 
@@ -82,14 +79,6 @@ class Ledger(Protocol):
         """Count a failure that may pass; returns the job's failures so far."""
         ...
 
-    def count_absence(self) -> int:
-        """Count a worker whose store lacks the dataset; returns the count since a job was last finished or forgiven."""
-        ...
-
-    def absences(self) -> int:
-        """Return the count that `count_absence` keeps."""
-        ...
-
     def keep_log(self, job_id: str, text: str) -> None:
         """Keep what a job printed before its process ended, for the report on the job if it is given up."""
         ...
@@ -99,7 +88,7 @@ class Ledger(Protocol):
         ...
 
     def forgive(self, job_ids: Iterable[str]) -> None:
-        """Forget the starts, troubles and logs of some jobs, and the absences."""
+        """Forget the starts, troubles and logs of some jobs."""
         ...
 
     def lead(self, owner: str, ttl_s: float) -> bool:
@@ -127,8 +116,8 @@ class Ledger(Protocol):
         ...
 
 
-LedgerFactory = Callable[[str, str], Ledger]
-"""Opens the ledger of a dataset by its name and the fingerprint of its description."""
+LedgerFactory = Callable[[str], Ledger]
+"""Opens the ledger of a run by the run's key."""
 
 
 def images_per_hour(finished_s: list[float], now_s: float) -> float | None:

@@ -8,7 +8,6 @@ import redis
 from farm.run.ledger.port import CLAIM_S, RECENT_COMPLETIONS, RETRY_OWNER, Activity, images_per_hour
 from farm.run.lua import read_script
 from farm.run.queue.broker import as_broker_error
-from farm.spec.job import queue_key
 
 KEEP_S = 30 * 24 * 3600
 """Seconds after the last write until Redis forgets a dataset's keys, so that a shared Redis does not fill up."""
@@ -24,13 +23,12 @@ class RedisLedger:
 
     Args:
         client: with `decode_responses=True`.
-        dataset: the dataset's name.
-        spec_sha256: keeps datasets of one name and different descriptions apart.
+        run_key: keeps runs apart; see `farm.spec.job.queue_key`.
     """
 
-    def __init__(self, client: "redis.Redis", dataset: str, spec_sha256: str) -> None:
+    def __init__(self, client: "redis.Redis", run_key: str) -> None:
         self._client = client
-        self._prefix = f"farm:{queue_key(dataset, spec_sha256)}"
+        self._prefix = f"farm:{run_key}"
         self._claim = client.register_script(read_script(_PACKAGE, "claim"))
         self._refresh = client.register_script(read_script(_PACKAGE, "refresh"))
         self._postpone = client.register_script(read_script(_PACKAGE, "postpone"))
@@ -79,14 +77,6 @@ class RedisLedger:
             pipe.expire(self._key("troubles"), KEEP_S)
             return int(pipe.execute()[0])
 
-    def count_absence(self) -> int:
-        """See `Ledger.count_absence`."""
-        with as_broker_error():
-            pipe = self._client.pipeline(transaction=True)
-            pipe.incr(self._key("absences"))
-            pipe.expire(self._key("absences"), KEEP_S)
-            return int(pipe.execute()[0])
-
     def postpone(self, job_id: str, owner: str, delay_s: float) -> None:
         """See `Ledger.postpone`."""
         with as_broker_error():
@@ -105,15 +95,10 @@ class RedisLedger:
 
     def finish(self, job_id: str, owner: str, picture: str) -> bool:
         """See `Ledger.finish`."""
-        more = [self._key(name) for name in ("troubles", "logs", "absences", "finished", "last")]
+        more = [self._key(name) for name in ("troubles", "logs", "finished", "last")]
         arguments: list[str | float] = [job_id, owner, picture, RECENT_COMPLETIONS, KEEP_S]
         with as_broker_error():
             return bool(self._finish(keys=[*self._claim_keys, *more], args=arguments))
-
-    def absences(self) -> int:
-        """See `Ledger.absences`."""
-        with as_broker_error():
-            return int(cast(str | None, self._client.get(self._key("absences"))) or 0)
 
     def keep_log(self, job_id: str, text: str) -> None:
         """See `Ledger.keep_log`."""
@@ -131,12 +116,12 @@ class RedisLedger:
     def forgive(self, job_ids: Iterable[str]) -> None:
         """See `Ledger.forgive`."""
         forgiven = list(job_ids)
+        if not forgiven:
+            return
         with as_broker_error():
             pipe = self._client.pipeline(transaction=True)
-            if forgiven:
-                for name in ("starts", "troubles", "logs"):
-                    pipe.hdel(self._key(name), *forgiven)
-            pipe.delete(self._key("absences"))
+            for name in ("starts", "troubles", "logs"):
+                pipe.hdel(self._key(name), *forgiven)
             pipe.execute()
 
     def lead(self, owner: str, ttl_s: float) -> bool:

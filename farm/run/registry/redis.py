@@ -1,14 +1,16 @@
-"""The run registry in Redis. Entries that this version of the farm can't read are passed over."""
+"""The run registry in Redis. Entries that this release of the farm can't read are passed over, and left as they are."""
 
+import json
 from collections.abc import Mapping
-from typing import cast
+from typing import Any, cast
 
 import redis
 from pydantic import ValidationError
 
+from farm.errors import ConflictError
 from farm.run.lua import read_script
 from farm.run.queue.broker import as_broker_error
-from farm.run.registry.port import SEEN_S, Run, WorkerReport
+from farm.run.registry.port import SEEN_S, Priority, Run, RunState, WorkerReport
 
 _RUNS = "farm:runs"
 _WORKERS = "farm:workers"
@@ -35,17 +37,38 @@ class RedisRegistry:
     def register(self, run: Run) -> Run:
         """See `RunRegistry.register`."""
         with as_broker_error():
-            if self._put(keys=[_RUNS, _RUNS_SEEN], args=[run.key, run.model_dump_json(), _KEEP_S, 0]):
+            if self._put(keys=[_RUNS, _RUNS_SEEN], args=[run.key, run.encode(), _KEEP_S, 0]):
                 return run
-            present = _read_run(run.key, cast(str | None, self._client.hget(_RUNS, run.key)))
+            text = cast(str | None, self._client.hget(_RUNS, run.key))
+        if text is None:
+            return run  # taken down in between; the next look puts it up again
+        present = _read_run(run.key, text)
         if present is None:
-            self.replace(run)
-        return present or run
+            raise _unreadable(run.key)
+        return present
 
     def replace(self, run: Run) -> None:
         """See `RunRegistry.replace`."""
         with as_broker_error():
-            self._put(keys=[_RUNS, _RUNS_SEEN], args=[run.key, run.model_dump_json(), _KEEP_S, 1])
+            self._put(keys=[_RUNS, _RUNS_SEEN], args=[run.key, run.encode(), _KEEP_S, 1])
+
+    def change(self, key: str, state: RunState, priority: Priority | None = None) -> bool:
+        """See `RunRegistry.change`."""
+        changes = {"state": state.value} | ({} if priority is None else {"priority": priority.value})
+
+        def change(pipe: Any) -> Any:
+            text = pipe.hget(_RUNS, key)
+            if text is None:
+                return False
+            if _read_run(key, text) is None:
+                raise _unreadable(key)
+            pipe.multi()
+            pipe.hset(_RUNS, key, json.dumps(json.loads(text) | changes))
+            return True
+
+        with as_broker_error():
+            # Run again if another client changes an entry meanwhile.
+            return bool(cast(Any, self._client).transaction(change, _RUNS, value_from_callable=True))
 
     def remove(self, key: str) -> None:
         """See `RunRegistry.remove`."""
@@ -84,6 +107,13 @@ class RedisRegistry:
             except ValidationError:
                 continue
         return tuple(reports)
+
+
+def _unreadable(key: str) -> ConflictError:
+    return ConflictError(
+        f"{key}: another release of the farm has registered this run, in a form that can't be read here; it is left as "
+        "it is: use that release, or farm submit to replace it"
+    )
 
 
 def _read_run(key: str, text: str | None) -> Run | None:

@@ -49,6 +49,7 @@ def test_summary() -> None:
     ("known", "words"),
     [
         ({"state": RunState.PAUSED}, "paused"),
+        ({"unserved": "no worker serves this run"}, "no worker serves this run"),
         ({"trouble": "Redis went away; waiting for it"}, "Redis went away; waiting for it"),
         (
             {"workers": (HELD,)},

@@ -15,9 +15,10 @@ from farm.dataset.dataset import Dataset
 from farm.dataset.paths import INDEX_FILE, REPORT_FILE
 from farm.dataset.quarantine import put_in_quarantine
 from farm.errors import DestinationError, IncompleteError
-from farm.run.handle import run_of
+from farm.run.coordinator import Coordinator
+from farm.run.handle import open_handle, run_of
 from farm.run.ledger.redis import RedisLedger
-from farm.run.registry.port import RunState, WorkerReport, WorkerState
+from farm.run.registry.port import Refusal, RunState, WorkerReport, WorkerState
 from farm.run.registry.redis import RedisRegistry
 from farm.spec.job import Job
 from tests.farm.cli.result import Farm, assert_refused
@@ -44,7 +45,7 @@ def test_status(farm: Farm, made: Dataset) -> None:
 @pytest.mark.redis
 def test_status_names_the_last_picture(farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
     """Even for a finished dataset, the newest picture's path can be opened from anywhere."""
-    ledger = RedisLedger(redis_client, made.name, made.identity)
+    ledger = RedisLedger(redis_client, run_of(made).key)
     ledger.claim("far-000001", "a:1")
     ledger.finish("far-000001", "a:1", "far/images/far-000001.png")
     result = farm("status", made.storage.location, "--broker", redis_url)
@@ -126,3 +127,18 @@ def test_a_dataset_in_a_folder_whose_name_is_no_utf8(farm: Farm, made: Dataset, 
     )
     assert done.returncode == 0, done.stderr
     assert r"caf\udce9/cables" in done.stdout
+
+
+@pytest.mark.redis
+def test_run_that_nobody_serves(farm: Farm, dataset: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
+    """The status says that no worker serves a run, and why; of a paused one there is nothing to say."""
+    place = [dataset.storage.location, "--broker", redis_url]
+    handle = open_handle(dataset, redis_url, redis_client, settles=True)
+    Coordinator(dataset, handle).submit_missing()
+    refuses = {handle.run.key: str(Refusal.NOT_HERE)}
+    handle.registry.report(WorkerReport(name="w@host", state=WorkerState.IDLE, release="0.1.0", refuses=refuses))
+    words = "no worker serves this run: 1 worker without this dataset in its --store"
+    assert f"served   {words}" in farm("status", *place).stdout.splitlines()
+    assert json.loads(farm("status", *place, "--json").stdout)["unserved"] == words
+    farm("pause", *place)
+    assert json.loads(farm("status", *place, "--json").stdout)["unserved"] is None

@@ -45,3 +45,17 @@ def test_submit_to_a_redis_that_refuses(farm: Farm, tmp_path: Path, kind: str, w
         result = farm("submit", "--images", "12", "--out", "data", "--broker", url)
     assert_refused(result, BrokerError.exit_code, words)
     assert not (tmp_path / "data").exists()
+
+
+def test_submit_takes_over_from_another_release(farm: Farm, redis_url: str, redis_client: "redis.Redis") -> None:
+    """A run of another release is left alone by all other commands; a submission replaces it, and says so."""
+    options = ["--out", "data", "--broker", redis_url]
+    farm("submit", "--images", "12", *options)
+    registry = RedisRegistry(redis_client)
+    (run,) = registry.runs().values()
+    registry.replace(run.model_copy(update={"release": "9.9.9"}))
+    assert_refused(farm("repair", "data", "--broker", redis_url), ConflictError.exit_code, "release 9.9.9")
+    told = farm("submit", "--images", "12", *options)
+    assert "its run of release 9.9.9 is replaced" in told.stderr
+    assert told.stdout.startswith("12 of 12 images queued"), told.stderr
+    assert registry.runs() == {run.key: run}

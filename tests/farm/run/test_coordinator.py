@@ -17,16 +17,15 @@ from farm.dataset.quarantine import Quarantine, put_in_quarantine
 from farm.dataset.verify import verify
 from farm.errors import (
     BrokerError,
-    DatasetMissingError,
+    ConflictError,
     DestinationError,
     IncompleteError,
     RunCancelledError,
 )
 from farm.run.coordinator import Coordinator
 from farm.run.ledger.owner import this_process
-from farm.run.ledger.port import MAX_ABSENCES
 from farm.run.progress import Progress
-from farm.run.registry.port import Priority, Run, RunState
+from farm.run.registry.port import Priority, Run, RunState, WorkerReport, WorkerState
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job, JobMessage
 from farm.storage import LocalStorage, StoredFile, is_temporary
@@ -463,23 +462,6 @@ def test_folder_that_is_away_is_waited_for(dataset: Dataset) -> None:
     assert [look.trouble for look in seen if look.trouble] == ["stale file handle; waiting for it"] * 3
 
 
-def test_absences_end_the_watch(bench: Bench) -> None:
-    """If one worker after the other lacks the dataset, the watch ends and says what to do."""
-    bench.coordinator.submit_missing()
-    for _ in range(MAX_ABSENCES + 1):
-        bench.ledger.count_absence()
-    with pytest.raises(DatasetMissingError, match="--store"):
-        bench.coordinator.watch()
-
-
-def test_submission_forgives_absences(bench: Bench) -> None:
-    """A dataset that no worker had gets another chance when it is submitted again."""
-    for _ in range(MAX_ABSENCES + 1):
-        bench.ledger.count_absence()
-    bench.coordinator.submit_missing()
-    assert bench.finish().done == 4
-
-
 def test_permanent_failure_ends_the_run(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     """The run ends when all jobs but the failed ones are done, and gives each reason and what to do."""
     monkeypatch.setenv("STAND_IN_FAILS", "far-000001=permanent")
@@ -614,6 +596,44 @@ def test_changed_priority_holds_for_what_is_queued_next(large: Dataset) -> None:
     bench.work(8)
     looks_of(bench, 1)
     assert queue.priorities == (Priority.NORMAL, Priority.HIGH)
+
+
+def test_run_of_another_release_is_left_to_it(bench: Bench) -> None:
+    """Nothing is queued for a run of another release, no pause is undone, and the watch says who goes on with it."""
+    theirs = bench.handle.run.model_copy(update={"release": "9.9.9", "state": RunState.PAUSED})
+    bench.registry.replace(theirs)
+    with pytest.raises(ConflictError, match=r"of release 9\.9\.9"):
+        bench.coordinator.submit_missing()
+    assert looks_of(bench, 1)[0].trouble is None
+    bench.registry.change(theirs.key, RunState.ACTIVE)
+    (look,) = looks_of(bench, 1)
+    assert "of release 9.9.9" in str(look.trouble)
+    assert bench.registry.runs() == {theirs.key: theirs.model_copy(update={"state": RunState.ACTIVE})}
+    assert bench.queued() == []
+    bench.registry.replace(bench.handle.run)
+    assert bench.finish().done == 4
+
+
+def test_notice_that_cannot_be_read_stops_the_feeding(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    """While the run's notice is another release's that can't be read, nothing is queued, and the watch says so."""
+
+    def refuse(run: Run) -> Run:
+        raise ConflictError(f"{run.key}: can't be read")
+
+    monkeypatch.setattr(bench.registry, "register", refuse)
+    (look,) = looks_of(bench, 1)
+    assert "can't be read" in str(look.trouble)
+    assert bench.queued() == []
+
+
+def test_run_that_nobody_serves(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A watch says that no worker serves its run, once that has lasted: workers take a while to start."""
+    bench.coordinator.submit_missing()
+    assert looks_of(bench, 2)[-1].unserved is None
+    monkeypatch.setattr(farm.run.coordinator, "_UNSERVED_S", 0.0)
+    assert "no worker is there" in str(looks_of(bench, 1)[0].unserved)
+    bench.registry.report(WorkerReport(name="w@host", state=WorkerState.IDLE, serves=(bench.handle.run.key,)))
+    assert looks_of(bench, 1)[0].unserved is None
 
 
 def test_cancelled_run_takes_no_jobs(bench: Bench) -> None:

@@ -6,6 +6,7 @@ from farm.dataset.dataset import Dataset, create_dataset
 from farm.dataset.destination import Destination
 from farm.run.feeder import Feeder
 from farm.run.ledger.owner import this_process
+from farm.spec.job import Job
 from farm.spec.job_set import JobSet
 from tests.doubles.run import Bench
 from tests.stand_in import stand_in_header
@@ -132,6 +133,84 @@ def test_duplicates_hide_a_loss_for_a_while_only(bench: Bench) -> None:
     bench.queue.messages.popleft()
     mending.mend(undone(bench.dataset))
     assert mending.left_out(undone(bench.dataset)) == before + 1
+
+
+def add_foreign(bench: Bench, count: int) -> None:
+    """Messages that something else queues."""
+    bench.queue.messages.extend(bench.dataset.message(Job.from_id(f"far-{index:06d}")) for index in range(count))
+
+
+def test_queue_that_grows_is_noticed(bench: Bench) -> None:
+    """If more messages wait than images are missing nothing is added, and that is told until they are fewer."""
+    mending, jobs = feeder(bench), undone(bench.dataset)
+    mending.feed(jobs)
+    mending.mend(jobs)
+    assert mending.trouble == ""
+    add_foreign(bench, 95)
+    mending.mend(jobs)
+    assert mending.trouble.startswith(f"{WINDOW + 95} messages wait for 100 missing images, so nothing is queued")
+    assert mending.top_up(jobs) == mending.feed(jobs) == 0
+    bench.queue.messages.clear()
+    add_foreign(bench, 1)
+    mending.mend(jobs)
+    assert mending.trouble == ""
+    assert mending.feed(jobs) == WINDOW - 1
+
+
+def test_doubled_messages_are_no_trouble_at_once(bench: Bench) -> None:
+    """Messages that were delivered twice are taken within seconds, so they are told only if they stay."""
+    patient, jobs = feeder(bench, lost_after_s=3600), undone(bench.dataset)
+    add_foreign(bench, 150)
+    patient.mend(jobs)
+    assert patient.trouble == ""
+
+
+def test_never_more_messages_than_missing_images(bench: Bench) -> None:
+    """Near the end the queue is filled up to the missing images, not to the window."""
+    jobs = undone(bench.dataset)
+    for index in range(95):
+        jobs.discard(Job.from_id(f"far-{index:06d}"))
+    add_foreign(bench, 3)
+    assert feeder(bench).feed(jobs) == 2
+
+
+def test_messages_that_go_astray_are_noticed(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Jobs that get lost time and again are queued ever less often, and the likely cause is told."""
+    now_s = 0.0
+    monkeypatch.setattr("farm.run.feeder.time.monotonic", lambda: now_s)
+    mending, jobs = feeder(bench, lost_after_s=10.0), undone(bench.dataset)
+    told: list[tuple[int, bool]] = []
+    queued = 0
+    for second in range(3600):
+        now_s = float(second)
+        mending.mend(jobs)
+        if count := mending.feed(jobs):
+            queued += count
+            told.append((second, bool(mending.trouble)))
+        bench.queue.messages.clear()  # as if they went to another Redis
+    assert [told[0], told[-1][1]] == [(0, False), True]
+    assert "another Redis" in mending.trouble
+    # In an hour each job is queued a dozen times at most, however often the queue is looked at.
+    assert queued <= 100 * 12
+
+
+def test_job_that_a_worker_begins_is_not_astray(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A job that was lost and then begun starts over, and nothing is told."""
+    now_s = 0.0
+    monkeypatch.setattr("farm.run.feeder.time.monotonic", lambda: now_s)
+    mending = feeder(bench, lost_after_s=10.0)
+    jobs = undone(bench.dataset)
+    for index in range(1, 100):
+        jobs.discard(Job.from_id(f"far-{index:06d}"))
+    for second in range(100):
+        now_s = float(second)
+        mending.mend(jobs)
+        mending.feed(jobs)
+        bench.queue.messages.clear()
+    assert "1 images were queued 3 times" in mending.trouble
+    bench.ledger.claim("far-000000", this_process())
+    mending.mend(jobs)
+    assert mending.trouble == ""
 
 
 def test_nothing_to_feed(bench: Bench) -> None:

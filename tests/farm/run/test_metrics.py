@@ -1,6 +1,7 @@
 """The metrics that Prometheus reads, over real Redis, parsed as Prometheus does."""
 
 import os
+import shutil
 import subprocess
 import sys
 import urllib.request
@@ -11,9 +12,10 @@ import redis
 from prometheus_client import CollectorRegistry, generate_latest
 from prometheus_client.parser import text_string_to_metric_families
 
+from farm.cli.metrics import metrics
 from farm.dataset.dataset import Dataset
 from farm.dataset.quarantine import put_in_quarantine
-from farm.errors import BrokerError
+from farm.errors import BrokerError, SpecError
 from farm.run.handle import open_handle
 from farm.run.metrics import FOLDER_EVERY_S, FarmCollector
 from farm.run.progress import RunHandle
@@ -160,3 +162,19 @@ def test_served_to_prometheus(
         assert process.wait(30) == 0
     assert values["farm_images", "far", "cables", "done"] == 1
     assert values["farm_queue_length", "cables"] == 0
+
+
+def test_workers_of_a_run(dataset: Dataset, handle: RunHandle) -> None:
+    """The workers that serve a run are counted, so that an alarm can tell a run that nobody serves."""
+    collector = FarmCollector(lambda: [(dataset, handle)], handle.registry)
+    assert values_of(collector)["farm_run_workers", "cables"] == 0
+    handle.registry.report(WorkerReport(name="a@host", state=WorkerState.IDLE, serves=(handle.run.key,)))
+    handle.registry.report(WorkerReport(name="b@host", state=WorkerState.IDLE, serves=("wires:000000000000",)))
+    assert values_of(collector)["farm_run_workers", "cables"] == 1
+
+
+def test_two_datasets_of_one_name(half_done: Dataset, tmp_path: Path) -> None:
+    """Figures go by names, so two datasets of one name can't be served together."""
+    shutil.copytree(half_done.storage.location, tmp_path / "b/cables")
+    with pytest.raises(SpecError, match="two datasets have this name"):
+        metrics([half_done.storage.location, str(tmp_path / "b/cables")])

@@ -1,8 +1,10 @@
 """Job ids and messages: what they accept, and that they refuse everything else."""
 
+import base64
 import json
 import re
 from contextlib import suppress
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -19,6 +21,7 @@ JSON = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(),
     lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(), inner, max_size=5),
 )
+GOLDEN = Path(__file__).parents[1] / "run" / "golden" / "0.1.0" / "envelope.json"
 GOOD = {"version": 1, "dataset": "cables", "spec_sha256": "0" * 64, "job_id": "far-000001"}
 
 
@@ -137,3 +140,26 @@ def test_copies_have_names_of_their_own(name: str) -> None:
 def test_names_that_begin_alike_have_keys_of_their_own() -> None:
     """Two long names that differ at their end don't share a queue."""
     assert queue_key("é" * 99 + "a", "0" * 64) != queue_key("é" * 99 + "b", "0" * 64)
+
+
+def test_message_of_the_first_release() -> None:
+    """A message as release 0.1.0 sent it is read, and without a place it is written in the same way."""
+    _, keywords, _ = json.loads(base64.b64decode(json.loads(GOLDEN.read_text())["body"]))
+    message = JobMessage.decode(keywords["message"])
+    assert message.place == ""
+    assert message.encode() == keywords["message"]
+    assert message.task_id == json.loads(GOLDEN.read_text())["headers"]["id"]
+
+
+def test_place_is_part_of_the_task_id() -> None:
+    """Equal datasets in two places have tasks of different ids, which release 0.1.0 would refuse as messages."""
+    message = JobMessage.decode(GOOD | {"place": "0123456789abcdef"})
+    assert message.task_id == "cables:000000000000:0123456789abcdef:far-000001"
+    assert message.encode().keys() - GOOD.keys() == {"place"}
+
+
+@pytest.mark.parametrize("place", ["0", "0123456789abcdeF", "../3456789abcdef", "0123456789abcdef\n", 7, None])
+def test_bad_places(place: object) -> None:
+    """A place that isn't an id is refused: it is part of the names of keys and folders."""
+    with pytest.raises(MessageError, match="place"):
+        JobMessage.decode(GOOD | {"place": place})

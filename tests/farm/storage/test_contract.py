@@ -26,6 +26,14 @@ def test_replaces(storage: Storage) -> None:
     assert storage.read("a") == b"second"
 
 
+def test_creates_once(storage: Storage) -> None:
+    """Of several that create a file, the first succeeds, and the file stays as it made it."""
+    storage.write("header", b"there")
+    assert storage.create("mark", b"first")
+    assert not storage.create("mark", b"second")
+    assert storage.read("mark") == b"first"
+
+
 def test_missing_file(storage: Storage) -> None:
     """A file that isn't there is distinguished from one that can't be read."""
     storage.write("here", b"")

@@ -141,6 +141,23 @@ def test_claim_of_another_is_not_taken_back(claim: Lease, ledger: MemoryLedger, 
         claim.check()
 
 
+@pytest.mark.skipif(not hasattr(time, "CLOCK_BOOTTIME"), reason="this system has no such clock")
+def test_lease_lapses_while_the_machine_sleeps(ledger: MemoryLedger, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The time that a sleeping machine misses counts, though other clocks stand still meanwhile."""
+    slept_s = 0.0
+    of_system = time.clock_gettime
+
+    def clock_gettime(clock: int) -> float:
+        return of_system(clock) + (slept_s if clock == time.CLOCK_BOOTTIME else 0.0)
+
+    monkeypatch.setattr(time, "clock_gettime", clock_gettime)
+    claim = Lease(ledger, JOB_ID, "a:1", ttl_s=60.0)
+    claim.check()
+    slept_s = 61.0
+    with pytest.raises(LeaseLostError, match="lapsed"):
+        claim.check()
+
+
 def test_late_answer_is_counted_from_the_question(ledger: MemoryLedger, clock: Clock) -> None:
     """A process that was stopped while it waited for the ledger counts the lease from its question."""
 

@@ -17,6 +17,7 @@ from tests.doubles.registry import MemoryRegistry
 from worker.service import backoff as backoff_module
 from worker.service.backoff import Backoff
 from worker.service.failures import FAILED_IN_A_ROW
+from worker.service.holdings import Holdings
 from worker.service.job_log import JobLogs
 from worker.service.supervisor import Supervisor
 
@@ -33,7 +34,13 @@ class HangingWorker:
         self.registry = MemoryRegistry()
         self.backoff = Backoff(str(folder / "store"), 0)
         self.supervisor = Supervisor(
-            "w@host", lambda: self.registry, lambda *_: self.ledger, self.backoff, JobLogs(folder / "logs"), 2**22
+            "w@host",
+            lambda: self.registry,
+            lambda *_: self.ledger,
+            self.backoff,
+            Holdings(lambda _: None),
+            JobLogs(folder / "logs"),
+            2**22,
         )
 
     def kill_children(self, dataset: Dataset) -> None:

@@ -13,7 +13,7 @@ import redis
 from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset
 from farm.dataset.quarantine import Quarantine
-from farm.errors import DatasetMissingError, MachineError
+from farm.errors import MachineError
 from farm.run.handle import run_of
 from farm.run.ledger.redis import RedisLedger
 from farm.run.queue.celery import CeleryQueue
@@ -44,7 +44,7 @@ def run(redis_client: "redis.Redis", dataset: Dataset) -> Run:
 @pytest.fixture
 def ledger(redis_client: "redis.Redis", dataset: Dataset) -> RedisLedger:
     """The dataset's ledger."""
-    return RedisLedger(redis_client, dataset.name, dataset.identity)
+    return RedisLedger(redis_client, run_of(dataset).key)
 
 
 @pytest.fixture
@@ -162,23 +162,6 @@ def test_unfit_worker_takes_itself_out(
     assert result.stderr.splitlines()[-1] == "--device optix: no such device"
     assert list(queue.queued(run)) == [JOB]
     assert Quarantine(dataset).look() == ledger.claims() == {}
-
-
-def test_worker_with_a_wrong_store_takes_itself_out(
-    worker_command: list[str],
-    tmp_path: Path,
-    redis_url: str,
-    queue: CeleryQueue,
-    run: Run,
-    dataset: Dataset,
-) -> None:
-    """A worker whose store lacks the dataset leaves all of its jobs to others."""
-    queue.submit(run, [dataset.message(job) for job in dataset.header.spec.jobs()])
-    result = serve(worker_command, tmp_path / "elsewhere", redis_url)
-    assert result.returncode == DatasetMissingError.exit_code
-    assert "elsewhere" in result.stderr.splitlines()[-1]
-    assert len({job.id for job in queue.queued(run)}) == 4
-    assert Quarantine(dataset).look() == {}
 
 
 @pytest.mark.parametrize("spoilt", ["logs", "store"])

@@ -16,7 +16,7 @@ def ledger(request: pytest.FixtureRequest) -> Ledger:
     """An empty ledger."""
     if request.param == "memory":
         return MemoryLedger()
-    return RedisLedger(request.getfixturevalue("redis_client"), "cables", "0" * 64)
+    return RedisLedger(request.getfixturevalue("redis_client"), "cables:000000000000")
 
 
 def wait_until_free(ledger: Ledger, job_id: str) -> None:
@@ -127,33 +127,20 @@ def test_forgiven_job_begins_anew(ledger: Ledger) -> None:
     assert ledger.log_of("far-000002") == "the end"
 
 
-def test_absences(ledger: Ledger) -> None:
-    """Workers that lack the dataset are counted until one has it, or all jobs are submitted again."""
-    assert [ledger.count_absence() for _ in range(2)] == [1, 2]
-    assert ledger.absences() == 2
-    ledger.claim("far-000001", "a:1")
-    ledger.finish("far-000001", "a:1", "picture")
-    assert ledger.absences() == 0
-    ledger.count_absence()
-    ledger.forgive([])
-    assert ledger.absences() == 0
-
-
 @pytest.mark.redis
 def test_nothing_stays_for_ever(redis_client: "redis.Redis") -> None:
     """Every key of a ledger lapses."""
-    ledger = RedisLedger(redis_client, "cables", "0" * 64)
+    ledger = RedisLedger(redis_client, "cables:000000000000")
     for job_id in ("far-000001", "far-000002"):
         ledger.claim(job_id, "a:1")
     ledger.count_trouble("far-000001")
     ledger.keep_log("far-000001", "the end")
     ledger.finish("far-000002", "a:1", "picture")
-    ledger.count_absence()
     ledger.lead("a:1", 60)
     ledger.add_figures({"images:far": 1})
     keys = redis_client.keys()
     assert isinstance(keys, list)
-    assert len(keys) == 10
+    assert len(keys) == 9
     assert all(0 < int(str(redis_client.ttl(key))) <= KEEP_S for key in keys)
 
 
@@ -233,7 +220,7 @@ def test_figures_add_up(ledger: Ledger) -> None:
 @pytest.mark.redis
 def test_claim_of_a_clock_that_was_set_back(redis_client: "redis.Redis") -> None:
     """A claim that would last for days, after the server's clock was set back, holds nobody up."""
-    ledger = RedisLedger(redis_client, "cables", "0" * 64)
+    ledger = RedisLedger(redis_client, "cables:000000000000")
     ledger.claim("far-000001", "a:1", ttl_s=3 * 24 * 3600)
     assert ledger.claims() == {}
     assert ledger.claim("far-000001", "b:1") == 2
@@ -256,8 +243,8 @@ def test_rate_over_recent_completions() -> None:
 @pytest.mark.redis
 def test_datasets_are_apart(redis_client: object) -> None:
     """Two descriptions under one name share nothing."""
-    one = RedisLedger(redis_client, "cables", "0" * 64)  # type: ignore[arg-type]  # a fixture's value
-    other = RedisLedger(redis_client, "cables", "1" * 64)  # type: ignore[arg-type]  # a fixture's value
+    one = RedisLedger(redis_client, "cables:000000000000")  # type: ignore[arg-type]  # a fixture's value
+    other = RedisLedger(redis_client, "cables:111111111111")  # type: ignore[arg-type]  # a fixture's value
     one.claim("far-000001", "a:1")
     assert other.claims() == {}
 

@@ -1,16 +1,21 @@
 """One suite over the run registry in memory and the one in Redis."""
 
+import json
+from pathlib import Path
+
 import pytest
 import redis
 from redis.backoff import NoBackoff
 from redis.retry import Retry
 
-from farm.errors import BrokerError
+from farm.errors import BrokerError, ConflictError
 from farm.run.registry.port import SEEN_S, Priority, Run, RunRegistry, RunState, WorkerReport, WorkerState
 from farm.run.registry.redis import RedisRegistry
 from tests.doubles.registry import MemoryRegistry
 
 RUN = Run(dataset="cables", spec_sha256="0" * 64)
+PAUSED = RUN.model_copy(update={"state": RunState.PAUSED})
+GOLDEN = Path(__file__).parents[1] / "golden" / "0.1.0"
 IDLE = WorkerReport(name="a@host", state=WorkerState.IDLE)
 
 
@@ -93,10 +98,14 @@ def test_silent_worker_is_gone(redis_client: "redis.Redis") -> None:
     assert redis_client.hkeys("farm:workers") == [other.name]
 
 
+RESTING = RUN.encode().replace("active", "resting")
+UNREADABLE = ["", "no json", "{}", '{"dataset": "../..", "spec_sha256": "0"}', RESTING]
+
+
 @pytest.mark.redis
-@pytest.mark.parametrize("text", ["", "no json", "{}", '{"dataset": "../..", "spec_sha256": "0"}'])
-def test_unreadable_notices_are_passed_over(redis_client: "redis.Redis", text: str) -> None:
-    """An unreadable notice of another version or program hides no other one, and is replaced when its run registers."""
+@pytest.mark.parametrize("text", UNREADABLE)
+def test_unreadable_notices_are_left_alone(redis_client: "redis.Redis", text: str) -> None:
+    """An unreadable notice of another release hides no other one, and is replaced by a person's submission alone."""
     registry = RedisRegistry(redis_client)
     registry.report(IDLE)
     redis_client.hset("farm:runs", RUN.key, text)
@@ -104,8 +113,57 @@ def test_unreadable_notices_are_passed_over(redis_client: "redis.Redis", text: s
     redis_client.zadd("farm:workers:seen", {"b@host": 2**33})
     assert registry.runs() == {}
     assert registry.workers() == (IDLE,)
-    assert registry.register(RUN) == RUN
+    for touch in (lambda: registry.register(RUN), lambda: registry.change(RUN.key, RunState.ACTIVE)):
+        with pytest.raises(ConflictError, match="another release"):
+            touch()
+    assert redis_client.hget("farm:runs", RUN.key) == text
+    registry.replace(RUN)
     assert registry.runs() == {RUN.key: RUN}
+
+
+@pytest.mark.redis
+def test_keys_of_a_later_release_stay(redis_client: "redis.Redis") -> None:
+    """A notice with keys that are unknown here is read, respected, and loses none of them when it is changed."""
+    registry = RedisRegistry(redis_client)
+    later = json.loads(PAUSED.encode()) | {"tint": [], "shade": {"a": 1}}
+    redis_client.hset("farm:runs", RUN.key, json.dumps(later))
+    assert registry.register(RUN) == PAUSED
+    assert registry.change(RUN.key, RunState.ACTIVE, Priority.HIGH)
+    assert json.loads(str(redis_client.hget("farm:runs", RUN.key))) == later | {"state": "active", "priority": "high"}
+    assert registry.runs() == {RUN.key: RUN.model_copy(update={"priority": Priority.HIGH})}
+
+
+def test_changed_run(registry: RunRegistry) -> None:
+    """State and priority of a run that is up are changed; of another there is nothing to change."""
+    registry.register(RUN)
+    assert registry.change(RUN.key, RunState.PAUSED)
+    assert registry.runs() == {RUN.key: PAUSED}
+    assert not registry.change("wires:000000000000", RunState.PAUSED)
+
+
+@pytest.mark.redis
+def test_entries_of_the_first_release(redis_client: "redis.Redis") -> None:
+    """What release 0.1.0 registers is read, a run's entry is written back as it was, and only its state changes."""
+    registry = RedisRegistry(redis_client)
+    run, worker = ((GOLDEN / f"{name}.json").read_text().strip() for name in ("run-paused", "worker"))
+    key = f"cables:{json.loads(run)['spec_sha256'][:12]}"
+    redis_client.hset("farm:runs", key, run)
+    redis_client.hset("farm:workers", "worker-1@host", worker)
+    redis_client.zadd("farm:workers:seen", {"worker-1@host": 2**33})
+    found = registry.runs()[key]
+    assert (found.state, found.priority, found.place, found.release) == (RunState.PAUSED, Priority.HIGH, "", "")
+    assert found.encode() == run
+    (report,) = registry.workers()
+    assert (report.state, report.jobs, report.release, report.serves) == (WorkerState.WORKING, ("far-000001",), "", ())
+    assert registry.change(key, RunState.ACTIVE)
+    assert json.loads(str(redis_client.hget("farm:runs", key))) == json.loads(run) | {"state": "active"}
+
+
+def test_a_place_hides_a_run_from_the_first_release() -> None:
+    """The key and the entry of a run with a place are none that release 0.1.0 takes: it forbids unknown keys."""
+    run = RUN.model_copy(update={"place": "0123456789abcdef", "release": "9.0.0"})
+    assert run.key != RUN.key == run.older_key
+    assert json.loads(run.encode()).keys() - json.loads((GOLDEN / "run-paused.json").read_text()).keys()
 
 
 @pytest.mark.redis
