@@ -10,6 +10,7 @@ from farm.storage.local import LocalStorage
 from farm.storage.location import open_storage, refuse_credentials
 from farm.storage.objects import ObjectStorage
 from farm.storage.port import TEMPORARY_PREFIX, Storage, StoredFile, is_temporary
+from farm.storage.streams import read_parts, scan, write_parts
 
 __all__ = [
     "TEMPORARY_PREFIX",
@@ -19,5 +20,8 @@ __all__ = [
     "StoredFile",
     "is_temporary",
     "open_storage",
+    "read_parts",
     "refuse_credentials",
+    "scan",
+    "write_parts",
 ]

@@ -2,13 +2,16 @@
 
 import hashlib
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from farm.errors import DestinationError
 from farm.machine import machine_name
 from farm.storage.port import TEMPORARY_PREFIX, StoredFile, is_temporary
+
+_PART_BYTES = 4 * 1024 * 1024
+"""Bytes that are read of a large file at a time."""
 
 
 @contextmanager
@@ -37,15 +40,25 @@ class LocalStorage:
         with _as_destination_error("read", str(self._root / path)):
             return (self._root / path).read_bytes()
 
+    def read_parts(self, path: str) -> Iterator[bytes]:
+        """Read a file in parts; see `Streams.read_parts`."""
+        with _as_destination_error("read", str(self._root / path)), (self._root / path).open("rb") as file:
+            while part := file.read(_PART_BYTES):
+                yield part
+
     def write(self, path: str, content: bytes) -> None:
         """Write beside the target, read back, then move; see `Storage.write`."""
+        self.write_parts(path, [content])
+
+    def write_parts(self, path: str, parts: Iterable[bytes]) -> int:
+        """Write as `write` does, from parts; see `Streams.write_parts`."""
         target = self._root / path
         # Machine and process make the name unique among all writers of one shared folder.
         temporary = target.with_name(f"{TEMPORARY_PREFIX}{target.name}.{machine_name()}.{os.getpid()}")
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
             try:
-                self._write_and_check(temporary, content)
+                written = self._write_and_check(temporary, parts)
                 temporary.replace(target)
             except BaseException:
                 with suppress(OSError):
@@ -56,38 +69,47 @@ class LocalStorage:
             raise DestinationError(
                 f"{target}: can't write: {error.strerror or error}; check the folder's permissions and free space"
             ) from error
+        return written
 
     @staticmethod
-    def _write_and_check(temporary: Path, content: bytes) -> None:
+    def _write_and_check(temporary: Path, parts: Iterable[bytes]) -> int:
+        digest, written = hashlib.sha256(), 0
         with temporary.open("wb") as file:
-            file.write(content)
+            for part in parts:
+                file.write(part)
+                digest.update(part)
+                written += len(part)
             file.flush()
             os.fsync(file.fileno())
-        if hashlib.sha256(temporary.read_bytes()).digest() != hashlib.sha256(content).digest():
-            raise DestinationError(f"{temporary}: reads back other than written; check the disk")
+        with temporary.open("rb") as file:
+            if hashlib.file_digest(file, "sha256").digest() != digest.digest():
+                raise DestinationError(f"{temporary}: reads back other than written; check the disk")
+        return written
 
     def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
         """List every file below the folder; see `Storage.files`."""
-        found: dict[str, StoredFile] = {}
+        return dict(self.scan(under, deep=deep))
+
+    def scan(self, under: str = "", *, deep: bool = True) -> Iterator[tuple[str, StoredFile]]:
+        """List the files one by one; see `Streams.scan`."""
         folder = self._root / under
         with _as_destination_error("list", str(folder)), suppress(FileNotFoundError):
             if not under:
-                self._collect(folder, "", found, deep=deep)
+                yield from self._scan(folder, "", deep=deep)
             elif folder.is_dir():
-                self._collect(folder, f"{under}/", found, deep=deep)
-        return found
+                yield from self._scan(folder, f"{under}/", deep=deep)
 
-    def _collect(self, folder: Path, prefix: str, found: dict[str, StoredFile], *, deep: bool) -> None:
+    def _scan(self, folder: Path, prefix: str, *, deep: bool) -> Iterator[tuple[str, StoredFile]]:
         with os.scandir(folder) as entries:
             for entry in entries:
                 # A file may vanish between its listing and its stat: a temporary one that was moved.
                 with suppress(FileNotFoundError):
                     if entry.is_dir(follow_symlinks=False):
                         if deep:
-                            self._collect(folder / entry.name, f"{prefix}{entry.name}/", found, deep=True)
+                            yield from self._scan(folder / entry.name, f"{prefix}{entry.name}/", deep=True)
                     else:
                         stat = entry.stat()
-                        found[prefix + entry.name] = StoredFile(stat.st_size, stat.st_mtime)
+                        yield prefix + entry.name, StoredFile(stat.st_size, stat.st_mtime)
 
     def is_empty(self) -> bool:
         """Whether the folder holds nothing; see `Storage.is_empty`."""
