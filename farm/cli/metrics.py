@@ -99,7 +99,7 @@ class _Datasets:
                 # The registry lists runs of other stores too, whose datasets are not found here.
                 with suppress(DestinationError, ConflictError, SpecError):
                     dataset = open_dataset(Destination(self._store or "", run.dataset))
-                    if dataset.header.spec_sha256 == run.spec_sha256:
+                    if dataset.identity == run.spec_sha256:
                         self._add(dataset)
         return list(self._found.values())
 

@@ -3,9 +3,10 @@
 from dataclasses import dataclass
 
 from farm.dataset.destination import Destination
-from farm.dataset.header_file import first_difference, read_header
+from farm.dataset.header_comparison import difference
+from farm.dataset.header_file import header_content, read_header
 from farm.dataset.paths import HEADER_FILE
-from farm.errors import ConflictError, DatasetMissingError, MessageError, StaleMessageError
+from farm.errors import ConflictError, DatasetMissingError, DestinationError, MessageError, StaleMessageError
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job, JobMessage
 from farm.storage import Storage, open_storage
@@ -13,15 +14,23 @@ from farm.storage import Storage, open_storage
 
 @dataclass(frozen=True, slots=True)
 class Dataset:
-    """A dataset whose header is in place."""
+    """A dataset whose header is in place.
+
+    Attributes:
+        name: name of its folder, which may be renamed or copied.
+        storage: its folder.
+        header: its header.
+        identity: SHA-256 by which manifests and messages name it; see `farm.dataset.header_file`.
+    """
 
     name: str
     storage: Storage
     header: DatasetHeader
+    identity: str
 
     def message(self, job: Job) -> JobMessage:
         """Make the message that asks a worker for one of the dataset's images."""
-        return JobMessage(dataset=self.name, spec_sha256=self.header.spec_sha256, job_id=job.id)
+        return JobMessage(dataset=self.name, spec_sha256=self.identity, job_id=job.id)
 
     def asks_for(self, job: Job) -> bool:
         """Whether the job is within the quotas."""
@@ -39,12 +48,12 @@ def open_dataset(destination: Destination) -> Dataset:
     """
     storage = open_storage(destination.location)
     try:
-        header = read_header(storage)
+        present = read_header(storage)
     except FileNotFoundError as error:
         raise DatasetMissingError(
             f"{destination.location}: no dataset here (no {HEADER_FILE}); check the path, or make one with farm run"
         ) from error
-    return Dataset(destination.name, storage, header)
+    return Dataset(destination.name, storage, present.header, present.identity)
 
 
 def open_for_message(store: str, message: JobMessage) -> Dataset:
@@ -57,10 +66,10 @@ def open_for_message(store: str, message: JobMessage) -> Dataset:
         MessageError: if it does not ask for this job.
     """
     dataset = open_dataset(Destination(store=store, name=message.dataset))
-    if dataset.header.spec_sha256 != message.spec_sha256:
+    if dataset.identity != message.spec_sha256:
         raise StaleMessageError(
             f"{message.task_id}: made for description {message.spec_sha256[:12]}, but {dataset.storage.location} holds "
-            f"{dataset.header.spec_sha256[:12]}; submit again, or give this worker the right --store"
+            f"{dataset.identity[:12]}; submit again, or give this worker the right --store"
         )
     if not dataset.asks_for(message.job):
         raise MessageError(f"{message.task_id}: outside the dataset's quotas; submit again")
@@ -69,6 +78,8 @@ def open_for_message(store: str, message: JobMessage) -> Dataset:
 
 def find_dataset(destination: Destination, header: DatasetHeader) -> Dataset | None:
     """Find the dataset with this description in its place; None if the place is free. Writes nothing.
+
+    The user's files are compared by content: their paths differ from machine to machine.
 
     Raises:
         ConflictError: if the place holds another dataset, or anything else.
@@ -83,13 +94,12 @@ def find_dataset(destination: Destination, header: DatasetHeader) -> Dataset | N
                 f"{destination.location}: holds files, but no {HEADER_FILE}; choose an empty or new folder"
             ) from None
         return None
-    if present.spec_sha256 != header.spec_sha256:
-        difference = first_difference(present.model_dump(mode="json"), header.model_dump(mode="json"))
+    if found := difference(present, header):
         raise ConflictError(
-            f"{destination.location}: holds another dataset: {difference}; repeat the first call's options to "
-            "complete it, or choose another --out"
+            f"{destination.location}: holds another dataset: {found}; repeat the first call's options to complete it, "
+            "go on with what its dataset.json says by --continue, or choose another --out"
         )
-    return Dataset(destination.name, storage, present)
+    return Dataset(destination.name, storage, present.header, present.identity)
 
 
 def create_dataset(destination: Destination, header: DatasetHeader) -> Dataset:
@@ -103,5 +113,9 @@ def create_dataset(destination: Destination, header: DatasetHeader) -> Dataset:
     if present is not None:
         return present
     storage = open_storage(destination.location)
-    storage.write(HEADER_FILE, header.model_dump_json(indent=1).encode() + b"\n")
-    return Dataset(destination.name, storage, header)
+    storage.write(HEADER_FILE, header_content(header))
+    # Of two commands that lay down different headers at once, the slower writer has the place.
+    present = find_dataset(destination, header)
+    if present is None:
+        raise DestinationError(f"{destination.location}: the {HEADER_FILE} just written is gone; submit again")
+    return present

@@ -1,18 +1,45 @@
-"""The file dataset.json: reading it, and telling how two headers differ."""
+"""The file dataset.json: writing and reading it, and a dataset's identity."""
 
 import functools
+import hashlib
 from collections.abc import Mapping
+from dataclasses import dataclass
 
+import pydantic_core
 from pydantic import ValidationError
 
+from farm import __version__
 from farm.dataset.paths import HEADER_FILE
 from farm.errors import ConflictError, SpecError
 from farm.spec.header import DatasetHeader
 from farm.spec.simulation import WITHDRAWN_FAULT
 from farm.storage import Storage
 
+_VERSION_KEY = "farm_version"
+_NO_VERSION = "an unknown release"
 
-def read_header(storage: Storage) -> DatasetHeader:
+
+@dataclass(frozen=True, slots=True)
+class WrittenHeader:
+    """A header as it stands in `dataset.json`.
+
+    Attributes:
+        header: the header, with the defaults of this release where the file lacks a key.
+        identity: SHA-256 by which manifests and messages name the dataset.
+        written: the file's values as they are, without defaults.
+    """
+
+    header: DatasetHeader
+    identity: str
+    written: Mapping[str, object]
+
+
+def header_content(header: DatasetHeader) -> bytes:
+    """Make the content of `dataset.json`."""
+    return header.model_dump_json(indent=1).encode() + b"\n"
+
+
+def read_header(storage: Storage) -> WrittenHeader:
     """Read a dataset's header; one that was read before is not parsed again.
 
     Raises:
@@ -22,7 +49,8 @@ def read_header(storage: Storage) -> DatasetHeader:
         SpecError: if it names a simulator that the farm no longer offers.
     """
     try:
-        return _parse_header(storage.read(HEADER_FILE))
+        content = storage.read(HEADER_FILE)
+        return parse_header(content)
     except ValidationError as error:
         first = error.errors(include_url=False, include_context=False, include_input=False)[0]
         where = ".".join(str(part) for part in first["loc"])
@@ -31,36 +59,36 @@ def read_header(storage: Storage) -> DatasetHeader:
                 f"{storage.location}/{HEADER_FILE}: {where}: {first['msg']}, in a dataset in another --out"
             ) from error
         raise ConflictError(
-            f"{storage.location}/{HEADER_FILE}: not readable by this version of the farm: {where}: {first['msg']}; "
-            "choose another --out"
+            f"{storage.location}/{HEADER_FILE}: written by {_release(content)}, not readable by cable-farm "
+            f"{__version__}: {where}: {first['msg']}; use that release, or choose another --out"
         ) from error
 
 
 @functools.lru_cache(maxsize=16)  # a worker reads it for each job, as it may have been replaced
-def _parse_header(content: bytes) -> DatasetHeader:
-    return DatasetHeader.model_validate_json(content)
+def parse_header(content: bytes) -> WrittenHeader:
+    """Parse the content of `dataset.json`.
+
+    The identity is taken from the values that the file holds. A release that adds keys with defaults reads the same
+    identity from the datasets of earlier ones.
+
+    Raises:
+        ValidationError: if it is no header that this release can read.
+    """
+    header = DatasetHeader.model_validate_json(content)
+    written = pydantic_core.from_json(content)
+    identity = hashlib.sha256(pydantic_core.to_json(_without_version(written))).hexdigest()
+    return WrittenHeader(header, identity, written)
 
 
-def first_difference(present: object, asked: object, where: str = "") -> str:
-    """Find the first key in which two JSON values differ, as `key is 1, asked 2`; empty if they are equal."""
-    if isinstance(present, Mapping) and isinstance(asked, Mapping):
-        for key in [*present, *(key for key in asked if key not in present)]:
-            if key == "farm_version":
-                continue
-            path = f"{where}.{key}" if where else str(key)
-            if found := first_difference(present.get(key), asked.get(key), path):
-                return found
-        return ""
-    if isinstance(present, list) and isinstance(asked, list):
-        for index, (one, other) in enumerate(zip(present, asked, strict=False)):
-            if found := first_difference(one, other, f"{where}[{index}]"):
-                return found
-        if len(present) != len(asked):
-            return f"{where} has {len(present)} entries, asked {len(asked)}"
-        return ""
-    return "" if present == asked else f"{where} is {_short(present)}, asked {_short(asked)}"
+def _without_version(written: Mapping[str, object]) -> dict[str, object]:
+    return {key: value for key, value in written.items() if key != _VERSION_KEY}
 
 
-def _short(value: object) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
+def _release(content: bytes) -> str:
+    """Name the release that wrote a header which this one can't read."""
+    try:
+        written = pydantic_core.from_json(content)
+    except ValueError:
+        return _NO_VERSION
+    version = written.get(_VERSION_KEY) if isinstance(written, Mapping) else None
+    return f"cable-farm {version[:40]!a}" if isinstance(version, str) else _NO_VERSION

@@ -125,8 +125,7 @@ def parse_manifest(content: bytes, dataset: Dataset, job: Job) -> Manifest | Non
     header = dataset.header
     belongs = (
         manifest.job_id == job.id
-        and manifest.dataset == dataset.name
-        and manifest.spec_sha256 == header.spec_sha256
+        and manifest.spec_sha256 == dataset.identity  # not by name: a dataset may be renamed or copied
         and manifest.seed == header.spec.seed
         and {folder: record.path for folder, record in manifest.files.items()}
         == {output.folder: file_path(job, output) for output in outputs_of(header.spec)}

@@ -48,7 +48,7 @@ def put_in_quarantine(dataset: Dataset, job: Job, reason: str, *, attempts: int,
     """
     record = QuarantineRecord(
         dataset=dataset.name,
-        spec_sha256=dataset.header.spec_sha256,
+        spec_sha256=dataset.identity,
         job_id=job.id,
         reason=reason if len(reason) <= _REASON_LENGTH else reason[: _REASON_LENGTH - 3] + "...",
         attempts=attempts,

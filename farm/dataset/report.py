@@ -72,7 +72,7 @@ def _page(dataset: Dataset, sections: Mapping[Category, _Section]) -> str:
         "engine": f"{spec.engine}, {spec.quality}",
         "surfaces": str(len(dataset.header.surfaces)),
         "HDRIs": str(len(dataset.header.hdris)),
-        "description": dataset.header.spec_sha256[:12],
+        "description": dataset.identity[:12],
     }
     template = Template((files("farm.dataset") / "report_template.html").read_text(encoding="utf-8"))
     return template.substitute(

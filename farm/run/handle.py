@@ -13,7 +13,7 @@ from farm.run.registry.redis import RedisRegistry
 
 def run_of(dataset: Dataset, priority: Priority = Priority.NORMAL) -> Run:
     """Describe a dataset's run as at its first submission: active, with the given priority."""
-    return Run(dataset=dataset.name, spec_sha256=dataset.header.spec_sha256, priority=priority)
+    return Run(dataset=dataset.name, spec_sha256=dataset.identity, priority=priority)
 
 
 def open_handle(dataset: Dataset, url: str, client: "redis.Redis", priority: Priority | None = None) -> RunHandle:
@@ -36,5 +36,5 @@ def open_handle(dataset: Dataset, url: str, client: "redis.Redis", priority: Pri
     present = registry.runs().get(run.key)
     if priority is None and present is not None:
         run = run.model_copy(update={"priority": present.priority})
-    ledger = RedisLedger(client, dataset.name, dataset.header.spec_sha256)
+    ledger = RedisLedger(client, dataset.name, dataset.identity)
     return RunHandle(run=run, ledger=ledger, queue=CeleryQueue(make_app(url), client), registry=registry)

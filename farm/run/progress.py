@@ -99,7 +99,7 @@ def on_disk(dataset: Dataset, done: JobSet, quarantined: Mapping[str, str]) -> P
     counts = done.counts()
     return Progress(
         location=dataset.storage.location,
-        spec_sha256=dataset.header.spec_sha256,
+        spec_sha256=dataset.identity,
         categories={
             category: CategoryProgress(done=counts[category], quota=quota)
             for category, quota in dataset.header.spec.quotas.items()

@@ -1,11 +1,8 @@
 """The header of a dataset, `dataset.json`. It is written first, and holds everything that decides the pictures."""
 
-import functools
-import hashlib
 from collections.abc import Mapping
 from typing import Annotated, Literal, Self
 
-import pydantic_core
 from pydantic import Field, model_validator
 
 from farm.model import Model, Sha256
@@ -124,7 +121,7 @@ class DatasetHeader(Model):
 
     Attributes:
         format: version of this format.
-        farm_version: version of the farm that wrote the header; it is no part of the fingerprint.
+        farm_version: version of the farm that wrote the header; it is no part of the dataset's identity.
         spec: description of the dataset.
         template: template of the pictures.
         surfaces: floor surfaces that scenes choose from.
@@ -142,9 +139,3 @@ class DatasetHeader(Model):
     hdris: Annotated[tuple[HdriRef, ...], Field(min_length=1)]
     plates: tuple[PlateRef, ...] = ()
     rendering: Mapping[Category, ChosenSettings] = {}
-
-    @functools.cached_property  # every message holds it
-    def spec_sha256(self) -> str:
-        """Fingerprint of everything that decides the pictures: SHA-256 of the header without the farm's version."""
-        content = self.model_dump(mode="json", exclude={"farm_version"})
-        return hashlib.sha256(pydantic_core.to_json(content)).hexdigest()

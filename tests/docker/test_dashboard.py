@@ -19,7 +19,7 @@ _DASHBOARD = Path(__file__).parents[2] / "docker/grafana/cable-farm.json"
 
 def test_every_metric_of_the_dashboard_is_served(dataset: Dataset) -> None:
     """Each name in a panel's query is a metric of the collector."""
-    run = Run(dataset=dataset.name, spec_sha256=dataset.header.spec_sha256)
+    run = Run(dataset=dataset.name, spec_sha256=dataset.identity)
     handle = RunHandle(run=run, ledger=MemoryLedger(), queue=MemoryQueue(), registry=MemoryRegistry())
     registry = CollectorRegistry(auto_describe=False)
     registry.register(FarmCollector(lambda: [(dataset, handle)], handle.registry))

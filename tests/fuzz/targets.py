@@ -124,7 +124,7 @@ def _header(data: bytes) -> None:
     folder = _folder() / "fuzzed" / "cables"
     folder.mkdir(parents=True, exist_ok=True)
     (folder / HEADER_FILE).write_bytes(data)
-    assert len(open_dataset(Destination(str(folder.parent), "cables")).header.spec_sha256) == 64
+    assert len(open_dataset(Destination(str(folder.parent), "cables")).identity) == 64
 
 
 def _manifest(data: bytes) -> None:

@@ -76,7 +76,7 @@ class BlenderRenderer:
         cv2.setNumThreads(settings.threads or -1)
         self._library = library
         self._image_cache = ImageCache()
-        self._fingerprint = header.spec_sha256
+        self._header = header
         self._open_s = time.perf_counter() - start
 
     def make(self, job: Job, header: DatasetHeader) -> Picture:
@@ -88,7 +88,7 @@ class BlenderRenderer:
             AssetError: if a texture or HDRI can't be had.
             RenderError: if Blender gives no picture.
         """
-        if header.spec_sha256 != self._fingerprint:
+        if header != self._header:
             raise ValueError("this renderer was opened for another dataset")
         watch = Stopwatch()  # its stages have the names that manifests hold
         # Opening is paid once, by the first picture of the process.

@@ -31,7 +31,7 @@ class KeptRenderer:
     def __init__(self, open_renderer: OpenRenderer, settings: RendererSettings) -> None:
         self._open_renderer = open_renderer
         self._settings = settings
-        self._fingerprint = ""
+        self._header: DatasetHeader | None = None
         self._renderer: Renderer | None = None
 
     def make(self, job: Job, header: DatasetHeader) -> Picture:
@@ -56,10 +56,10 @@ class KeptRenderer:
             raise defect(job, error) from error
 
     def _renderer_for(self, header: DatasetHeader) -> Renderer:
-        if self._renderer is None or self._fingerprint != header.spec_sha256:
+        if self._renderer is None or self._header != header:
             self._renderer = None  # two open templates at once would need twice the memory
             self._renderer = self._opened(header)
-            self._fingerprint = header.spec_sha256
+            self._header = header
         return self._renderer
 
     def _opened(self, header: DatasetHeader) -> Renderer:

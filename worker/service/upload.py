@@ -82,7 +82,7 @@ def _write(made: Picture, job: Job, dataset: Dataset, guard: Guard) -> Manifest:
         files[output.folder] = file_record(path, content)
     manifest = Manifest(
         dataset=dataset.name,
-        spec_sha256=dataset.header.spec_sha256,
+        spec_sha256=dataset.identity,
         job_id=job.id,
         seed=dataset.header.spec.seed,
         scene=made.scene,

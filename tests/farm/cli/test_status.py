@@ -40,7 +40,7 @@ def test_status(farm: Farm, made: Dataset) -> None:
 @pytest.mark.redis
 def test_status_names_the_last_picture(farm: Farm, made: Dataset, redis_url: str, redis_client: "redis.Redis") -> None:
     """Even for a finished dataset, the newest picture's path can be opened from anywhere."""
-    ledger = RedisLedger(redis_client, made.name, made.header.spec_sha256)
+    ledger = RedisLedger(redis_client, made.name, made.identity)
     ledger.claim("far-000001", "a:1")
     ledger.finish("far-000001", "a:1", "far/images/far-000001.png")
     result = farm("status", made.storage.location, "--broker", redis_url)

@@ -43,7 +43,7 @@ def test_record_tells_how_to_go_on(dataset: Dataset) -> None:
     give_up(dataset)
     found = record(dataset)
     assert (found.dataset, found.job_id, found.attempts, found.worker) == ("cables", JOB.id, 3, "host:1")
-    assert found.spec_sha256 == dataset.header.spec_sha256
+    assert found.spec_sha256 == dataset.identity
     assert found.log == "the end"
     assert found.replay == f"farm replay {dataset.storage.location} {JOB.id}"
 

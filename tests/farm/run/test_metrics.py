@@ -50,7 +50,7 @@ def values_of(collector: FarmCollector) -> Values:
 @pytest.fixture
 def handle(dataset: Dataset) -> RunHandle:
     """A run in memory."""
-    run = Run(dataset=dataset.name, spec_sha256=dataset.header.spec_sha256)
+    run = Run(dataset=dataset.name, spec_sha256=dataset.identity)
     return RunHandle(run=run, ledger=MemoryLedger(), queue=MemoryQueue(), registry=MemoryRegistry())
 
 

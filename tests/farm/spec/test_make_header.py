@@ -8,6 +8,8 @@ from pydantic import ValidationError
 
 from assets.environments import ENVIRONMENTS
 from farm.cli.installed_assets import InstalledAssets
+from farm.dataset.header_comparison import difference
+from farm.dataset.header_file import header_content, parse_header
 from farm.errors import AssetError, SpecError, TemplateError
 from farm.spec.category import Category
 from farm.spec.dataset_spec import DatasetSpec
@@ -90,7 +92,7 @@ def test_photographs_decide_the_pictures(spec: DatasetSpec, template: Path) -> N
     """Other photographs make another dataset."""
     without = make_header(spec, Inputs(template), Shelf())
     with_one = make_header(spec, Inputs(template, backgrounds=(Path("lab"),)), Shelf())
-    assert without.spec_sha256 != with_one.spec_sha256
+    assert difference(parse_header(header_content(without)), with_one)
 
 
 def test_one_photograph_twice(spec: DatasetSpec, template: Path) -> None:
@@ -152,7 +154,7 @@ def test_content_of_the_template_counts(spec: DatasetSpec, template: Path) -> No
     template.write_bytes(b"BLENDER-v406")
     after = make_header(spec, Inputs(template), Shelf())
     assert before.template.path == after.template.path == str(template)
-    assert before.spec_sha256 != after.spec_sha256
+    assert difference(parse_header(header_content(before)), after)
 
 
 def test_template_that_is_a_folder(spec: DatasetSpec, tmp_path: Path) -> None:

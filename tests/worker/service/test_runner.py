@@ -447,7 +447,7 @@ def test_header_that_this_worker_cannot_read(dataset: Dataset, runner: JobRunner
     good = dataset.storage.read("dataset.json")
     dataset.storage.write("dataset.json", content)
     for _ in range(MAX_STARTS + 1):
-        with pytest.raises(UnfitWorkerError, match="not readable by this version"):
+        with pytest.raises(UnfitWorkerError, match="not readable by cable-farm"):
             runner.run(dataset.message(JOB).encode())
     dataset.storage.write("dataset.json", good)
     assert runner.run(dataset.message(JOB).encode()).made

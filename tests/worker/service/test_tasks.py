@@ -44,7 +44,7 @@ def run(redis_client: "redis.Redis", dataset: Dataset) -> Run:
 @pytest.fixture
 def ledger(redis_client: "redis.Redis", dataset: Dataset) -> RedisLedger:
     """The dataset's ledger."""
-    return RedisLedger(redis_client, dataset.name, dataset.header.spec_sha256)
+    return RedisLedger(redis_client, dataset.name, dataset.identity)
 
 
 @pytest.fixture

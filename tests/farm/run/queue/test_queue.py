@@ -105,7 +105,7 @@ def test_message_on_the_wire(
     envelope = json.loads(page[0])
     assert envelope["content-type"] == "application/json"
     assert envelope["headers"]["task"] == TASK_NAME
-    assert envelope["headers"]["id"] == f"cables:{dataset.header.spec_sha256[:12]}:far-000000"
+    assert envelope["headers"]["id"] == f"cables:{dataset.identity[:12]}:far-000000"
     _, keywords, _ = json.loads(base64.b64decode(envelope["body"]))
     assert keywords == {"message": messages(dataset, 1)[0].encode()}
     assert dataset.storage.location not in page[0]

@@ -1,0 +1,75 @@
+"""Tells how a dataset's header differs from the one that a user asks for."""
+
+from collections.abc import Mapping
+
+from farm.dataset.header_file import WrittenHeader
+from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, FolderSurfaceRef
+
+
+def difference(present: WrittenHeader, asked: DatasetHeader) -> str:
+    """Find the first thing in which a dataset is not what is asked, as `key is 1, asked 2`; empty if there is none.
+
+    The user's files count by name and content, not by path. Where another release wrote the header, only what a user
+    decides counts: what that release resolved otherwise, such as built-in surfaces or samples, stays as it is written.
+    """
+    if present.header.farm_version == asked.farm_version:
+        return first_difference(_without_paths(present.header), _without_paths(asked))
+    spec = asked.spec.model_dump(mode="json")
+    return first_difference({"spec": present.written["spec"]}, {"spec": spec}, added=False) or first_difference(
+        _files_of_user(present.header), _files_of_user(asked)
+    )
+
+
+def _without_paths(header: DatasetHeader) -> object:
+    return _without("path", header.model_dump(mode="json", exclude={"farm_version"}))
+
+
+def _without(key: str, value: object) -> object:
+    """Leave a key out of a JSON value, at every depth."""
+    if isinstance(value, Mapping):
+        return {name: _without(key, inner) for name, inner in value.items() if name != key}
+    return [_without(key, inner) for inner in value] if isinstance(value, list) else value
+
+
+def _files_of_user(header: DatasetHeader) -> dict[str, object]:
+    """The files that a user named, by content, and whether built-in ones take part."""
+    surfaces = [surface for surface in header.surfaces if isinstance(surface, FolderSurfaceRef)]
+    return {
+        "template": None if header.template.path is None else header.template.sha256,
+        "textures": {entry.name: {role: file.sha256 for role, file in entry.files.items()} for entry in surfaces},
+        "hdris": {hdri.name: hdri.sha256 for hdri in header.hdris if hdri.path is not None},
+        "backgrounds": {plate.name: plate.sha256 for plate in header.plates},
+        "builtin_textures": any(isinstance(surface, BuiltinSurfaceRef) for surface in header.surfaces),
+        "builtin_hdris": any(hdri.path is None and hdri.sha256 is not None for hdri in header.hdris),
+        "environments": any(hdri.recipe_version is not None for hdri in header.hdris),
+    }
+
+
+def first_difference(present: object, asked: object, where: str = "", *, added: bool = True) -> str:
+    """Find the first key in which two JSON values differ, as `key is 1, asked 2`; empty if they are equal.
+
+    Args:
+        present: the one value.
+        asked: the other.
+        where: path of keys to the two.
+        added: whether a key that only `asked` has is a difference.
+    """
+    if isinstance(present, Mapping) and isinstance(asked, Mapping):
+        for key in [*present, *(key for key in asked if added and key not in present)]:
+            path = f"{where}.{key}" if where else str(key)
+            if found := first_difference(present.get(key), asked.get(key), path, added=added):
+                return found
+        return ""
+    if isinstance(present, list) and isinstance(asked, list):
+        for index, (one, other) in enumerate(zip(present, asked, strict=False)):
+            if found := first_difference(one, other, f"{where}[{index}]", added=added):
+                return found
+        if len(present) != len(asked):
+            return f"{where} has {len(present)} entries, asked {len(asked)}"
+        return ""
+    return "" if present == asked else f"{where} is {_short(present)}, asked {_short(asked)}"
+
+
+def _short(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
