@@ -8,6 +8,7 @@ or is no object at all, and counts for nothing.
 
 from farm.storage.local import LocalStorage
 from farm.storage.location import open_storage, refuse_credentials
+from farm.storage.many import in_order
 from farm.storage.objects import ObjectStorage
 from farm.storage.port import TEMPORARY_PREFIX, Storage, StoredFile, is_temporary
 from farm.storage.streams import read_parts, scan, write_parts
@@ -18,6 +19,7 @@ __all__ = [
     "ObjectStorage",
     "Storage",
     "StoredFile",
+    "in_order",
     "is_temporary",
     "open_storage",
     "read_parts",

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
+from farm.storage.many import AT_A_TIME
+
 Options = Mapping[str, Any]
 
 _NO_OPTIONS: Options = MappingProxyType({})
@@ -53,9 +55,6 @@ the answer forever.
 _SLOWEST_BYTES_S = 50_000.0
 """Bytes a second of the slowest line over which a put is waited for."""
 
-CONNECTIONS = 32
-"""Connections to an object store that one process keeps open at most: as many requests are answered at a time."""
-
 _PART_BYTES = 8 * 1024 * 1024
 """Bytes in a part of an object; one of two parts at least is sent in parts, which the store joins once it has all."""
 
@@ -88,7 +87,7 @@ _S3 = Service(
     # The AWS client's own attempts, AWS_MAX_ATTEMPTS, are within each.
     retries=2,
     # The client's own number, 10, would hold up the reads of many manifests.
-    open_options=MappingProxyType({"config_kwargs": {"max_pool_connections": CONNECTIONS}}),
+    open_options=MappingProxyType({"config_kwargs": {"max_pool_connections": AT_A_TIME}}),
     pages=_s3_pages,
     # A get is one request, not two with its size asked first; and it tells a missing object from a missing bucket.
     get_options=MappingProxyType({"max_concurrency": 1}),

@@ -177,7 +177,7 @@ def synthetic_dataset(images: int, latency_s: float, folder: Path) -> tuple[Data
             scene = picture.scene.model_copy(update={"cables": picture.scene.cables * _CABLES})
             upload(replace(picture, scene=scene), job, sample)
         storage = SyntheticStorage(sample, each, latency_s, LocalStorage(folder))
-    return Dataset("cables", storage, header), storage
+    return replace(sample, storage=storage), storage
 
 
 def _status(dataset: Dataset) -> int:

@@ -2,7 +2,7 @@
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from operator import attrgetter
 from pathlib import Path
@@ -213,12 +213,12 @@ class GrowingStorage(LocalStorage):
         self._watched = watched
         self._act: Callable[[], None] | None = act
 
-    def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
-        """Implement `Storage.files`."""
+    def scan(self, under: str = "", *, deep: bool = True) -> Iterator[tuple[str, StoredFile]]:
+        """Implement `Streams.scan`."""
         if under == self._watched and self._act is not None:
             act, self._act = self._act, None
             act()
-        return super().files(under, deep=deep)
+        return super().scan(under, deep=deep)
 
 
 def test_job_that_is_made_during_an_audit(dataset: Dataset) -> None:
