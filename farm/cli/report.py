@@ -9,9 +9,8 @@ from farm.cli.options import DatasetPlace
 from farm.dataset.contact_sheet import make_contact_sheet
 from farm.dataset.dataset import open_dataset
 from farm.dataset.destination import parse_destination
-from farm.dataset.index import write_index
 from farm.dataset.paths import INDEX_FILE, REPORT_FILE
-from farm.dataset.report import write_report
+from farm.dataset.report import write_overview
 from farm.storage import open_storage
 
 _SHEET_EDGE_PX = 192
@@ -26,8 +25,7 @@ def report(
 ) -> None:
     """Write report.html, the pictures beside their masks, and index.jsonl."""
     dataset = open_dataset(parse_destination(place))
-    write_index(dataset)
-    count = write_report(dataset, pictures_per_category=pictures)
+    count = write_overview(dataset, pictures_per_category=pictures)
     location = dataset.storage.location
     if sheet is not None:
         open_storage(str(sheet.parent)).write(

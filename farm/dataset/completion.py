@@ -201,7 +201,7 @@ class Completion:
             self._damaged[category] = np.where(members, damaged[category], self._damaged[category])
         self.look()
         self._temporary = temporary
-        self._save()
+        self.save()
         return self.done
 
     def _wrong_sizes(
@@ -237,8 +237,8 @@ class Completion:
             else:
                 damaged[index] = True
 
-    def _save(self) -> None:
-        """Save the memory if much of it is new, for the next command."""
+    def save(self) -> None:
+        """Save the memory for the next command, if much of it is new."""
         known = sum(int(np.count_nonzero(rows["state"])) for rows in self.memory.rows.values())
         if self.memory.unsaved >= max(self._save_after, known // _SAVE_SHARE):
             self.memory.save()

@@ -4,6 +4,7 @@ As a program, `python -m tests.load.synthetic COMMAND IMAGES LATENCY_MS FOLDER`,
 and prints what that took as JSON.
 """
 
+import io
 import json
 import resource
 import sys
@@ -11,6 +12,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import redirect_stdout
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -34,6 +36,9 @@ _PAGE = 1000
 
 _CABLES = 5
 """Cables in each scene, about as many as a picture of the farm has."""
+
+_STAGES = ("open", "randomize", "simulate", "mask", "render", "write")
+"""Stages whose seconds each manifest tells."""
 
 _WRITTEN_S = 1.7e9
 """Time of every file's last change, in seconds of the Unix epoch."""
@@ -169,13 +174,16 @@ def synthetic_dataset(images: int, latency_s: float, folder: Path) -> tuple[Data
     """
     each = -(-images // len(Category))
     header = stand_in_header(**{str(category): each for category in Category})
-    with tempfile.TemporaryDirectory(prefix="cable-farm-") as temporary:
+    with tempfile.TemporaryDirectory(prefix="cable-farm-") as temporary, redirect_stdout(io.StringIO()):
         sample = create_dataset(Destination(temporary, "cables"), header)
         for category in Category:
             job = Job(category=category, index=0)
             picture = StandInRenderer().make(job, header)
             scene = picture.scene.model_copy(update={"cables": picture.scene.cables * _CABLES})
-            upload(replace(picture, scene=scene), job, sample)
+            manifest = upload(replace(picture, scene=scene), job, sample)
+            # Measured seconds would make manifests of another size in each process.
+            same = manifest.model_copy(update={"timings_s": {stage: 0.25 for stage in _STAGES}})
+            sample.storage.write(manifest_path(job), same.model_dump_json(indent=1).encode())
         storage = SyntheticStorage(sample, each, latency_s, LocalStorage(folder))
     return replace(sample, storage=storage), storage
 
