@@ -13,13 +13,18 @@ from farm.dataset.paths import INDEX_FILE, REPORT_FILE
 from farm.dataset.report import write_overview
 from farm.storage import open_storage
 
+_MOST_PICTURES = 10_000
+"""Pictures of each category that a page may show: with more, browsers take minutes to lay it out."""
+
 _SHEET_EDGE_PX = 192
 """Edge of a picture on the contact sheet, in pixels."""
 
 
 def report(
     place: DatasetPlace,
-    pictures: Annotated[int, typer.Option(min=0, help="Pictures of each category on the page.")] = 40,
+    pictures: Annotated[
+        int, typer.Option(min=0, max=_MOST_PICTURES, help="Pictures of each category on the page.")
+    ] = 40,
     sheet: Annotated[Path | None, typer.Option(help="JPEG file for a contact sheet, if one is wanted.")] = None,
     columns: Annotated[int, typer.Option(min=1, max=40, help="Pictures of each category on the sheet.")] = 4,
 ) -> None:

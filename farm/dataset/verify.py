@@ -4,7 +4,9 @@ import hashlib
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from enum import StrEnum
+from operator import attrgetter
 from typing import Any
 
 from farm.dataset.completion import STALE_TEMPORARY_S
@@ -40,8 +42,9 @@ class Fault(StrEnum):
     ALTERED = "altered"
 
 
-class Finding(Model):
-    """One file that is not as it should be."""
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One file that is not as it should be. A dataset in the making may have millions, so it is no `Model`."""
 
     fault: Fault
     path: str
@@ -91,11 +94,14 @@ def verify(dataset: Dataset, on_checked: Callable[[int], None] = lambda _: None)
             clean += not found
         on_checked(count)
     findings += _extra(dataset, scan(dataset.storage))
+    # One key for both would make a pair for each finding.
+    findings.sort(key=attrgetter("path"))
+    findings.sort(key=attrgetter("fault"))
     return Verdict(
         location=dataset.storage.location,
         images=clean,
         quota=dataset.header.spec.total,
-        findings=tuple(sorted(findings, key=lambda finding: (finding.fault, finding.path))),
+        findings=tuple(findings),
         quarantined=quarantined,
     )
 

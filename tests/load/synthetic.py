@@ -182,7 +182,7 @@ def synthetic_dataset(images: int, latency_s: float, folder: Path) -> tuple[Data
             scene = picture.scene.model_copy(update={"cables": picture.scene.cables * _CABLES})
             manifest = upload(replace(picture, scene=scene), job, sample)
             # Measured seconds would make manifests of another size in each process.
-            same = manifest.model_copy(update={"timings_s": {stage: 0.25 for stage in _STAGES}})
+            same = manifest.model_copy(update={"timings_s": dict.fromkeys(_STAGES, 0.25)})
             sample.storage.write(manifest_path(job), same.model_dump_json(indent=1).encode())
         storage = SyntheticStorage(sample, each, latency_s, LocalStorage(folder))
     return replace(sample, storage=storage), storage
@@ -194,7 +194,7 @@ def _status(dataset: Dataset) -> int:
 
 def _overview(dataset: Dataset) -> int:
     write_overview(dataset)
-    with (dataset.storage._folder._root / "index.jsonl").open("rb") as lines:  # type: ignore[attr-defined]  # noqa: SLF001 - the double's own folder
+    with (dataset.storage._folder._root / "index.jsonl").open("rb") as lines:  # type: ignore[attr-defined]
         return sum(1 for _ in lines)
 
 
