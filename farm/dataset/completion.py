@@ -168,7 +168,7 @@ class Completion:
             index = index_at(path, folder, category, suffix)
             if index is not None and index < len(listing.files):
                 shown = (size_in_row(stored.bytes), stored.modified_s, mark_of(stored.tag))
-                listing.files[index] = shown[: len(kind)]
+                listing.files[index] = shown[: len(kind.names or ())]
             elif is_temporary(path) and path.rpartition("/")[0] == folder:
                 listing.temporary[path] = stored
         return listing
