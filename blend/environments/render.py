@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import bpy
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -24,10 +23,11 @@ from assets.environments import (
     missing_environments,
 )
 from assets.files import read_bounded, sha256, write_atomically
-from assets.scan.float_image import read_float_image, write_float_image
+from assets.scan.float_image import write_float_image
 from assets.scan.hdris import mean_luminance
 from blend.devices import choose_device
 from blend.environments.build import build_environment
+from blend.rendered import read_plain_exr, render_file
 from farm.errors import AssetError, RenderError
 from farm.run.worker_settings import DeviceChoice
 
@@ -113,16 +113,7 @@ def _render(scene: Any, pixels: int, first: int, last: int) -> NDArray[np.float3
     render.border_min_x, render.border_max_x = 0.0, 1.0
     # Blender's rows go up. It cuts rows off in single precision, of which a quarter of a row is clear.
     render.border_min_y, render.border_max_y = ((rows - row + 0.25) / rows for row in (last, first))
-    with tempfile.TemporaryDirectory(prefix="cable-farm-") as made:
-        target = Path(made) / PANORAMA_NAME
-        render.filepath = str(target)
-        try:
-            bpy.ops.render.render(write_still=True, scene=scene.name)
-        except RuntimeError as error:
-            raise RenderError(f"Blender failed to render a panorama: {' '.join(str(error).split())}") from error
-        if not target.is_file():
-            raise RenderError("Blender ended a render without writing a panorama; see the worker's log")
-        light = read_float_image(target)
+    light = read_plain_exr(render_file(scene))
     if light.shape != (last - first, pixels, 3):
         raise RenderError(
             f"Blender rendered {light.shape[1]} x {light.shape[0]} pixels of a panorama; install bpy 4.5 afresh"
@@ -201,10 +192,15 @@ def write_environment(folder: Path, recipe: EnvironmentRecipe, light: NDArray[np
     """
     directory = environment_directory(folder, recipe.name)
     path = directory / PANORAMA_NAME
-    with tempfile.TemporaryDirectory(prefix="cable-farm-") as made:
-        written = Path(made) / PANORAMA_NAME
-        back = write_float_image(written, light)
-        data = read_bounded(written)
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        # Beside its place: there must be room anyhow, and no other folder is needed.
+        with tempfile.TemporaryDirectory(prefix=".making-", dir=directory) as made:
+            written = Path(made) / PANORAMA_NAME
+            back = write_float_image(written, light)
+            data = read_bounded(written)
+    except OSError as error:
+        raise AssetError(f"{directory}: can't be written ({error.strerror}); choose another folder") from error
     if back.shape != light.shape or not np.isfinite(back).all():
         raise RenderError(f"{path}: it does not read back as it was written; install OpenImageIO afresh")
     record = EnvironmentRecord(
@@ -217,7 +213,6 @@ def write_environment(folder: Path, recipe: EnvironmentRecipe, light: NDArray[np
     )
     text = json.dumps(record.model_dump(mode="json"), indent=2) + "\n"
     try:
-        directory.mkdir(parents=True, exist_ok=True)
         write_atomically(path, data)
         write_atomically(directory / RECORD_NAME, text.encode())
     except OSError as error:

@@ -1,6 +1,7 @@
 """`farm verify`: checks every file of a dataset against its manifest."""
 
 from collections import Counter
+from collections.abc import Callable, Sequence
 
 import typer
 from rich.progress import Progress
@@ -9,12 +10,22 @@ from farm.cli.display import console
 from farm.cli.options import AsJson, DatasetPlace
 from farm.dataset.dataset import open_dataset
 from farm.dataset.destination import parse_destination
-from farm.dataset.verify import Verdict
+from farm.dataset.verify import Fault, Verdict
 from farm.dataset.verify import verify as verify_dataset
 from farm.errors import IncompleteError, VerificationError
 
 _SHOWN = 50
 """Findings listed at most in the error message; `--json` lists all."""
+
+_REMEDIES: Sequence[tuple[frozenset[Fault], Callable[[str], str]]] = (
+    (
+        frozenset({Fault.TRUNCATED, Fault.ALTERED}),
+        lambda place: f"farm repair --checksums {place} has the damaged pictures made again",
+    ),
+    (frozenset({Fault.MISSING}), lambda _: "run or submit it again to make what is missing"),
+    (frozenset({Fault.EXTRA}), lambda _: "the farm never uses extra files, and leaves them alone: they may be yours"),
+)
+"""What to do about findings, by their faults. None removes a file that may be anybody's data."""
 
 
 def verify(place: DatasetPlace, as_json: AsJson = False) -> None:
@@ -40,8 +51,9 @@ def verify(place: DatasetPlace, as_json: AsJson = False) -> None:
 def _summary(verdict: Verdict, *, listed: bool) -> str:
     counts = Counter(finding.fault for finding in verdict.findings)
     words = ", ".join(f"{count} {fault}" for fault, count in counts.items())
-    remedy = "remove the altered and extra files, then run or submit it again to make what is missing"
-    lines = [f"{verdict.location}: {words}; {verdict.images} of {verdict.quota} images are as they should be; {remedy}"]
+    remedies = "; ".join(remedy(verdict.location) for faults, remedy in _REMEDIES if faults & counts.keys())
+    sound = f"{verdict.images} of {verdict.quota} images are as they should be"
+    lines = [f"{verdict.location}: {words}; {sound}; {remedies}"]
     if listed:
         findings = verdict.findings
         lines += [f"  {finding.fault}: {finding.path} ({finding.detail})" for finding in findings[:_SHOWN]]

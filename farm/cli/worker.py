@@ -1,7 +1,6 @@
 """`farm worker`: take jobs and make their pictures until told to stop."""
 
 import os
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -22,7 +21,7 @@ from farm.run.worker_settings import (
     RendererSettings,
     WorkerSettings,
 )
-from farm.storage import open_storage
+from farm.storage import find_folder, open_storage
 
 
 def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
@@ -56,7 +55,7 @@ def worker(  # noqa: PLR0913, PLR0917 - every option is a parameter
     require_blender()
     url = broker_url(broker)
     wait_for(url, broker_wait_s)
-    store = store if "://" in store else str(Path(store).expanduser().resolve())
+    store = store if "://" in store else str(find_folder(store))
     open_storage(store).is_empty()  # it may be empty or not there yet, but must be readable
     check_device(device, log_folder(logs))
     bake(SURFACES, assets, console())

@@ -5,10 +5,11 @@ import importlib.util
 import os
 import subprocess
 import sys
-import tempfile
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
+from farm.aside import Aside
 from farm.errors import MachineError, RenderError, error_of
 from farm.local.workers import WORKER_COMMAND
 from farm.run.queue.broker import BROKER_VARIABLE
@@ -72,21 +73,26 @@ def ask_worker(
     """
     settings = renderer or RendererSettings()
     command = [*WORKER_COMMAND, *arguments, "--renderer", settings.as_argument(), "--logs", str(logs)]
-    # Errors go into a file: a pipe could fill up while the lines of the other are read.
-    with tempfile.TemporaryFile() as errors:
-        with subprocess.Popen(  # noqa: S603 - our own program and arguments
-            command, stdin=subprocess.PIPE, stdout=None if told is None else subprocess.PIPE, stderr=errors
-        ) as process:
-            _hand_over(process, b"" if header is None else header.model_dump_json().encode())
-            for line in process.stdout or ():
-                if told is not None:
-                    told(line.decode(errors="replace").rstrip("\n"))
-        errors.seek(0)
-        said = errors.read()
+    with subprocess.Popen(  # noqa: S603 - our own program and arguments
+        command, stdin=subprocess.PIPE, stdout=None if told is None else subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        # Errors are read aside: their pipe could fill up while the lines of the other are read.
+        errors = Aside(partial(_read_all, process))
+        errors.begin()
+        _hand_over(process, b"" if header is None else header.model_dump_json().encode())
+        for line in process.stdout or ():
+            if told is not None:
+                told(line.decode(errors="replace").rstrip("\n"))
+        errors.wait(None)
+    said = errors.answer or b""
     if process.returncode != 0:
         message = said.decode(errors="replace").strip() or f"it ended with code {process.returncode}"
         defect = RenderError(f"the worker's program failed; its log is in {logs}: {message.splitlines()[-1]}")
         raise error_of(process.returncode, message) or defect
+
+
+def _read_all(process: "subprocess.Popen[bytes]") -> bytes:
+    return b"" if process.stderr is None else process.stderr.read()
 
 
 def _hand_over(process: "subprocess.Popen[bytes]", content: bytes) -> None:

@@ -46,7 +46,7 @@ def open_dataset(destination: Destination) -> Dataset:
         ConflictError: if its header is damaged or of another version of the farm.
         SpecError: if its header names a simulator that the farm no longer offers.
     """
-    storage = open_storage(destination.location)
+    storage = open_storage(destination.location, anchor=HEADER_FILE)
     try:
         present = read_header(storage)
     except FileNotFoundError as error:
@@ -99,7 +99,8 @@ def find_dataset(destination: Destination, header: DatasetHeader) -> Dataset | N
             f"{destination.location}: holds another dataset: {found}; repeat the first call's options to complete it, "
             "go on with what its dataset.json says by --continue, or choose another --out"
         )
-    return Dataset(destination.name, storage, present.header, present.identity)
+    anchored = open_storage(destination.location, anchor=HEADER_FILE)
+    return Dataset(destination.name, anchored, present.header, present.identity)
 
 
 def create_dataset(destination: Destination, header: DatasetHeader) -> Dataset:
@@ -113,6 +114,7 @@ def create_dataset(destination: Destination, header: DatasetHeader) -> Dataset:
     if present is not None:
         return present
     storage = open_storage(destination.location)
+    # Nothing but a new header may make the folder.
     storage.write(HEADER_FILE, header_content(header))
     # Of two commands that lay down different headers at once, the slower writer has the place.
     present = find_dataset(destination, header)

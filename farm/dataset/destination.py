@@ -1,13 +1,12 @@
 """The place of a dataset: a store, and the dataset's name in it."""
 
 from dataclasses import dataclass
-from pathlib import Path
 
 from pydantic import TypeAdapter, ValidationError
 
 from farm.errors import DestinationError
 from farm.spec.job import DatasetName
-from farm.storage import refuse_credentials
+from farm.storage import find_folder, refuse_credentials
 
 _NAME: TypeAdapter[str] = TypeAdapter(DatasetName)
 
@@ -29,8 +28,8 @@ def parse_destination(out: str) -> Destination:
     """Split a place, a path or URL, into the store and the dataset's name.
 
     Raises:
-        DestinationError: if a URL names no folder in a bucket or holds credentials, or the last part can't be the name
-            of a dataset.
+        DestinationError: if a URL names no folder in a bucket or holds credentials, a path leads through a link whose
+            target is not there, or the last part can't be the name of a dataset.
     """
     if "://" in out:
         refuse_credentials(out)
@@ -40,11 +39,7 @@ def parse_destination(out: str) -> Destination:
             raise DestinationError(f"{out}: names no folder for the dataset; write {kind}://BUCKET/FOLDER")
         store = f"{kind}://{store}"
     else:
-        try:
-            path = Path(out).expanduser().resolve()
-        except (ValueError, RuntimeError, OSError) as error:
-            # A NUL byte, an unknown user's home, a ring of links.
-            raise DestinationError(f"{out!a}: no path: {error}") from error
+        path = find_folder(out)
         store, name = str(path.parent), path.name
     try:
         return Destination(store=store, name=_NAME.validate_python(name))

@@ -187,7 +187,7 @@ def _extra(dataset: Dataset, files: Iterable[tuple[str, StoredFile]]) -> Iterato
             yield Finding(fault=Fault.EXTRA, path=path, detail="belongs to no job of this dataset")
         elif now_s - stored.modified_s > STALE_TEMPORARY_S:
             # A younger one may be somebody's work in progress.
-            yield Finding(fault=Fault.EXTRA, path=path, detail="left by a killed writer; farm submit removes it")
+            yield Finding(fault=Fault.EXTRA, path=path, detail="left by a killed writer; farm submit or run removes it")
 
 
 def _known_paths(dataset: Dataset) -> Callable[[str], bool]:

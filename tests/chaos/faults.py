@@ -150,6 +150,14 @@ def _fill_disk(farm: FarmUnderTest, rng: np.random.Generator) -> Undo:
     return farm.disk.free
 
 
+def _hang_store(farm: FarmUnderTest, rng: np.random.Generator) -> Undo:
+    del rng
+    assert farm.hanging is not None, "the scenario has no store that can hang"
+    _require(not farm.hanging.hangs)
+    farm.hanging.hang()
+    return farm.hanging.answer
+
+
 def _spoil(spoil: Callable[[FarmUnderTest, str, np.random.Generator], None]) -> Strike:
     def spoil_one(farm: FarmUnderTest, rng: np.random.Generator) -> None:
         spoil(farm, _one_of(farm.manifests.seen(), rng), rng)
@@ -186,6 +194,7 @@ _STRIKES: Mapping[Fault, Strike] = {
     Fault.BLACKHOLE: _swallow,
     Fault.BLOCK_FOLDER: _block_folder,
     Fault.FILL_DISK: _fill_disk,
+    Fault.HANG_STORE: _hang_store,
     Fault.TRUNCATE_FILE: _spoil(files.truncate),
     Fault.ALTER_FILE: _spoil(files.alter),
     Fault.REMOVE_MANIFEST: _spoil(files.remove_manifest),

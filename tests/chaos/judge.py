@@ -37,11 +37,15 @@ class Claims:
         expected: bytes of each job's files.
         quarantined: the only jobs that must be given up.
         starts_of_quarantined: number of times that each of them must have been begun; None if other faults affect it.
+        workers_stay: whether no worker may have ended by itself.
+        told: words that the coordinator must have printed; empty for none.
     """
 
     expected: Expected
     quarantined: frozenset[str] = frozenset()
     starts_of_quarantined: int | None = None
+    workers_stay: bool = False
+    told: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +80,10 @@ def judge(farm: FarmUnderTest, claims: Claims) -> Judgement:
     left = unacknowledged(farm.redis.client)
     if left:
         notes.append(f"{left} messages of ended workers wait for the visibility timeout")
+    if claims.workers_stay:
+        findings += [f"{worker.name} ended by itself" for worker in farm.workers if worker.starts > 1]
+    if claims.told and not farm.coordinator.has_said(claims.told):
+        findings.append(f"the coordinator never told: {claims.told}")
     findings += [f"{name} did not end within its time when asked to" for name in farm.end()]
     farm.redis.kill()
     findings += _left_processes(farm)

@@ -7,6 +7,7 @@ from tempfile import TemporaryDirectory
 
 from tests.chaos.clock import find_faketime
 from tests.chaos.disk import small_disk
+from tests.chaos.hang import compile_library
 from tests.chaos.scenarios import Scenario
 from tests.chaos.schedule import Fault
 
@@ -19,6 +20,10 @@ def lacking() -> Mapping[Fault, str]:
     with TemporaryDirectory() as folder, small_disk(Path(folder), 1) as disk:
         if isinstance(disk, str):
             found[Fault.FILL_DISK] = disk
+    with TemporaryDirectory() as folder:
+        library = compile_library(Path(folder))
+        if isinstance(library, str):
+            found[Fault.HANG_STORE] = library
     return found
 
 
@@ -37,6 +42,10 @@ def within_means(scenario: Scenario, lacks: Mapping[Fault, str]) -> tuple[Scenar
         return None, reasons
     faults = {recipe.fault for recipe in recipes}
     reduced = replace(
-        scenario, recipes=recipes, with_clock=Fault.JUMP_CLOCK in faults, with_disk=Fault.FILL_DISK in faults
+        scenario,
+        recipes=recipes,
+        with_clock=Fault.JUMP_CLOCK in faults,
+        with_disk=Fault.FILL_DISK in faults,
+        with_hang=Fault.HANG_STORE in faults,
     )
     return reduced, reasons

@@ -19,6 +19,9 @@ _OVER_A_CLAIM_S = (CLAIM_S + 1.0, 2 * CLAIM_S)
 _OVER_ITS_MENDING_S = (CLAIM_S + 13.0, CLAIM_S + 15.0)
 """Seconds longer than a claim's term and a coordinator's patience together, so that another worker makes the job."""
 
+_OVER_THE_WATCHDOG_S = (100.0, 105.0)
+"""Seconds longer than the 90 s after which the watchdog ends a worker whose event loop is silent."""
+
 _OVER_A_RESTORING_S = (11.0, 13.0)
 """Seconds longer than the 10 s between two of Celery's looks for messages that weren't acknowledged in time."""
 
@@ -39,6 +42,9 @@ class Scenario:
         lethal: number of jobs that take their process with them, by a segmentation fault.
         with_clock: whether the scenario needs a clock that can be set wrong.
         with_disk: whether the scenario needs a small disk.
+        with_hang: whether the scenario needs a store that can hang.
+        workers_stay: whether no worker may end before it is told to.
+        told: words that the coordinator must print meanwhile; empty for none.
         patience_s: longest time that the scenario may take.
     """
 
@@ -50,6 +56,9 @@ class Scenario:
     lethal: int = 0
     with_clock: bool = False
     with_disk: bool = False
+    with_hang: bool = False
+    workers_stay: bool = False
+    told: str = ""
     patience_s: float = 120.0
 
     def for_stand_ins(self, seed: int) -> tuple[Plan, Claims]:
@@ -69,9 +78,10 @@ class Scenario:
             environment={"STAND_IN_DELAY_S": str(self.delay_s), "STAND_IN_FAILS": fails},
             with_clock=self.with_clock,
             with_disk=self.with_disk,
+            with_hang=self.with_hang,
         )
         starts = _ATTEMPTS if lethal and not self.recipes else None
-        return plan, Claims(drawn_by_stand_in(header), lethal, starts)
+        return plan, Claims(drawn_by_stand_in(header), lethal, starts, workers_stay=self.workers_stay, told=self.told)
 
 
 STORM: Sequence[Recipe] = (
@@ -87,6 +97,7 @@ STORM: Sequence[Recipe] = (
     Recipe(Fault.BLACKHOLE, 2, _SHORT_S),
     Recipe(Fault.BLOCK_FOLDER, 2, _SHORT_S),
     Recipe(Fault.FILL_DISK, 2, _SHORT_S),
+    Recipe(Fault.HANG_STORE, 2, _SHORT_S),
     Recipe(Fault.TRUNCATE_FILE, 2),
     Recipe(Fault.ALTER_FILE, 2),
     Recipe(Fault.REMOVE_MANIFEST, 2),
@@ -98,7 +109,27 @@ STORM: Sequence[Recipe] = (
 )
 
 SCENARIOS: Sequence[Scenario] = (
-    Scenario("storm", 600, STORM, workers=3, delay_s=0.1, lethal=1, with_clock=True, with_disk=True, patience_s=300.0),
+    Scenario(
+        "storm",
+        600,
+        STORM,
+        workers=3,
+        delay_s=0.1,
+        lethal=1,
+        with_clock=True,
+        with_disk=True,
+        with_hang=True,
+        patience_s=300.0,
+    ),
+    Scenario(
+        "store-hung",
+        120,
+        [Recipe(Fault.HANG_STORE, 1, _OVER_THE_WATCHDOG_S), Recipe(Fault.HANG_STORE, 2, _SHORT_S)],
+        with_hang=True,
+        workers_stay=True,
+        told="gives no answer",
+        patience_s=300.0,
+    ),
     Scenario("child-killed", 120, [Recipe(Fault.KILL_CHILD, 6)]),
     Scenario("worker-killed", 120, [Recipe(Fault.KILL_WORKER, 4)]),
     Scenario("coordinator-killed", 120, [Recipe(Fault.KILL_COORDINATOR, 4)]),

@@ -26,6 +26,7 @@ class Fault(StrEnum):
     BLACKHOLE = "swallow packets"
     BLOCK_FOLDER = "block folder"
     FILL_DISK = "fill disk"
+    HANG_STORE = "hang store"
     TRUNCATE_FILE = "truncate file"
     ALTER_FILE = "alter file"
     REMOVE_MANIFEST = "remove manifest"

@@ -114,6 +114,10 @@ class Service:
         parent = self.pid
         return [] if parent is None else sorted(pid for pid, above in living().items() if above == parent)
 
+    def has_said(self, words: str) -> bool:
+        """Whether the process has printed some words."""
+        return self._log.exists() and words in self._log.read_text(errors="replace")
+
     def last_words(self) -> str:
         """The last line that the process printed."""
         lines = self._log.read_text(errors="replace").strip().splitlines() if self._log.exists() else []

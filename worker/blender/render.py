@@ -1,7 +1,5 @@
 """Rendering the template's picture into an array, by Cycles or Eevee."""
 
-import tempfile
-from pathlib import Path
 from typing import Any
 
 import bpy
@@ -9,9 +7,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from assets.scan.float_image import read_float_image
 from blend import names
-from farm.errors import AssetError, RenderError
+from blend.rendered import read_plain_exr, render_file, save_file
+from farm.errors import RenderError
 from farm.scene.camera import Development
 from farm.spec.rendering import CyclesSettings, Denoiser, Pattern, PictureSettings
 from worker.backdrop.matte import Matte, lay_over
@@ -23,8 +21,6 @@ from worker.camera.illuminant import NEUTRAL, illuminant
 
 ADAPTIVE_LEAST_SAMPLES = 4
 """Samples of every pixel before adaptive sampling may stop."""
-
-_NOTHING_WRITTEN = "Blender ended a render without writing a picture; see the worker's log"
 
 
 def configure_picture(resolution: int, threads: int) -> Any:
@@ -135,15 +131,12 @@ def render_picture(
         RenderError: if Blender gives no picture.
     """
     scene = bpy.data.scenes[names.PICTURE_SCENE]
-    with tempfile.TemporaryDirectory(prefix="cable-farm-") as folder:
-        if matte is None and distortion == 0.0 and development is None:
-            target = Path(folder) / "picture.png"
-            _render_into(scene, target)
-            return _read(target)
-        light = _render_light(scene, matte, Path(folder))
-        if development is not None:
-            return develop(light, development, distortion=distortion, lit_by=lit_by)
-        return _view(scene, Distortion(distortion).distort(light), Path(folder))
+    if matte is None and distortion == 0.0 and development is None:
+        return _decode(render_file(scene))
+    light = _render_light(scene, matte)
+    if development is not None:
+        return develop(light, development, distortion=distortion, lit_by=lit_by)
+    return _view(scene, Distortion(distortion).distort(light))
 
 
 def render_scene(built: BuiltScene) -> NDArray[np.uint8]:
@@ -157,17 +150,8 @@ def render_scene(built: BuiltScene) -> NDArray[np.uint8]:
     )
 
 
-def _render_into(scene: Any, target: Path) -> None:
-    scene.render.filepath = str(target)
-    try:
-        bpy.ops.render.render(write_still=True, scene=scene.name)
-    except RuntimeError as error:
-        raise RenderError(f"Blender failed to render: {' '.join(str(error).split())}") from error
-
-
-def _render_light(scene: Any, matte: Matte | None, folder: Path) -> NDArray[np.float32]:
+def _render_light(scene: Any, matte: Matte | None) -> NDArray[np.float32]:
     """Render linear light (H, W, 3); with a matte the world is left out, and the backdrop is laid behind."""
-    target = folder / "light.exr"
     settings = scene.render.image_settings
     scene.render.film_transparent = matte is not None
     settings.file_format, settings.color_mode, settings.color_depth, settings.exr_codec = (
@@ -177,36 +161,30 @@ def _render_light(scene: Any, matte: Matte | None, folder: Path) -> NDArray[np.f
         "NONE",
     )
     try:
-        _render_into(scene, target)
+        light = read_plain_exr(render_file(scene))
     finally:
         scene.render.film_transparent = False
         settings.file_format, settings.color_mode, settings.color_depth, settings.compression = "PNG", "RGB", "8", 0
-    try:
-        light = read_float_image(target)
-    except AssetError as error:
-        raise RenderError(_NOTHING_WRITTEN) from error
     if matte is None:
         return light
     if light.shape[:2] != matte.covered.shape:
-        raise RenderError(_NOTHING_WRITTEN)
+        raise RenderError(f"Blender rendered {light.shape[1]} x {light.shape[0]} pixels; see the worker's log")
     return lay_over(light, matte)
 
 
-def _view(scene: Any, light: NDArray[np.float32], folder: Path) -> NDArray[np.uint8]:
+def _view(scene: Any, light: NDArray[np.float32]) -> NDArray[np.uint8]:
     """Light (H, W, 3) through the scene's view transform."""
-    target = folder / "picture.png"
     rows, columns = light.shape[:2]
     image = bpy.data.images.new("light", columns, rows, float_buffer=True)
     try:
         image.pixels.foreach_set(cv2.cvtColor(np.ascontiguousarray(light[::-1]), cv2.COLOR_RGB2RGBA).ravel())
-        image.save_render(str(target), scene=scene)
+        return _decode(save_file(image, scene))
     finally:
         bpy.data.images.remove(image)
-    return _read(target)
 
 
-def _read(path: Path) -> NDArray[np.uint8]:
-    pixels = cv2.imread(str(path), cv2.IMREAD_COLOR)
+def _decode(png: bytes) -> NDArray[np.uint8]:
+    pixels = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
     if pixels is None:
-        raise RenderError(_NOTHING_WRITTEN)
+        raise RenderError("Blender wrote a picture that is no PNG; see the worker's log")
     return cv2.cvtColor(pixels, cv2.COLOR_BGR2RGB).astype(np.uint8, copy=False)

@@ -1,11 +1,21 @@
 """The renderer of one process: opened for the first job of a dataset, kept for those that follow."""
 
+import errno
 import logging
+import os
 from collections.abc import Callable
 
 from celery.exceptions import SoftTimeLimitExceeded
 
-from farm.errors import AssetError, FarmError, MachineError, RenderError, TemplateError, UnfitWorkerError
+from farm.errors import (
+    AssetError,
+    DestinationError,
+    FarmError,
+    MachineError,
+    RenderError,
+    TemplateError,
+    UnfitWorkerError,
+)
 from farm.run.worker_settings import RendererSettings
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
@@ -16,6 +26,9 @@ log = logging.getLogger(__name__)
 OpenRenderer = Callable[[DatasetHeader, RendererSettings], Renderer]
 """Opens the renderer of a dataset in the calling process. Raises FarmError if the template, an asset or the device is
 not what it must be."""
+
+_FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS})
+"""Errors of a disk that takes no more."""
 
 _FAULTS_OF_THE_MACHINE = (AssetError, MachineError, TemplateError)
 
@@ -39,6 +52,7 @@ class KeptRenderer:
 
         Raises:
             UnfitWorkerError: if this machine can't open the renderer, or lacks what the scene shows.
+            DestinationError: if a disk that the renderer needs is full, or can't be written.
             FarmError: another failure that the renderer foresees.
             RenderError: if the renderer failed in an unforeseen way, or took longer than the time limit.
         """
@@ -53,6 +67,8 @@ class KeptRenderer:
         except SoftTimeLimitExceeded as error:
             raise RenderError("took longer than the time limit") from error
         except Exception as error:
+            if (fault := _fault_of_a_disk(error)) is not None:
+                raise fault from error
             raise defect(job, error) from error
 
     def _renderer_for(self, header: DatasetHeader) -> Renderer:
@@ -70,10 +86,22 @@ class KeptRenderer:
         except SoftTimeLimitExceeded as error:
             raise RenderError("opening the template took longer than the time limit") from error
         except Exception as error:
+            if (fault := _fault_of_a_disk(error)) is not None:
+                raise fault from error
             # Blender's libraries, the driver or the memory failed, not the job.
             log.exception("nothing can be rendered here")
             reason = f"can't open Blender: {type(error).__name__}: {error}"
             raise UnfitWorkerError(reason, MachineError.exit_code) from error
+
+
+def _fault_of_a_disk(error: Exception) -> DestinationError | None:
+    """The fault of a disk of this machine that is full or not writable: the worker waits, as for a full store."""
+    if not isinstance(error, OSError) or error.errno not in _FULL:
+        return None
+    place = error.filename or f"a file of this machine, in {os.environ.get('TMPDIR', '/tmp')} or a cache folder"  # noqa: S108 - named only
+    return DestinationError(
+        f"{place}: can't write: {error.strerror}; make room, or name other folders by TMPDIR and XDG_CACHE_HOME"
+    )
 
 
 def defect(job: Job, error: Exception) -> RenderError:

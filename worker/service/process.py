@@ -11,6 +11,7 @@ from typing import Any
 import billiard
 from celery import signals
 
+from farm.aside import patiently
 from farm.errors import FarmError
 from farm.local.tied import die_with_parent
 from farm.run.queue.broker import connect
@@ -29,6 +30,11 @@ from worker.service.runner import JobRunner
 from worker.service.supervisor import Supervisor, is_stopping, kill_group
 from worker.service.tasks import register_tasks
 from worker.service.watchdog import Observation, watch
+
+log = logging.getLogger(__name__)
+
+_SILENCE_S = 10.0
+"""Seconds between two lines that say that the store gives no answer at the worker's start."""
 
 _LOG_FORMAT = "%(asctime)s %(levelname)s %(process)d %(message)s"
 
@@ -49,10 +55,15 @@ def serve(settings: WorkerSettings, broker_url: str, open_renderer: OpenRenderer
         DestinationError: if the store can't be read, or the log folder can't be made.
         FarmError: the fault that made this worker unfit, once it has given its job back.
     """
-    connect(broker_url).close()
-    open_storage(settings.store).is_empty()  # it may be empty or not there yet, but must be readable
-    log_file = prepare_log(settings.logs, f"{settings.name}.log")
     logging.basicConfig(level=logging.INFO, format=_LOG_FORMAT)
+    connect(broker_url).close()
+    # It may be empty or not there yet, but must be readable.
+    patiently(
+        open_storage(settings.store).is_empty,
+        lambda _: log.warning("%s: gives no answer; is its file server there? waiting for it", settings.store),
+        every_s=_SILENCE_S,
+    )
+    log_file = prepare_log(settings.logs, f"{settings.name}.log")
     install()
     name = f"{settings.name}@{os.uname().nodename}"
     redis = RedisOfProcess(broker_url)

@@ -16,7 +16,9 @@ from celery import bootsteps
 from celery.worker import state
 from kombu.entity import Queue
 
+from farm.aside import Aside
 from farm.errors import BrokerError, DestinationError, MessageError, RenderError, UnfitWorkerError
+from farm.run.ledger.owner import process_of_this_machine
 from farm.run.ledger.port import LedgerFactory
 from farm.run.queue.settings import QUEUE, queue_name
 from farm.run.registry.port import RunRegistry, RunState, WorkerReport, WorkerState
@@ -65,6 +67,8 @@ class Supervisor:
         self._open_ledger = open_ledger
         self._backoff = backoff
         self._logs = logs
+        # Logs may lie on a file server, too.
+        self._bounding = Aside(self._bound_logs)
         self._most_bytes = _KILL_RATIO * memory_per_child_kib * 1024
         self._consumer: Any = None
         self._joined: set[str] = set()
@@ -109,7 +113,7 @@ class Supervisor:
             # Celery notices the lost connection as well, and connects again.
             log.warning("%s", error)
         self._keep_memory()
-        self._bound_logs()
+        self._bounding.begin()
 
     def _join(self, wanted: set[str]) -> None:
         for name in sorted(self._joined - wanted):
@@ -174,6 +178,11 @@ class Supervisor:
             kill_group(request.worker_pid)
         try:
             message = JobMessage.decode((request.kwargs or {}).get("message"))
+            if self._backoff.store_hangs:
+                # It waited for its store until the time limit: neither the job nor this worker is at fault.
+                owner = process_of_this_machine(request.worker_pid)
+                self._open_ledger(message.dataset, message.spec_sha256).give_back(message.job_id, owner)
+                return
             self._logs.bound(message)
             printed = self._logs.tail(message)
             ledger = self._open_ledger(message.dataset, message.spec_sha256)

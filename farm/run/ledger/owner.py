@@ -10,7 +10,12 @@ from farm.run.ledger.port import Ledger
 
 def this_process() -> str:
     """Name the calling process as an owner of claims."""
-    return f"{machine_name()}:{os.getpid()}"
+    return process_of_this_machine(os.getpid())
+
+
+def process_of_this_machine(process_id: int) -> str:
+    """Name a process of this machine as an owner of claims."""
+    return f"{machine_name()}:{process_id}"
 
 
 def is_gone(owner: str) -> bool:

@@ -1,6 +1,11 @@
 """`farm verify`."""
 
 import json
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
 
 from farm.dataset.dataset import Dataset
 from farm.dataset.index import write_index
@@ -10,6 +15,8 @@ from farm.dataset.quarantine import put_in_quarantine
 from farm.errors import IncompleteError, VerificationError
 from farm.spec.job import Job
 from tests.farm.cli.result import Farm, assert_refused
+
+IMAGE_PATH = "far/images/far-000001.png"
 
 
 def test_verify_clean(farm: Farm, made: Dataset) -> None:
@@ -35,6 +42,25 @@ def test_verify_finds(farm: Farm, made: Dataset) -> None:
         "far/masks/far-000001.png",
         "far/stray.txt",
     }
+
+
+@pytest.mark.parametrize(
+    ("spoil", "advice"),
+    [
+        (lambda folder: os.truncate(folder / IMAGE_PATH, 20), "farm repair --checksums {} has the damaged pictures"),
+        (lambda folder: (folder / IMAGE_PATH).write_bytes(b"x" * 9999), "farm repair --checksums {} has the damaged"),
+        (lambda folder: (folder / IMAGE_PATH).unlink(), "run or submit it again"),
+        (lambda folder: (folder / "mine").mkdir() or (folder / "mine/1").write_text(""), "they may be yours"),
+    ],
+)
+def test_verify_never_advises_to_remove(
+    farm: Farm, made: Dataset, spoil: Callable[[Path], object], advice: str
+) -> None:
+    """Whatever is found, the advice is a command that mends it, and never to remove files."""
+    spoil(Path(made.storage.location))
+    told = farm("verify", made.storage.location).stderr
+    assert advice.format(made.storage.location) in told
+    assert "remove" not in told
 
 
 def test_verify_of_a_dataset_with_given_up_images(farm: Farm, made: Dataset) -> None:

@@ -3,6 +3,7 @@
 import itertools
 import os
 import shutil
+import threading
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -633,3 +634,35 @@ def test_complete_run_needs_no_worker(bench: Bench) -> None:
     complete = bench.coordinator.end_if_complete()
     assert complete is not None
     assert complete.done == 4
+
+
+def test_folder_that_hangs_is_told(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    """While a look at the folder hangs, the last progress is told with the reason, and workers are supervised."""
+    bench.coordinator.submit_missing()
+    bench.work(1)
+    assert [progress.trouble for progress in looks(bench.coordinator, 1)] == [None]
+    monkeypatch.setattr(farm.run.coordinator, "_SILENCE_S", 0.01)
+    ends = threading.Event()
+    read = LocalStorage.read
+
+    def hang(storage: LocalStorage, path: str) -> bytes:
+        ends.wait()
+        return read(storage, path)
+
+    monkeypatch.setattr(LocalStorage, "read", hang)
+    supervised: list[int] = []
+    seen: list[Progress] = []
+
+    def look(progress: Progress) -> None:
+        seen.append(progress)
+        if len(seen) == 3:
+            ends.set()
+        if progress.trouble is None:
+            raise StopWatchingError
+
+    with pytest.raises(StopWatchingError):
+        bench.coordinator.watch(look, supervise=lambda: supervised.append(1))
+    silent = [progress for progress in seen if progress.trouble]
+    assert len(silent) >= 3
+    assert all("gives no answer" in str(progress.trouble) and progress.done == 1 for progress in silent)
+    assert len(supervised) > len(silent)

@@ -1,11 +1,15 @@
 """The backoff of a worker."""
 
 import shutil
+import threading
+import time
 from collections import namedtuple
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from worker.service import backoff as backoff_module
 from worker.service.backoff import Backoff, free_bytes
 
 MIB = 2**20
@@ -71,6 +75,58 @@ def test_low_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert backoff.reason() == f"{tmp_path}: 9 MiB free, kept free are 10; make room"
     free[0] = 10 * MIB
     assert backoff.reason() == ""
+
+
+@pytest.fixture
+def hanging(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[threading.Event, list[str]]]:
+    """An event that ends the hang of a store with much room, and the questions that were asked of it."""
+    answers = threading.Event()
+    asked: list[str] = []
+
+    def hang(store: str) -> Usage:
+        asked.append(store)
+        answers.wait()
+        return Usage(100 * MIB, 0, 50 * MIB)
+
+    monkeypatch.setattr(shutil, "disk_usage", hang)
+    monkeypatch.setattr(backoff_module, "_ANSWER_S", 0.01)
+    yield answers, asked
+    answers.set()
+
+
+def answered(backoff: Backoff) -> None:
+    """Wait until the store's answer is there."""
+    while backoff.reason():
+        time.sleep(0.001)
+
+
+def test_store_that_hangs(clock: Clock, hanging: tuple[threading.Event, list[str]]) -> None:
+    """A store that gives no answer holds the worker without hanging it, and is asked only once meanwhile."""
+    answers, asked = hanging
+    backoff = Backoff("/store", MIB, clock)
+    for _ in range(50):
+        assert backoff.reason() == "/store: gives no answer; is its file server there? waiting for it"
+        clock.now_s += 60.0
+    assert asked == ["/store"]
+    assert backoff.store_hangs
+    answers.set()
+    answered(backoff)
+    assert not backoff.store_hangs
+
+
+def test_store_that_is_slow(clock: Clock, hanging: tuple[threading.Event, list[str]]) -> None:
+    """An answer that is a few seconds old counts while the next one is awaited; an older one does not."""
+    answers, _ = hanging
+    answers.set()
+    backoff = Backoff("/store", MIB, clock)
+    answered(backoff)
+    answers.clear()
+    clock.now_s += 1.0
+    assert backoff.reason() == ""
+    clock.now_s += 8.0
+    assert backoff.reason() == ""
+    clock.now_s += 2.0
+    assert "gives no answer" in backoff.reason()
 
 
 @pytest.mark.parametrize("store", ["s3://bucket/folder", "memory://folder", "/nowhere/at/all"])

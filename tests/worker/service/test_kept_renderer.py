@@ -1,16 +1,27 @@
 """The renderer that a process keeps open."""
 
+import errno
+import os
 from pathlib import Path
 
 import pytest
 
-from farm.errors import AssetError, FarmError, MachineError, RenderError, SceneError, TemplateError, UnfitWorkerError
+from farm.errors import (
+    AssetError,
+    DestinationError,
+    FarmError,
+    MachineError,
+    RenderError,
+    SceneError,
+    TemplateError,
+    UnfitWorkerError,
+)
 from farm.run.worker_settings import RendererSettings
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from tests.stand_in import StandInRenderer, stand_in_header
 from worker.service.kept_renderer import KeptRenderer
-from worker.service.picture import Renderer
+from worker.service.picture import Picture, Renderer
 
 JOB = Job.from_id("far-000001")
 SETTINGS = RendererSettings(threads=3, assets=Path("surfaces"))
@@ -71,3 +82,22 @@ def test_what_fails_amid_a_picture(
     with pytest.raises(told) as failed:
         KeptRenderer(Opener(), SETTINGS).make(JOB, header)
     assert type(failed.value) is told
+
+
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT, errno.EROFS])
+@pytest.mark.parametrize("opening", [True, False])
+def test_a_full_disk_of_this_machine(header: DatasetHeader, number: int, opening: bool) -> None:
+    """A full folder for short-lived or kept files is no fault of the job: it is named, and the worker waits."""
+
+    class FullRenderer(StandInRenderer):
+        def make(self, job: Job, header: DatasetHeader) -> Picture:
+            del job, header
+            raise OSError(number, os.strerror(number), "/cache/compiled/x")
+
+    def full(*_: object) -> Renderer:
+        if opening:
+            FullRenderer().make(JOB, header)
+        return FullRenderer()
+
+    with pytest.raises(DestinationError, match=f"/cache/compiled/x: can't write: {os.strerror(number)}; make room"):
+        KeptRenderer(full, SETTINGS).make(JOB, header)

@@ -1,5 +1,6 @@
 """One job from its message to its manifest, with queue and ledger in memory."""
 
+import errno
 import hashlib
 import os
 from collections.abc import Mapping
@@ -485,4 +486,24 @@ def test_slow_store_fails_no_job(dataset: Dataset, runner: JobRunner, monkeypatc
         with pytest.raises(DestinationError, match="SoftTimeLimitExceeded"):
             runner.run(dataset.message(JOB).encode())
     monkeypatch.undo()
+    assert runner.run(dataset.message(JOB).encode()).made
+
+
+def test_full_disk_of_the_renderer_fails_no_job(dataset: Dataset, tmp_path: Path, ledger: MemoryLedger) -> None:
+    """While a disk of this machine is full no try or start is counted and nothing is given up; then all goes on."""
+    full = [True]
+
+    class FullRenderer(StandInRenderer):
+        def make(self, job: Job, header: DatasetHeader) -> Picture:
+            if full[0]:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "/scratch/made")
+            return super().make(job, header)
+
+    runner = runner_with(FullRenderer(), tmp_path / "store", ledger)
+    for _ in range(2 * MAX_STARTS):
+        with pytest.raises(DestinationError, match="/scratch/made: can't write: No space left on device"):
+            runner.run(dataset.message(JOB).encode())
+    assert given_up(dataset) == ledger.claims() == {}
+    assert ledger.figures() == {}
+    full[0] = False
     assert runner.run(dataset.message(JOB).encode()).made

@@ -6,6 +6,7 @@ every process.
 """
 
 import hashlib
+import logging
 import os
 import shutil
 import tempfile
@@ -18,12 +19,17 @@ import numba
 
 from farm.machine import cache_folder
 
+log = logging.getLogger(__name__)
+
+_ROOM_BYTES = 2**20
+"""Bytes that a folder must have room for: the compiled code of one function takes up to a few hundred thousand."""
+
 Function = TypeVar("Function", bound=Callable[..., object])
 
 
 def compiled(function: Function) -> Function:
     """Compile a function on its first call, or load it from disk."""
-    return cast("Function", numba.njit(cache=True, error_model="numpy")(function))
+    return cast("Function", numba.njit(cache=_KEEPS, error_model="numpy")(function))
 
 
 def kept_in() -> Path:
@@ -38,11 +44,31 @@ def kept_in() -> Path:
     if not chosen:
         return own
     kept = Path(chosen) / fingerprint
-    if not kept.is_dir() or os.access(kept, os.W_OK):
+    with suppress(OSError):
+        kept.mkdir(parents=True, exist_ok=True)
+    if kept.is_dir() and os.access(kept, os.W_OK):
         return kept
-    if not own.is_dir():
-        _copy(kept, own)
+    if kept.is_dir() and not own.is_dir():
+        # Where there is no room for the copy, the code is compiled.
+        with suppress(OSError):
+            _copy(kept, own)
     return own
+
+
+def can_keep_in(folder: Path) -> bool:
+    """Whether compiled code can be kept in a folder; if not, the log says so, and each process compiles its own."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(bytes(_ROOM_BYTES))
+    except OSError as error:
+        log.warning(
+            "%s: can't keep compiled code: %s; each worker's start takes minutes; name a folder by XDG_CACHE_HOME",
+            folder,
+            error.strerror,
+        )
+        return False
+    return True
 
 
 def _copy(source: Path, target: Path) -> None:
@@ -62,4 +88,8 @@ def _fingerprint() -> str:
     return digest.hexdigest()[:16]
 
 
-numba.config.CACHE_DIR = str(kept_in())
+_KEPT_IN = kept_in()
+
+_KEEPS = can_keep_in(_KEPT_IN)
+
+numba.config.CACHE_DIR = str(_KEPT_IN)

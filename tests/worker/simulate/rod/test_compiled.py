@@ -32,8 +32,31 @@ def test_a_folder_named_by_the_environment_is_used(tmp_path: Path) -> None:
 def test_a_folder_that_cannot_be_written_is_copied(tmp_path: Path) -> None:
     """With a read-only image, its compiled code is copied to the user's own folder."""
     kept = kept_in(XDG_CACHE_HOME=tmp_path / "cache", FARM_COMPILED=tmp_path)
-    kept.mkdir()
+    kept.mkdir(exist_ok=True)
     (kept / "some.nbi").write_text("compiled")
     copy = kept_in(READ_ONLY, XDG_CACHE_HOME=tmp_path / "cache", FARM_COMPILED=tmp_path)
     assert copy.parent == tmp_path / "cache" / "cable-farm" / "compiled"
     assert (copy / "some.nbi").read_text() == "compiled"
+
+
+def test_a_named_folder_that_can_not_be_made(tmp_path: Path) -> None:
+    """Where the named folder can't be made, as in a read-only image, the user's cache folder serves."""
+    (tmp_path / "file").write_text("")
+    found = kept_in(XDG_CACHE_HOME=tmp_path, FARM_COMPILED=tmp_path / "file/in")
+    assert found.parent == tmp_path / "cable-farm" / "compiled"
+
+
+def test_no_folder_for_compiled_code(tmp_path: Path) -> None:
+    """Without a folder for it code is compiled in each process, and the log says so once, in one line."""
+    (tmp_path / "file").write_text("")
+    result = subprocess.run(
+        [sys.executable, "-c", "import worker.simulate.rod.banded"],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={"PATH": "/usr/bin:/bin", "XDG_CACHE_HOME": str(tmp_path / "file/in")},
+    )
+    assert result.returncode == 0, result.stderr
+    (line,) = result.stderr.strip().splitlines()
+    assert f"{tmp_path}/file/in" in line
+    assert "can't keep compiled code: Not a directory" in line
