@@ -185,22 +185,33 @@ def _checksum(dataset: Dataset) -> str | None:
 def _lines(dataset: Dataset) -> Iterator[bytes]:
     rest = b""
     for part in read_parts(dataset.storage, INDEX_FILE):
-        *whole, rest = (rest + part).splitlines(keepends=True)
-        if rest.endswith(b"\n"):
-            whole, rest = [*whole, rest], b""
-        yield from whole
+        lines = (rest + part).splitlines(keepends=True)
+        rest = lines.pop() if lines and not lines[-1].endswith(b"\n") else b""
+        yield from lines
 
 
-def write_index(
-    dataset: Dataset,
-    completion: Completion | None = None,
-    on_line: Callable[[Job, bytes], None] = lambda _job, _line: None,
+def write_index(dataset: Dataset) -> int:
+    """Write `index.jsonl`.
+
+    Returns:
+        Number of images that it lists.
+
+    Raises:
+        DestinationError: if the folder can't be read or written.
+    """
+    completion = Completion(dataset)
+    completion.audit()
+    return len(write_index_of(dataset, completion))
+
+
+def write_index_of(
+    dataset: Dataset, completion: Completion, on_line: Callable[[Job, bytes], None] = lambda *_: None
 ) -> JobSet:
     """Write `index.jsonl`.
 
     Args:
         dataset: the dataset.
-        completion: its done jobs, as an audit found them; None if none was made.
+        completion: its done jobs, as an audit found them.
         on_line: told each job that is listed, with its line.
 
     Returns:
@@ -209,7 +220,6 @@ def write_index(
     Raises:
         DestinationError: if the folder can't be read or written.
     """
-    completion = completion or _audited(dataset)
     listed = JobSet(dataset.header.spec.quotas)
     digest = hashlib.sha256()
 
@@ -229,9 +239,3 @@ def write_index(
     completion.memory.set_listed(listed.members(), digest.hexdigest())
     completion.save()
     return listed
-
-
-def _audited(dataset: Dataset) -> Completion:
-    completion = Completion(dataset)
-    completion.audit()
-    return completion

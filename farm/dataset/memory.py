@@ -245,8 +245,9 @@ class Memory:
         for category, rows in self.rows.items():
             rows["state"] &= ~np.uint8(LISTED)
             rows["state"][members[category]] |= np.uint8(LISTED)
+        if index_sha256 != self.index_sha256:
+            self.unsaved += sum(int(np.count_nonzero(listed)) for listed in members.values())
         self.index_sha256 = index_sha256
-        self.unsaved += sum(int(np.count_nonzero(listed)) for listed in members.values())
 
 
 def _line(content: bytes, place: int) -> tuple[bytes, int]:

@@ -10,7 +10,7 @@ from urllib.parse import quote
 
 from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset
-from farm.dataset.index import IndexEntry, index_lines, read_line, write_index
+from farm.dataset.index import IndexEntry, index_lines, read_line, write_index_of
 from farm.dataset.memory import Memory
 from farm.dataset.outputs import IMAGE, MASK
 from farm.dataset.paths import REPORT_FILE
@@ -76,7 +76,7 @@ def write_overview(dataset: Dataset, *, pictures_per_category: int = 40) -> int:
     completion = Completion(dataset)
     completion.audit()
     shown = _Shown(pictures_per_category)
-    listed = write_index(dataset, completion, shown.add)
+    listed = write_index_of(dataset, completion, shown.add)
     _write_page(dataset, listed, completion.memory, shown)
     return len(listed)
 

@@ -47,7 +47,7 @@ def page_of(dataset: Dataset) -> str:
 
 def test_index_has_a_line_for_each(made: Dataset) -> None:
     """The index lists the done images by category and number, with paths that exist."""
-    assert len(write_index(made)) == 4
+    assert write_index(made) == 4
     lines = [json.loads(line) for line in made.storage.read(INDEX_FILE).splitlines()]
     assert [line["job_id"] for line in lines] == [
         "close_concentrated_light-000000",
