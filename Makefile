@@ -7,7 +7,7 @@ SECONDS_EACH ?= 30
 WORKERS ?= $(shell nproc 2>/dev/null || echo 1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup bench-queue bench-pictures bench-training bench-surfaces examples masks soak stress flower template clean fuzz audit chaos
+.PHONY: help setup demo test lint bench bench-farm bench-physics bench-render bench-skips bench-startup bench-queue bench-reading bench-pictures bench-training bench-surfaces examples masks soak stress flower template clean fuzz audit chaos
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
@@ -92,6 +92,9 @@ bench-startup: setup ## from a worker's start to its first picture; writes resul
 bench-queue: setup ## jobs a second through the queue and what a submission costs; writes results/queue.* and submit.*
 	$(BIN)/python -m tests.load jobs --out results
 	$(BIN)/python -m tests.load submit --out results
+
+bench-reading: setup ## what farm status, report and verify take of 25,000 pictures on a bucket, and of a million; writes results/read.json
+	$(BIN)/python -m tests.load read --out results
 
 soak: setup ## memory of renderers over 1,100 images; writes results/soak.json and .png
 	$(BIN)/farm assets build --no-environments

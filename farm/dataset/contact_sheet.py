@@ -8,8 +8,8 @@ from farm.dataset.dataset import Dataset
 from farm.dataset.outputs import IMAGE
 from farm.dataset.paths import file_path
 from farm.errors import IncompleteError
-from farm.spec.category import Category
 from farm.spec.job import Job
+from farm.storage import in_order
 
 _GAP_PX = 4
 _JPEG_QUALITY = 88
@@ -26,19 +26,20 @@ def make_contact_sheet(dataset: Dataset, *, columns: int, edge_px: int) -> bytes
     width, height = (max(1, round(edge_px * share)) for share in dataset.header.spec.resolution.shares)
     right, down = width + _GAP_PX, height + _GAP_PX
     sheet = Image.new("RGB", (right * max(count for _, count in rows) - _GAP_PX, down * len(rows) - _GAP_PX), "white")
-    for row, (category, count) in enumerate(rows):
-        for column in range(count):
-            picture = _read(dataset, category, column)
-            sheet.paste(picture.resize((width, height), Image.Resampling.LANCZOS), (column * right, row * down))
+    places = [(row, column) for row, (_, count) in enumerate(rows) for column in range(count)]
+    jobs = [Job(category=rows[row][0], index=column) for row, column in places]
+    pictures = in_order(lambda job: _read(dataset, job, (width, height)), jobs)
+    for (row, column), picture in zip(places, pictures, strict=True):
+        sheet.paste(picture, (column * right, row * down))
     encoded = io.BytesIO()
     sheet.save(encoded, "JPEG", quality=_JPEG_QUALITY)
     return encoded.getvalue()
 
 
-def _read(dataset: Dataset, category: Category, index: int) -> Image.Image:
-    job = Job(category=category, index=index)
+def _read(dataset: Dataset, job: Job, size_px: tuple[int, int]) -> Image.Image:
     try:
         content = dataset.storage.read(file_path(job, IMAGE))
     except FileNotFoundError as error:
         raise IncompleteError(f"{job.id} is not there yet; finish the dataset first") from error
-    return Image.open(io.BytesIO(content)).convert("RGB")
+    picture = Image.open(io.BytesIO(content)).convert("RGB")
+    return picture.resize(size_px, Image.Resampling.LANCZOS)

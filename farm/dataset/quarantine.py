@@ -10,7 +10,7 @@ from farm.dataset.paths import QUARANTINE_FOLDER, quarantine_path
 from farm.errors import MessageError
 from farm.model import Model, Sha256
 from farm.spec.job import DatasetName, Job
-from farm.storage import StoredFile
+from farm.storage import StoredFile, in_order
 
 LOG_LENGTH = 16 * 1024
 """Characters of a job's log that its record keeps, from the end."""
@@ -85,29 +85,28 @@ class Quarantine:
         Raises:
             DestinationError: if the folder can't be read.
         """
-        found: dict[str, tuple[StoredFile, str]] = {}
+        listed: dict[str, StoredFile] = {}
         for path, stored in sorted(self._dataset.storage.files(QUARANTINE_FOLDER).items()):
             job = job_of_record(path)
-            if job is None or not self._dataset.asks_for(job):
-                continue
-            known = self._known.get(job.id)
-            if known is None or known[0] != stored:
-                reason = self._reason(path, job)
-                if reason is None:
-                    continue
-                known = (stored, reason)
-            found[job.id] = known
-        self._known = found
-        return {job_id: reason for job_id, (_, reason) in found.items()}
+            if job is not None and self._dataset.asks_for(job):
+                listed[job.id] = stored
+        known = {job_id: self._known[job_id] for job_id in listed if job_id in self._known}
+        new = [job_id for job_id, stored in listed.items() if job_id not in known or known[job_id][0] != stored]
+        reasons = dict(zip(new, in_order(self._reason, new), strict=True))
+        known |= {job_id: (listed[job_id], reason) for job_id, reason in reasons.items() if reason is not None}
+        gone = {job_id for job_id, reason in reasons.items() if reason is None}
+        self._known = {job_id: known[job_id] for job_id in listed if job_id not in gone}
+        return {job_id: reason for job_id, (_, reason) in self._known.items()}
 
-    def _reason(self, path: str, job: Job) -> str | None:
+    def _reason(self, job_id: str) -> str | None:
         try:
-            record = QuarantineRecord.model_validate_json(self._dataset.storage.read(path))
+            content = self._dataset.storage.read(quarantine_path(Job.from_id(job_id)))
+            record = QuarantineRecord.model_validate_json(content)
         except FileNotFoundError:
             return None
         except ValidationError:
             return _UNREADABLE
-        return record.reason if record.job_id == job.id else _UNREADABLE
+        return record.reason if record.job_id == job_id else _UNREADABLE
 
     def release(self, job_ids: Iterable[str]) -> None:
         """Remove the records of jobs, which may then be made again.

@@ -1,31 +1,41 @@
 """`report.html`: the pictures with their masks beside them, and what they cost. One file, no scripts."""
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
-from statistics import fmean
 from string import Template
 from urllib.parse import quote
 
+from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset
-from farm.dataset.index import IndexEntry, done_receipts, index_entry, write_index
+from farm.dataset.index import IndexEntry, index_lines, read_line, write_index_of
+from farm.dataset.memory import Memory
 from farm.dataset.outputs import IMAGE, MASK
 from farm.dataset.paths import REPORT_FILE
 from farm.spec.category import Category
+from farm.spec.job import Job
+from farm.spec.job_set import JobSet
 
 _UNKNOWN = "-"
 
 
 @dataclass(slots=True)
 class _Section:
-    """The page's section on one category; only the first pictures are kept."""
+    """The page's section on one category; only the first pictures are shown.
+
+    Attributes:
+        quota: number of images asked for.
+        done: number of images that are done.
+        means_s: mean seconds of each stage.
+        shown: entries of the images that are shown.
+    """
 
     quota: int
-    done: int = 0
-    shown: list[IndexEntry] = field(default_factory=list)
-    seconds: dict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
+    done: int
+    means_s: Mapping[str, float]
+    shown: list[IndexEntry]
 
 
 def write_report(dataset: Dataset, *, pictures_per_category: int = 40) -> int:
@@ -41,26 +51,65 @@ def write_report(dataset: Dataset, *, pictures_per_category: int = 40) -> int:
     Raises:
         DestinationError: if the folder can't be read or written.
     """
-    sections = {category: _Section(quota) for category, quota in dataset.header.spec.quotas.items() if quota}
-    for job, receipt in done_receipts(dataset):
-        section = sections[job.category]
-        section.done += 1
-        if len(section.shown) < pictures_per_category:
-            section.shown.append(index_entry(dataset, job, receipt))
-        for stage, seconds in receipt.timings_s.items():
-            section.seconds[stage].append(seconds)
-    dataset.storage.write(REPORT_FILE, _page(dataset, sections).encode())
-    return sum(section.done for section in sections.values())
+    completion = Completion(dataset)
+    done = completion.audit()
+    shown = _Shown(pictures_per_category)
+    for job, line in index_lines(dataset, completion, filter(shown.wants, done.by_category())):
+        shown.add(job, line)
+    _write_page(dataset, done, completion.memory, shown)
+    return len(done)
 
 
-def write_overview(dataset: Dataset) -> None:
-    """Write the index and the page, at the end of a dataset's making, whether it succeeded or not.
+def write_overview(dataset: Dataset, *, pictures_per_category: int = 40) -> int:
+    """Write the index and the page in one pass, at the end of a dataset's making, whether it succeeded or not.
+
+    Args:
+        dataset: the dataset.
+        pictures_per_category: maximum number of pictures that the page shows of each category.
+
+    Returns:
+        Number of images that are done.
 
     Raises:
         DestinationError: if the folder can't be read or written.
     """
-    write_index(dataset)
-    write_report(dataset)
+    completion = Completion(dataset)
+    completion.audit()
+    shown = _Shown(pictures_per_category)
+    listed = write_index_of(dataset, completion, shown.add)
+    _write_page(dataset, listed, completion.memory, shown)
+    return len(listed)
+
+
+class _Shown:
+    """The entries of the first pictures of each category."""
+
+    def __init__(self, most: int) -> None:
+        self._most = most
+        self._wanted: Counter[Category] = Counter()
+        self.entries: dict[Category, list[IndexEntry]] = defaultdict(list)
+
+    def wants(self, job: Job) -> bool:
+        """Whether a job is one of the first of its category; each job may be asked about once, in order."""
+        self._wanted[job.category] += 1
+        return self._wanted[job.category] <= self._most
+
+    def add(self, job: Job, line: bytes) -> None:
+        """Take the line of a done job, if it is to be shown."""
+        if len(self.entries[job.category]) < self._most:
+            self.entries[job.category].append(read_line(line))
+
+
+def _write_page(dataset: Dataset, done: JobSet, memory: Memory, shown: _Shown) -> None:
+    counts, members = done.counts(), done.members()
+    sections = {
+        category: _Section(
+            quota, counts[category], memory.means_s(category, members[category]), shown.entries[category]
+        )
+        for category, quota in dataset.header.spec.quotas.items()
+        if quota
+    }
+    dataset.storage.write(REPORT_FILE, _page(dataset, sections).encode())
 
 
 def _page(dataset: Dataset, sections: Mapping[Category, _Section]) -> str:
@@ -86,7 +135,7 @@ def _page(dataset: Dataset, sections: Mapping[Category, _Section]) -> str:
 
 
 def _table(sections: Mapping[Category, _Section]) -> str:
-    stages = list(dict.fromkeys(stage for section in sections.values() for stage in section.seconds))
+    stages = list(dict.fromkeys(stage for section in sections.values() for stage in section.means_s))
     head = "".join(f"<th>{escape(name)}</th>" for name in ["category", "done", "quota", *stages, "sum"])
     body = "".join(_rows(sections, stages))
     caption = "Mean seconds per image and stage"
@@ -95,7 +144,7 @@ def _table(sections: Mapping[Category, _Section]) -> str:
 
 def _rows(sections: Mapping[Category, _Section], stages: list[str]) -> Iterable[str]:
     for category, section in sections.items():
-        means = [fmean(section.seconds[stage]) if section.seconds[stage] else None for stage in stages]
+        means = [section.means_s.get(stage) for stage in stages]
         known = [mean for mean in means if mean is not None]
         cells = [_words(category), str(section.done), str(section.quota)]
         cells += [_UNKNOWN if mean is None else f"{mean:.2f}" for mean in means]

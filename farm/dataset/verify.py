@@ -1,11 +1,12 @@
 """Checks every file of a dataset against its manifest, down to the pixels."""
 
 import hashlib
-import itertools
+import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from enum import StrEnum
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -17,21 +18,27 @@ from farm.dataset.instances import find_empty_fault, list_instances
 from farm.dataset.manifest import FileRecord, Manifest, parse_manifest, parse_receipt
 from farm.dataset.outputs import INSTANCES, find_faults, outputs_of
 from farm.dataset.paths import (
+    CACHE_FILE,
     HEADER_FILE,
     INDEX_FILE,
     PLACE_FILE,
     REPORT_FILE,
-    file_path,
+    index_at,
+    manifest_folder,
     manifest_path,
-    quarantine_path,
+    output_folder,
 )
-from farm.dataset.quarantine import Quarantine
+from farm.dataset.quarantine import Quarantine, job_of_record
 from farm.model import Model
 from farm.spec.job import Job
-from farm.storage import StoredFile, is_temporary
+from farm.storage import StoredFile, in_order, is_temporary, scan
 
-_THREADS = 4  # OpenCV and hashing leave the interpreter's lock while they work
-_AT_A_TIME = 1000
+_OF_DATASET = frozenset({HEADER_FILE, INDEX_FILE, REPORT_FILE, CACHE_FILE, PLACE_FILE})
+"""Files of a dataset that belong to no job."""
+
+_DECODERS = threading.BoundedSemaphore(4)
+"""Limits the pictures that are decoded at a time, which take some megabytes each; many more are read at a time. OpenCV
+leaves the interpreter's lock while it works."""
 
 
 class Fault(StrEnum):
@@ -43,8 +50,9 @@ class Fault(StrEnum):
     ALTERED = "altered"
 
 
-class Finding(Model):
-    """One file that is not as it should be."""
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One file that is not as it should be. A dataset in the making may have millions, so it is no `Model`."""
 
     fault: Fault
     path: str
@@ -93,12 +101,15 @@ def verify(dataset: Dataset, on_checked: Callable[[int], None] = lambda _: None)
             findings += found
             clean += not found
         on_checked(count)
-    findings += _extra(dataset, dataset.storage.files())
+    findings += _extra(dataset, scan(dataset.storage))
+    # One key for both would make a pair for each finding.
+    findings.sort(key=attrgetter("path"))
+    findings.sort(key=attrgetter("fault"))
     return Verdict(
         location=dataset.storage.location,
         images=clean,
         quota=dataset.header.spec.total,
-        findings=tuple(sorted(findings, key=lambda finding: (finding.fault, finding.path))),
+        findings=tuple(findings),
         quarantined=quarantined,
     )
 
@@ -115,21 +126,20 @@ def damaged_jobs(dataset: Dataset) -> Iterator[Job]:
 
 
 def _check_all(dataset: Dataset) -> Iterator[tuple[Job, list[Finding]]]:
-    """Yield each job with its findings; check some jobs at a time, so that a large dataset does not fill the memory."""
-    jobs = dataset.header.spec.jobs()
-    with ThreadPoolExecutor(_THREADS) as threads:
-        while some := list(itertools.islice(jobs, _AT_A_TIME)):
-            yield from zip(some, threads.map(lambda job: list(_check_job_twice(dataset, job)), some), strict=True)
+    """Yield each job with its findings."""
+    return in_order(lambda job: (job, _check_job_twice(dataset, job)), dataset.header.spec.jobs())
 
 
 def _is_missing(job: Job, findings: list[Finding]) -> bool:
     return [(finding.fault, finding.path) for finding in findings] == [(Fault.MISSING, manifest_path(job))]
 
 
-def _check_job_twice(dataset: Dataset, job: Job) -> Iterator[Finding]:
+def _check_job_twice(dataset: Dataset, job: Job) -> list[Finding]:
     """Check a job, and again if anything seems wrong: a worker may have been replacing the files one by one."""
-    if list(_check_job(dataset, job)):
-        yield from _check_job(dataset, job)
+    found = list(_check_job(dataset, job))
+    if found and not _is_missing(job, found):
+        found = list(_check_job(dataset, job))
+    return found
 
 
 def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
@@ -151,7 +161,8 @@ def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
         if isinstance(read, Finding):
             yield read
             continue
-        content = output.format.decode(read)
+        with _DECODERS:
+            content = output.format.decode(read)
         if content is None:
             yield Finding(fault=Fault.ALTERED, path=record.path, detail=f"no readable {output.format.name}")
         else:
@@ -194,17 +205,33 @@ def _read_file(dataset: Dataset, record: FileRecord) -> bytes | Finding:
     return content
 
 
-def _extra(dataset: Dataset, files: dict[str, StoredFile]) -> Iterator[Finding]:
-    known = {HEADER_FILE, INDEX_FILE, REPORT_FILE, PLACE_FILE}
-    outputs = outputs_of(dataset.header.spec)
-    for job in dataset.header.spec.jobs():
-        known.add(manifest_path(job))
-        known.add(quarantine_path(job))
-        known.update(file_path(job, output) for output in outputs)
+def _extra(dataset: Dataset, files: Iterable[tuple[str, StoredFile]]) -> Iterator[Finding]:
+    is_known = _known_paths(dataset)
     now_s = time.time()
-    for path in files.keys() - known:
+    for path, stored in files:
+        if is_known(path):
+            continue
         if not is_temporary(path):
             yield Finding(fault=Fault.EXTRA, path=path, detail="belongs to no job of this dataset")
-        elif now_s - files[path].modified_s > STALE_TEMPORARY_S:
+        elif now_s - stored.modified_s > STALE_TEMPORARY_S:
             # A younger one may be somebody's work in progress.
             yield Finding(fault=Fault.EXTRA, path=path, detail="left by a killed writer; farm submit or run removes it")
+
+
+def _known_paths(dataset: Dataset) -> Callable[[str], bool]:
+    """Make a function that tells whether a path is one of a job, or of the dataset as a whole."""
+    spec = dataset.header.spec
+    places = {manifest_folder(category): (category, ".json") for category in spec.quotas}
+    for output in outputs_of(spec):
+        places |= {output_folder(category, output): (category, output.format.suffix) for category in spec.quotas}
+
+    def is_known(path: str) -> bool:
+        folder = path.rpartition("/")[0]
+        if folder in places:
+            category, suffix = places[folder]
+            index = index_at(path, folder, category, suffix)
+            return index is not None and index < spec.quotas[category]
+        job = job_of_record(path)
+        return path in _OF_DATASET or (job is not None and dataset.asks_for(job))
+
+    return is_known

@@ -74,7 +74,9 @@ class FarmCollector(Collector):
         yield GaugeMetricFamily("farm_redis_up", "Whether Redis answers.", value=float(up))
 
     def _add_images(self, images: GaugeMetricFamily, dataset: Dataset) -> None:
-        folder = self._folders.setdefault(dataset.storage.location, _folder(dataset))
+        if dataset.storage.location not in self._folders:
+            self._folders[dataset.storage.location] = _folder(dataset)
+        folder = self._folders[dataset.storage.location]
         if self._clock() - folder.looked_s >= FOLDER_EVERY_S:
             try:
                 folder.completion.look()

@@ -75,6 +75,16 @@ class JobSet:
         """Return the jobs that the quotas ask for and that this set does not have."""
         return self.of({category: ~mine for category, mine in self._members.items()})
 
+    def by_category(self) -> Iterator[Job]:
+        """Yield the jobs by category, in the categories' own order, and then by index."""
+        for category in Category:
+            for index in np.flatnonzero(self._members.get(category, ())).tolist():
+                yield Job.model_construct(category=category, index=index)
+
+    def members(self) -> dict[Category, NDArray[np.bool_]]:
+        """Return, for each category, (quota,) bool, true at the indices of the set's jobs; the arrays are copies."""
+        return {category: members.copy() for category, members in self._members.items()}
+
     def __iter__(self) -> Iterator[Job]:
         """Yield the jobs in the order of `DatasetSpec.jobs`: by index, and for each index by category."""
         categories = list(self._members)

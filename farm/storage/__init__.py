@@ -9,8 +9,10 @@ or is no object at all, and counts for nothing.
 from farm.storage.folder_faults import find_folder
 from farm.storage.local import LocalStorage
 from farm.storage.location import open_storage, refuse_credentials
+from farm.storage.many import in_order
 from farm.storage.objects import ObjectStorage
 from farm.storage.port import TEMPORARY_PREFIX, Storage, StoredFile, is_temporary
+from farm.storage.streams import read_parts, scan, write_parts
 
 __all__ = [
     "TEMPORARY_PREFIX",
@@ -19,7 +21,11 @@ __all__ = [
     "Storage",
     "StoredFile",
     "find_folder",
+    "in_order",
     "is_temporary",
     "open_storage",
+    "read_parts",
     "refuse_credentials",
+    "scan",
+    "write_parts",
 ]

@@ -25,7 +25,8 @@ def connect(url: str) -> tuple[Any, str]:
         ImportError: if the filesystem needs a package that is not installed.
         ValueError: if the protocol is unknown.
     """
-    filesystem, root = fsspec.core.url_to_fs(url, use_listings_cache=False, skip_instance_cache=True)
+    options = {"use_listings_cache": False, "skip_instance_cache": True, **service_of(url).open_options}
+    filesystem, root = fsspec.core.url_to_fs(url, **options)
     retries = service_of(url).retries
     if retries is not None:
         filesystem.retries = retries

@@ -2,7 +2,7 @@
 
 import hashlib
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from stat import S_ISDIR
@@ -12,6 +12,9 @@ from farm.machine import machine_name
 from farm.storage.folder_faults import folder_error, lost_link, lost_link_error
 from farm.storage.port import TEMPORARY_PREFIX, StoredFile, is_temporary
 from farm.storage.sync import sync_file, sync_folder
+
+_PART_BYTES = 4 * 1024 * 1024
+"""Bytes that are read of a large file at a time."""
 
 _OF_SYSTEMS = frozenset(
     {
@@ -52,11 +55,21 @@ class LocalStorage:
         with self._translated("read", path):
             return (self._root / path).read_bytes()
 
+    def read_parts(self, path: str) -> Iterator[bytes]:
+        """Read a file in parts; see `Streams.read_parts`."""
+        with self._translated("read", path), (self._root / path).open("rb") as file:
+            while part := file.read(_PART_BYTES):
+                yield part
+
     def write(self, path: str, content: bytes) -> None:
         """Write beside the target, read back, then move; see `Storage.write`.
 
         A target that is a link is replaced by the file; what it linked to stays as it is, as others may use it.
         """
+        self.write_parts(path, [content])
+
+    def write_parts(self, path: str, parts: Iterable[bytes]) -> int:
+        """Write as `write` does, from parts; see `Streams.write_parts`."""
         target = self._root / path
         # Machine and process make the name unique among all writers of one shared folder.
         temporary = target.with_name(f"{TEMPORARY_PREFIX}{target.name}.{machine_name()}.{os.getpid()}")
@@ -66,7 +79,7 @@ class LocalStorage:
             if lost := lost_link(target, below=target):
                 raise lost_link_error(lost, "write", target)
             try:
-                self._write_and_check(temporary, content)
+                written = self._write_and_check(temporary, parts)
                 temporary.replace(target)
             except BaseException:
                 with suppress(OSError):
@@ -76,15 +89,22 @@ class LocalStorage:
             sync_folder(target.parent)
         except OSError as error:
             raise folder_error(error, "write", target) from error
+        return written
 
     @staticmethod
-    def _write_and_check(temporary: Path, content: bytes) -> None:
+    def _write_and_check(temporary: Path, parts: Iterable[bytes]) -> int:
+        digest, written = hashlib.sha256(), 0
         with temporary.open("wb") as file:
-            file.write(content)
+            for part in parts:
+                file.write(part)
+                digest.update(part)
+                written += len(part)
             file.flush()
             sync_file(file.fileno())
-        if hashlib.sha256(temporary.read_bytes()).digest() != hashlib.sha256(content).digest():
-            raise DestinationError(f"{temporary}: reads back other than written; check the disk")
+        with temporary.open("rb") as file:
+            if hashlib.file_digest(file, "sha256").digest() != digest.digest():
+                raise DestinationError(f"{temporary}: reads back other than written; check the disk")
+        return written
 
     def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
         """List every file below the folder, those of linked folders too; see `Storage.files`.
@@ -92,18 +112,20 @@ class LocalStorage:
         Raises:
             DestinationError: also if a link is there whose target is not.
         """
-        found: dict[str, StoredFile] = {}
+        return dict(self.scan(under, deep=deep))
+
+    def scan(self, under: str = "", *, deep: bool = True) -> Iterator[tuple[str, StoredFile]]:
+        """List the files one by one; see `Streams.scan`."""
         folder = self._root / under if under else self._root
         with suppress(FileNotFoundError), self._translated("list", under):
             try:
-                self._collect(folder, f"{under}/" if under else "", found, deep=deep)
+                yield from self._scan(folder, f"{under}/" if under else "", deep=deep)
             except NotADirectoryError:
                 # A name that a file has is a folder without files; but a dataset's folders are none of files.
                 if not under or self._anchor:
                     raise
-        return found
 
-    def _collect(self, folder: Path, prefix: str, found: dict[str, StoredFile], *, deep: bool) -> None:
+    def _scan(self, folder: Path, prefix: str, *, deep: bool) -> Iterator[tuple[str, StoredFile]]:
         with os.scandir(folder) as entries:
             for entry in entries:
                 if _is_of_a_system(entry.name):
@@ -111,14 +133,14 @@ class LocalStorage:
                 # A file may vanish between its listing and its stat: a temporary one that was moved.
                 with suppress(FileNotFoundError):
                     if entry.is_symlink():
-                        self._collect_link(Path(entry.path), prefix, found, deep=deep)
+                        yield from self._scan_link(Path(entry.path), prefix, deep=deep)
                     elif not entry.is_dir():
                         stat = entry.stat()
-                        found[prefix + entry.name] = StoredFile(stat.st_size, stat.st_mtime)
+                        yield prefix + entry.name, StoredFile(stat.st_size, stat.st_mtime)
                     elif deep:
-                        self._collect(folder / entry.name, f"{prefix}{entry.name}/", found, deep=True)
+                        yield from self._scan(folder / entry.name, f"{prefix}{entry.name}/", deep=True)
 
-    def _collect_link(self, link: Path, prefix: str, found: dict[str, StoredFile], *, deep: bool) -> None:
+    def _scan_link(self, link: Path, prefix: str, *, deep: bool) -> Iterator[tuple[str, StoredFile]]:
         if lost_link(link, below=link):
             # A hidden one is an editor's lock. Any other may be half of the data.
             if not link.name.startswith("."):
@@ -127,9 +149,9 @@ class LocalStorage:
         with self._translated("list", str(link.relative_to(self._root))):
             stat = link.stat()
         if not S_ISDIR(stat.st_mode):
-            found[prefix + link.name] = StoredFile(stat.st_size, stat.st_mtime)
+            yield prefix + link.name, StoredFile(stat.st_size, stat.st_mtime)
         elif deep and not self._leads_back(link, stat):
-            self._collect(link, f"{prefix}{link.name}/", found, deep=True)
+            yield from self._scan(link, f"{prefix}{link.name}/", deep=True)
 
     def _leads_back(self, link: Path, target: os.stat_result) -> bool:
         """Whether a link's target is one of the folders through which the link was reached: it would never end."""

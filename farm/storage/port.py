@@ -9,10 +9,18 @@ TEMPORARY_PREFIX = ".tmp-"
 
 @dataclass(frozen=True, slots=True)
 class StoredFile:
-    """A file in a listing, with its last change. `modified_s` counts seconds of the Unix epoch, 0 where unknown."""
+    """A file in a listing, with its last change.
+
+    Attributes:
+        bytes: its size.
+        modified_s: time of the change, in seconds of the Unix epoch; 0 where unknown.
+        tag: the mark that an object store gives the content, its ETag; empty where there is none. It tells apart two
+            changes within the second to which such stores tell the time.
+    """
 
     bytes: int
     modified_s: float
+    tag: str = ""
 
 
 class Storage(Protocol):

@@ -3,10 +3,12 @@
 A store that fsspec opens needs no row here: it then gets the options that suit all, and messages that name no variable.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
+
+from farm.storage.many import AT_A_TIME
 
 Options = Mapping[str, Any]
 
@@ -24,6 +26,9 @@ class Service:
         address: the environment variable that holds the store's address.
         at_sign_is_credential: whether an @ in the URL's first part ends a key, as no bucket's name has one.
         retries: number of times that the client repeats a request that hung; None leaves the client's own number.
+        open_options: fsspec's options for the filesystem.
+        pages: lists the objects below a folder page by page, as fsspec's descriptions of them; takes the filesystem,
+            the folder, and whether to list folders in it, too. None where fsspec has no such listing.
         get_options: fsspec's options for every read.
         put_options: fsspec's options for a write, by the content's number of bytes.
     """
@@ -34,6 +39,8 @@ class Service:
     address: str = ""
     at_sign_is_credential: bool = False
     retries: int | None = None
+    open_options: Options = field(default_factory=lambda: _NO_OPTIONS)
+    pages: Callable[[Any, str, bool], Iterator[list[Options]]] | None = None
     get_options: Options = field(default_factory=lambda: _NO_OPTIONS)
     put_options: Callable[[int], Options] = lambda _size: _NO_OPTIONS
 
@@ -56,6 +63,21 @@ def _s3_put_options(size: int) -> Options:
     return {"chunksize": _PART_BYTES, "timeout": PUT_PATIENCE_S + size / _SLOWEST_BYTES_S}
 
 
+def _s3_pages(filesystem: Any, folder: str, deep: bool) -> Iterator[list[Options]]:
+    bucket, key, _ = filesystem.split_path(folder)
+    asked: dict[str, Any] = {"Bucket": bucket, "Prefix": f"{key}/" if key else "", **filesystem.req_kw}
+    if not deep:
+        asked["Delimiter"] = "/"
+    while True:
+        page = filesystem.call_s3("list_objects_v2", **asked)
+        yield [
+            {**found, "name": f"{bucket}/{found['Key']}", "size": found["Size"]} for found in page.get("Contents", [])
+        ]
+        if not page.get("IsTruncated"):
+            return
+        asked["ContinuationToken"] = page["NextContinuationToken"]
+
+
 _S3 = Service(
     title="S3",
     install="cable-farm[s3]",
@@ -64,6 +86,9 @@ _S3 = Service(
     at_sign_is_credential=True,
     # The AWS client's own attempts, AWS_MAX_ATTEMPTS, are within each.
     retries=2,
+    # The client's own number, 10, would hold up the reads of many manifests.
+    open_options=MappingProxyType({"config_kwargs": {"max_pool_connections": AT_A_TIME}}),
+    pages=_s3_pages,
     # A get is one request, not two with its size asked first; and it tells a missing object from a missing bucket.
     get_options=MappingProxyType({"max_concurrency": 1}),
     put_options=_s3_put_options,

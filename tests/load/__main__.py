@@ -1,4 +1,4 @@
-"""`python -m tests.load jobs|submit --out DIR`: fails on wrong results, never on slow ones."""
+"""`python -m tests.load jobs|submit|read --out DIR`: fails on wrong results, never on slow ones."""
 
 import argparse
 import sys
@@ -7,7 +7,8 @@ from pathlib import Path
 from benchmarks.terminal import bench_console
 from farm.errors import FarmError
 from tests.load.jobs import measure_jobs
-from tests.load.report import jobs_table, plot_jobs, plot_submissions, submission_table, write_json
+from tests.load.reading import measure_reading
+from tests.load.report import jobs_table, plot_jobs, plot_submissions, reading_table, submission_table, write_json
 from tests.load.submission import measure_submission
 
 
@@ -23,6 +24,9 @@ def main(arguments: list[str]) -> int:
     jobs.add_argument("--jobs", type=int, default=2000)
     submit = commands.add_parser("submit", parents=[shared], help="farm submit by its size")
     submit.add_argument("--images", type=int, nargs="+", default=[1000, 10_000, 25_000, 100_000, 1_000_000])
+    read = commands.add_parser("read", parents=[shared], help="farm status, report and verify by a dataset's size")
+    read.add_argument("--images", type=int, nargs="+", default=[25_000, 1_000_000])
+    read.add_argument("--latency-ms", type=float, nargs="+", default=[20.0, 0.0], help="of the store, for each size")
     options = parser.parse_args(arguments)
     options.out.mkdir(parents=True, exist_ok=True)
     console = bench_console()
@@ -32,6 +36,11 @@ def main(arguments: list[str]) -> int:
             console.print(jobs_table(jobs_costs))
             write_json(options.out / "queue.json", jobs_costs, options.seed)
             plot_jobs(options.out / "queue.png", jobs_costs)
+        elif options.benchmark == "read":
+            sizes = zip(options.images, options.latency_ms, strict=True)
+            reading_costs = [cost for images, latency_ms in sizes for cost in measure_reading(images, latency_ms)]
+            console.print(reading_table(reading_costs))
+            write_json(options.out / "read.json", reading_costs, options.seed)
         else:
             costs = [measure_submission(images, options.seed) for images in options.images]
             console.print(submission_table(costs))

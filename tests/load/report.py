@@ -10,6 +10,7 @@ from rich.table import Table
 
 from benchmarks.physics.report import machine
 from tests.load.jobs import JobCost
+from tests.load.reading import ReadingCost
 from tests.load.submission import SubmissionCost
 
 mpl.use("Agg")
@@ -55,7 +56,21 @@ def submission_table(costs: Sequence[SubmissionCost]) -> Table:
     return table
 
 
-def write_json(path: Path, costs: Sequence[JobCost] | Sequence[SubmissionCost], seed: int) -> None:
+def reading_table(costs: Sequence[ReadingCost]) -> Table:
+    """A table with one row per command and size."""
+    table = Table(title="commands on a finished dataset", title_justify="left")
+    for name in ("command", "images", "store's ms", "seconds", "CPU s", "peak MiB", "manifests read", "files read"):
+        table.add_column(name, justify="left" if name == "command" else "right")
+    for cost in costs:
+        figures = (f"{cost.seconds:.1f}", f"{cost.cpu_s:.1f}", f"{cost.peak_mib:.0f}")
+        counts = (f"{cost.reads_of_manifests:,}", f"{cost.reads:,}")
+        table.add_row(cost.command, f"{cost.images:,}", f"{cost.latency_ms:g}", *figures, *counts)
+    return table
+
+
+def write_json(
+    path: Path, costs: Sequence[JobCost] | Sequence[SubmissionCost] | Sequence[ReadingCost], seed: int
+) -> None:
     """Write every figure, and a description of the machine."""
     path.write_text(
         json.dumps({"machine": machine(), "seed": seed, "costs": [asdict(cost) for cost in costs]}, indent=1)

@@ -1,8 +1,9 @@
 """Done jobs: what a look finds, and what only an audit finds."""
 
 import os
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from operator import attrgetter
 from pathlib import Path
@@ -13,7 +14,7 @@ from farm.dataset.completion import STALE_TEMPORARY_S, Completion, is_done, job_
 from farm.dataset.dataset import Dataset, create_dataset
 from farm.dataset.destination import Destination
 from farm.dataset.outputs import IMAGE, MASK, OUTPUTS, Output
-from farm.dataset.paths import file_path, manifest_path
+from farm.dataset.paths import CACHE_FILE, file_path, manifest_path
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
 from farm.spec.job_set import JobSet
@@ -205,6 +206,87 @@ def test_manifest_is_read_once(made: Dataset) -> None:
     assert read == [manifest_path(JOB)]
 
 
+def reads_of(dataset: Dataset, **options: int) -> tuple[list[str], JobSet]:
+    """Audit as a command of its own would; return the manifests and pictures that were read, and the done jobs."""
+    read: list[str] = []
+
+    class Recording(LocalStorage):
+        def read(self, path: str) -> bytes:
+            read.append(path)
+            return super().read(path)
+
+    recording = replace(dataset, storage=Recording(Path(dataset.storage.location)))
+    return read, Completion(recording, **options).audit()
+
+
+def test_next_command_reads_what_is_new(made: Dataset) -> None:
+    """A later command reads no manifest that an earlier one read, but those that came or were touched since."""
+    made.storage.remove(manifest_path(JOB))
+    read, done = reads_of(made, save_after=1)
+    assert (len(read), ids(done)) == (3, OTHERS)
+    assert reads_of(made) == ([], done)
+    make(made, JOB)
+    os.utime(path_of(made, manifest_path(Job.from_id("far-000000"))), (1, 1))
+    read, done = reads_of(made)
+    # The pictures of a manifest that seems older than they are read to compare them.
+    assert {path for path in read if "manifests" in path} == {
+        f"far/manifests/far-00000{index}.json" for index in (0, 1)
+    }
+    assert ids(done) == ALL
+
+
+def test_small_datasets_have_no_cache(made: Dataset) -> None:
+    """Few manifests are read again in no time, and no file is left for them."""
+    reads_of(made)
+    assert CACHE_FILE not in made.storage.files()
+
+
+def test_vouched_pictures_are_remembered(made: Dataset) -> None:
+    """Pictures that are newer than their manifest, as after a copy, are compared once, not by each command again."""
+    later_s = time.time() + 60
+    for job in made.header.spec.jobs():
+        os.utime(path_of(made, file_path(job, MASK)), (later_s, later_s))
+    assert len(reads_of(made, save_after=1)[0]) == 4 * (2 + len(OUTPUTS))
+    read, done = reads_of(made)
+    assert (read, ids(done)) == ([], ALL)
+
+
+@pytest.mark.parametrize("field", ["sizes", "state"])
+def test_lying_memory(made: Dataset, field: str) -> None:
+    """No job is made again on a saved memory's word: the manifest is asked before a picture counts as damaged."""
+    lying = Completion(made)
+    lying.audit()
+    for rows in lying.memory.rows.values():
+        rows[field] = 7 if field == "sizes" else 0
+    lying.memory.save()
+    assert ids(reads_of(made)[1]) == ALL
+
+
+def test_memory_vouches_for_no_absent_manifest(made: Dataset) -> None:
+    """A job counts only while its manifest and pictures are listed, whatever the saved memory holds."""
+    Completion(made, save_after=1).audit()
+    made.storage.remove(manifest_path(JOB))
+    made.storage.remove(file_path(Job.from_id("far-000000"), MASK))
+    assert ids(reads_of(made)[1]) == ALL[:2]
+
+
+def test_reads_are_many_at_a_time(made: Dataset) -> None:
+    """Manifests are read at the same time: each of the four waits until all are under way."""
+    together = threading.Barrier(4, timeout=20)
+
+    class Slow(LocalStorage):
+        def read(self, path: str) -> bytes:
+            if "manifests" in path:
+                together.wait()
+            return super().read(path)
+
+    header = stand_in_header(far=4)
+    dataset = create_dataset(Destination(str(Path(made.storage.location).parent), "four"), header)
+    for job in header.spec.jobs():
+        make(dataset, job)
+    assert len(Completion(replace(dataset, storage=Slow(Path(dataset.storage.location)))).look()) == 4
+
+
 class GrowingStorage(LocalStorage):
     """A storage in which another process acts before one folder is listed."""
 
@@ -213,12 +295,12 @@ class GrowingStorage(LocalStorage):
         self._watched = watched
         self._act: Callable[[], None] | None = act
 
-    def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
-        """Implement `Storage.files`."""
+    def scan(self, under: str = "", *, deep: bool = True) -> Iterator[tuple[str, StoredFile]]:
+        """Implement `Streams.scan`."""
         if under == self._watched and self._act is not None:
             act, self._act = self._act, None
             act()
-        return super().files(under, deep=deep)
+        return super().scan(under, deep=deep)
 
 
 def test_job_that_is_made_during_an_audit(dataset: Dataset) -> None:

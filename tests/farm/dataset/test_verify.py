@@ -9,13 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset, create_dataset
 from farm.dataset.destination import Destination
 from farm.dataset.formats import PNG
 from farm.dataset.instances import VisibleInstance
 from farm.dataset.manifest import Manifest, file_record
 from farm.dataset.outputs import IMAGE, INSTANCES, MASK, Output
-from farm.dataset.paths import file_path, manifest_path
+from farm.dataset.paths import CACHE_FILE, file_path, manifest_path
 from farm.dataset.verify import Fault, verify
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
@@ -198,6 +199,48 @@ def test_old_temporary_file(made: Dataset) -> None:
     made.storage.write(path, b"")
     os.utime(Path(made.storage.location) / path, (0, 0))
     assert found(made) == [(Fault.EXTRA, path)]
+
+
+def test_cache_is_no_extra_file(made: Dataset) -> None:
+    """What the farm remembers for the next command is part of a dataset."""
+    Completion(made, save_after=1).audit()
+    assert CACHE_FILE in made.storage.files()
+    assert found(made) == []
+
+
+def test_each_file_is_read_once(made: Dataset) -> None:
+    """A check reads each manifest and each file once; a missing manifest once, too."""
+    read: list[str] = []
+
+    class Recording(LocalStorage):
+        def read(self, path: str) -> bytes:
+            read.append(path)
+            return super().read(path)
+
+    made.storage.remove(manifest_path(JOB))
+    verify(replace(made, storage=Recording(Path(made.storage.location))))
+    wanted = {path for path in made.storage.files() if JOB.id not in path and path != "dataset.json"}
+    assert sorted(read) == sorted(wanted | {manifest_path(JOB)})
+
+
+def test_never_trusts_the_memory(made: Dataset) -> None:
+    """A saved memory that vouches for a damaged file hides nothing."""
+    completion = Completion(made, save_after=1)
+    content = bytearray(made.storage.read(IMAGE_PATH))
+    content[-20] ^= 1
+    made.storage.write(IMAGE_PATH, bytes(content))
+    completion.memory.vouch(JOB.category, JOB.index, 4e9)
+    completion.memory.save()
+    assert found(made) == [(Fault.ALTERED, IMAGE_PATH)]
+
+
+def test_findings_are_sorted(made: Dataset) -> None:
+    """Findings come by kind, then by path."""
+    for path in ("b", "a", "far/images/far-000000.png", *ALL_PATHS[1:]):
+        made.storage.write(path, b"") if len(path) == 1 else made.storage.remove(path)
+    findings = found(made)
+    assert findings == sorted(findings)
+    assert len(findings) == 5
 
 
 def test_no_png(made: Dataset) -> None:

@@ -4,7 +4,7 @@ import itertools
 import os
 import shutil
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -438,12 +438,13 @@ class FlakyStorage(LocalStorage):
 
     away = 0
 
-    def files(self, under: str = "", *, deep: bool = True) -> dict[str, StoredFile]:
-        """Implement `Storage.files`."""
-        self.away -= 1
-        if self.away >= 0:
-            raise DestinationError("stale file handle")
-        return super().files(under, deep=deep)
+    def scan(self, under: str = "", *, deep: bool = True) -> Iterator[tuple[str, StoredFile]]:
+        """Implement `Streams.scan`."""
+        if under == "far/manifests":
+            self.away -= 1
+            if self.away >= 0:
+                raise DestinationError("stale file handle")
+        return super().scan(under, deep=deep)
 
 
 def test_folder_that_is_away_is_waited_for(dataset: Dataset) -> None:
