@@ -57,8 +57,8 @@ BOUNDS: tuple[Bound, ...] = (
     Bound("fall.rod.segment_radii", 1, 6, "radii", "longer segments let coils cut into themselves, and never rest"),
     # Cables that start 4 mm above the floor land after 0.029 s.
     Bound("fall.rod.max_time_s", 0.03, 60, "s", "no cable lands so soon"),
-    # Falls at 40 rested within 0.3 to 0.8 s (1,213 steps), as did those at 100 (8,634 steps); at 200 two of three, and
-    # at 400 none, rested within 16,000 steps: the wind carries the cables faster than the solver follows.
+    # Three falls of `published` at 40 rested after 1,213 steps at most, and at 100 after 8,634; of three at 200 one
+    # rested within 16,000 steps, and of three at 400 none: the wind carries the cables faster than the solver follows.
     Bound("ranges.wind.strength", 0, 100, "", "no cable comes to rest in such a wind"),
     # Two short cables of cloth rested at 40, and not at 50: this wind does not die down.
     Bound("ranges.wind.strength", 0, 40, "", "no cable of cloth comes to rest in such a wind", Simulator.CLOTH),

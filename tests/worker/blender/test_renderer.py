@@ -201,6 +201,16 @@ def test_a_picture_without_cables_is_a_lit_background(baked: Path, category: Cat
     assert none.files["image"].std() > 3
 
 
+def test_cables_as_high_as_the_camera_are_never_rendered(baked: Path) -> None:
+    """A dataset of an earlier release may ask for such a lens: every scene is refused, with the heights."""
+    header = small_header(fall={"max_attempts": 2})
+    camera = header.spec.ranges.camera.model_copy(update={"focal_lengths_mm": (1.0,)})
+    ranges = header.spec.ranges.model_copy(update={"camera": camera})
+    header = header.model_copy(update={"spec": header.spec.model_copy(update={"ranges": ranges})})
+    with pytest.raises(SceneError, match=r"none of 2 drawn scenes .*cables or clutter are \d+\.\d mm high, above"):
+        open_renderer(header, on_cpu(baked)).make(Job(category=Category.FAR, index=0), header)
+
+
 def test_surfaces_that_are_not_baked_are_asked_for(tmp_path: Path) -> None:
     """The error names the command that bakes them."""
     header = small_header()
