@@ -71,8 +71,8 @@ class DatasetSpec(Model):
         most = self.ranges.cable.count[1]
         if self.simulator is Simulator.CLOTH and most > _MOST_CLOTH_CABLES:
             raise ValueError(
-                f"ranges.cable.count {most} is above the {_MOST_CLOTH_CABLES} cables that simulator 'cloth' brings to rest; "
-                "ask for 'rod', or for fewer"
+                f"ranges.cable.count {most} is above the {_MOST_CLOTH_CABLES} cables that simulator 'cloth' brings to "
+                "rest; ask for 'rod', or for fewer"
             )
         return self
 
