@@ -66,6 +66,14 @@ def test_a_range_outside_its_table_is_told_its_table(key: str, hint: str) -> Non
         parse_spec({"images": 6, key: 0.1}, source="test")
 
 
+def test_cloth_takes_no_more_cables_than_it_brings_to_rest() -> None:
+    """Eight are taken; of more the error names the simulator to ask for."""
+    eight, nine = ({"images": 6, "simulator": "cloth", "ranges": {"cable": {"count": [1, most]}}} for most in (8, 9))
+    assert parse_spec(eight, source="test").ranges.cable.count == (1, 8)
+    with pytest.raises(SpecError, match=r"ranges\.cable\.count 9 is above the 8 .*'cloth' .*ask for 'rod'"):
+        parse_spec(nine, source="test")
+
+
 def test_a_share_that_hardly_any_scene_shows_is_refused() -> None:
     """The least visible share is a share of pixels, not of pictures."""
     with pytest.raises(SpecError, match=r"ranges\.cable\.least_visible_share"):
