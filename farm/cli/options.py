@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from farm.errors import MessageError, SpecError
-from farm.machine import state_folder
+from farm.machine import expanded, state_folder
 from farm.run.worker_settings import DeviceChoice
 from farm.scene.picture_size import read_resolution
 from farm.spec.category import Category
@@ -54,7 +54,7 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for programs."
 
 def input_places(given: Sequence[Path] | None, *more: Path | None) -> tuple[Path, ...]:
     """Make the places where a renderer looks for a dataset's files absolute, since it may run in another folder."""
-    return tuple(path.expanduser().absolute() for path in (*(given or ()), *more) if path is not None)
+    return tuple(expanded(str(path)).absolute() for path in (*(given or ()), *more) if path is not None)
 
 
 def log_folder(given: Path | None) -> Path:

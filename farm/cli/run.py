@@ -5,8 +5,8 @@ from typing import Annotated
 import typer
 
 from farm.cli.baking import bake_for
+from farm.cli.continuing import GoOn, wanted_dataset
 from farm.cli.display import ProgressDisplay, console
-from farm.cli.installed_assets import InstalledAssets
 from farm.cli.options import (
     Assets,
     DatasetOptions,
@@ -23,12 +23,12 @@ from farm.cli.worker_program import ask_worker, check_device, require_blender
 from farm.dataset.dataset import find_dataset, open_dataset
 from farm.dataset.destination import parse_destination
 from farm.dataset.paths import REPORT_FILE
+from farm.dataset.release import refuse_to_mix
 from farm.dataset.report import write_overview
 from farm.errors import IncompleteError
 from farm.local.run import LocalRun, default_workers, run_locally
 from farm.machine import usable_cores
 from farm.run.worker_settings import MIN_FREE_MIB, DeviceChoice, RendererSettings
-from farm.spec.make_header import make_header
 
 
 @takes_dataset_options
@@ -50,26 +50,29 @@ def run(  # noqa: PLR0913, PLR0917 - every option is a parameter
     inputs: InputFolders = None,
     logs: Logs = None,
     min_free_mib: MinFree = MIN_FREE_MIB,
+    go_on: GoOn = False,
 ) -> None:
     """Make a dataset here and now, with a private Redis and workers that end with it.
 
     Repeat the command to complete a dataset that was interrupted.
     """
     destination = parse_destination(out)
-    description = options.describe()
-    header = make_header(description.spec, description.inputs, InstalledAssets())
-    places = input_places(inputs, *description.inputs.places)
+    wanted = wanted_dataset(options, destination, go_on=go_on)
+    header = wanted.header
+    places = input_places(inputs, *wanted.inputs.places)
     require_blender()
-    find_dataset(destination, header)  # a conflict is told before surfaces are drawn, which may take minutes
+    present = find_dataset(destination, header)  # a conflict is told before surfaces are drawn, which may take minutes
+    if present is not None and not go_on:
+        refuse_to_mix(present)
     screen = console()
     check_device(device, log_folder(logs))
     bake_for(header, assets, screen)
-    if description.inputs.template is not None:
+    if wanted.inputs.template is not None:
         ask_worker(["check"], header, log_folder(logs))
     workers = workers or default_workers()
     threads = threads or max(1, usable_cores() // workers)
     renderer = RendererSettings(device=device, threads=threads, assets=assets, inputs=places)
-    how = LocalRun(workers=workers, renderer=renderer, logs=log_folder(logs), min_free_mib=min_free_mib)
+    how = LocalRun(workers, renderer, log_folder(logs), min_free_mib=min_free_mib, mixes=go_on)
     with ProgressDisplay(screen) as display:
         try:
             progress = run_locally(destination, header, how, display.show)

@@ -4,19 +4,19 @@ from typing import Annotated
 
 import typer
 
+from farm.cli.continuing import GoOn, wanted_dataset
 from farm.cli.display import console
-from farm.cli.installed_assets import InstalledAssets
 from farm.cli.options import Broker, DatasetOptions, Logs, Out, log_folder, takes_dataset_options
 from farm.cli.status import watch_to_the_end
 from farm.cli.worker_program import ask_worker, blender_is_installed
 from farm.dataset.dataset import create_dataset
 from farm.dataset.destination import parse_destination
+from farm.dataset.release import refuse_to_mix
 from farm.run.coordinator import Coordinator
 from farm.run.handle import open_new_run
 from farm.run.queue.broker import broker_url, connect_to_write
 from farm.run.registry.port import Priority
 from farm.run.serving import release_of
-from farm.spec.make_header import make_header
 
 
 @takes_dataset_options
@@ -29,17 +29,20 @@ def submit(
     ] = Priority.NORMAL,
     wait: Annotated[bool, typer.Option("--wait", help="Wait until all is done, and queue lost images again.")] = False,
     logs: Logs = None,
+    go_on: GoOn = False,
 ) -> None:
     """Queue the missing images of a dataset for the workers."""
     destination = parse_destination(out)
-    description = options.describe()
-    header = make_header(description.spec, description.inputs, InstalledAssets())
+    wanted = wanted_dataset(options, destination, go_on=go_on)
+    header = wanted.header
     # Before the header: a Redis that takes no jobs leaves no dataset without them.
     url = broker_url(broker)
     client = connect_to_write(url)
-    if description.inputs.template is not None and blender_is_installed():
+    if wanted.inputs.template is not None and blender_is_installed():
         ask_worker(["check"], header, log_folder(logs))
     dataset = create_dataset(destination, header)
+    if not go_on:
+        refuse_to_mix(dataset)
     # A run that was paused or cancelled goes on when it is submitted again.
     handle, replaced = open_new_run(dataset, url, client, priority)
     if replaced is not None:

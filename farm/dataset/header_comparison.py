@@ -1,5 +1,6 @@
 """Tells how a dataset's header differs from the one that a user asks for."""
 
+import json
 from collections.abc import Mapping
 
 from farm.dataset.header_file import WrittenHeader
@@ -9,11 +10,12 @@ from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, FolderSurfaceRef
 def difference(present: WrittenHeader, asked: DatasetHeader) -> str:
     """Find the first thing in which a dataset is not what is asked, as `key is 1, asked 2`; empty if there is none.
 
-    The user's files count by name and content, not by path. Where another release wrote the header, only what a user
-    decides counts: what that release resolved otherwise, such as built-in surfaces or samples, stays as it is written.
+    The user's files count by content, not by path or name: a texture may be named after its folder. Where another
+    release wrote the header, only what a user decides counts: what that release resolved otherwise, such as built-in
+    surfaces or samples, stays as it is written.
     """
     if present.header.farm_version == asked.farm_version:
-        return first_difference(_without_paths(present.header), _without_paths(asked))
+        return first_difference(_without_places(present.header), _without_places(asked))
     decided = _as_far_as_written(present.header.spec.model_dump(mode="json"), present.written["spec"])
     return first_difference({"spec": decided}, {"spec": asked.spec.model_dump(mode="json")}, added=False) or (
         first_difference(_files_of_user(present.header), _files_of_user(asked))
@@ -27,15 +29,23 @@ def _as_far_as_written(parsed: object, written: object) -> object:
     return parsed
 
 
-def _without_paths(header: DatasetHeader) -> object:
-    return _without("path", header.model_dump(mode="json", exclude={"farm_version"}))
+def _without_places(header: DatasetHeader) -> dict[str, object]:
+    """The header as JSON, without the paths and names of the user's files."""
+    values = header.model_dump(mode="json", exclude={"farm_version"})
+    values["template"].pop("path")
+    for entry in (*values["surfaces"], *values["hdris"], *values["plates"]):
+        if entry.pop("path", None) is not None or "files" in entry:
+            del entry["name"]
+        for file in entry.get("files", {}).values():
+            del file["path"]
+    for key in ("surfaces", "hdris", "plates"):
+        values[key].sort(key=_own_first)
+    return values
 
 
-def _without(key: str, value: object) -> object:
-    """Leave a key out of a JSON value, at every depth."""
-    if isinstance(value, Mapping):
-        return {name: _without(key, inner) for name, inner in value.items() if name != key}
-    return [_without(key, inner) for inner in value] if isinstance(value, list) else value
+def _own_first(entry: Mapping[str, object]) -> str:
+    """Sort the user's files, which lost their names, by content, and leave the built-in ones in their order."""
+    return "" if "name" in entry else json.dumps(entry, sort_keys=True)
 
 
 def _files_of_user(header: DatasetHeader) -> dict[str, object]:
@@ -43,9 +53,9 @@ def _files_of_user(header: DatasetHeader) -> dict[str, object]:
     surfaces = [surface for surface in header.surfaces if isinstance(surface, FolderSurfaceRef)]
     return {
         "template": None if header.template.path is None else header.template.sha256,
-        "textures": {entry.name: {role: file.sha256 for role, file in entry.files.items()} for entry in surfaces},
-        "hdris": {hdri.name: hdri.sha256 for hdri in header.hdris if hdri.path is not None},
-        "backgrounds": {plate.name: plate.sha256 for plate in header.plates},
+        "textures": sorted(sorted((role, file.sha256) for role, file in entry.files.items()) for entry in surfaces),
+        "hdris": sorted(hdri.sha256 for hdri in header.hdris if hdri.path is not None and hdri.sha256 is not None),
+        "backgrounds": sorted(plate.sha256 for plate in header.plates),
         "builtin_textures": any(isinstance(surface, BuiltinSurfaceRef) for surface in header.surfaces),
         "builtin_hdris": any(hdri.path is None and hdri.sha256 is not None for hdri in header.hdris),
         "environments": any(hdri.recipe_version is not None for hdri in header.hdris),

@@ -32,6 +32,7 @@ class LocalRun:
         worker_command: command that runs the worker's program.
         min_free_mib: free space of the dataset's disk, in MiB, below which no picture is made.
         lost_after_s: see `farm.run.feeder.LOST_AFTER_S`.
+        mixes: whether a dataset that another release began gets pictures of this one.
     """
 
     workers: int
@@ -40,6 +41,7 @@ class LocalRun:
     worker_command: Sequence[str] = WORKER_COMMAND
     min_free_mib: int = MIN_FREE_MIB
     lost_after_s: float = LOST_AFTER_S
+    mixes: bool = False
 
 
 def default_workers() -> int:
@@ -74,7 +76,7 @@ def run_locally(
     with PrivateRedis() as server:
         url = server.url
         dataset = create_dataset(destination, header)
-        handle = open_handle(dataset, url, connect(url))
+        handle = open_handle(dataset, url, connect(url), mixes=how.mixes)
         coordinator = Coordinator(dataset, handle, lost_after_s=how.lost_after_s, poll_s=0.5)
         if coordinator.submit_missing() == 0 and (complete := coordinator.end_if_complete(on_progress)):
             return complete

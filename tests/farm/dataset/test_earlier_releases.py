@@ -17,12 +17,13 @@ from farm.dataset.destination import Destination
 from farm.dataset.header_comparison import difference
 from farm.dataset.header_file import read_header
 from farm.dataset.index import write_index
-from farm.dataset.paths import INDEX_FILE
+from farm.dataset.paths import INDEX_FILE, manifest_path
 from farm.dataset.release import refuse_to_mix
 from farm.dataset.report import write_report
 from farm.dataset.verify import verify
 from farm.errors import ConflictError
 from farm.spec.header import DatasetHeader
+from farm.spec.job import Job
 from farm.spec.make_header import Inputs, make_header
 from farm.spec.parse import parse_spec
 
@@ -113,6 +114,8 @@ def test_another_seed_is_another_dataset(release: str, made: Dataset) -> None:
 
 
 def test_pictures_of_two_releases_are_not_mixed_unasked(made: Dataset) -> None:
-    """Going on takes a word of the user's; the refusal names both releases and that word."""
+    """A whole dataset is no matter; to add to another takes a word of the user's, which the refusal tells."""
+    refuse_to_mix(made)
+    made.storage.remove(manifest_path(Job.from_id("far-000001")))
     with pytest.raises(ConflictError, match=rf"cable-farm 0\.1\.0.*{__version__}.*--continue"):
         refuse_to_mix(made)

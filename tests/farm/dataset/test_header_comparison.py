@@ -18,7 +18,7 @@ def _with_files(folder: str, sha256: str = SHA) -> DatasetHeader:
     return stand_in_header().model_copy(
         update={
             "template": TemplateRef(path=f"{folder}/mine.blend", sha256=SHA),
-            "surfaces": (FolderSurfaceRef(name="slate", files=files),),
+            "surfaces": (FolderSurfaceRef(name=folder.rpartition("/")[2], files=files),),
             "hdris": (HdriRef(name="sky", path=f"{folder}/sky.exr", sha256=SHA, dark=False),),
             "plates": (PlateRef(name="lab", path=f"{folder}/lab.jpg", sha256=SHA),),
         }
@@ -31,7 +31,7 @@ def _written(header: DatasetHeader) -> WrittenHeader:
 
 @pytest.mark.parametrize("release", ["0.0.1", stand_in_header().farm_version])
 def test_moved_files_are_the_same(release: str) -> None:
-    """Files count by their content, wherever each machine has them."""
+    """Files count by their content, wherever each machine has them, and be a texture named after its folder."""
     present = _with_files("/mnt/a").model_copy(update={"farm_version": release})
     assert difference(_written(present), _with_files("/media/b")) == ""
 
