@@ -9,6 +9,7 @@ from farm.cli.connection import handle_if_reachable, handle_of
 from farm.cli.options import Broker, DatasetPlace, job_of
 from farm.dataset.dataset import Dataset, open_dataset
 from farm.dataset.destination import parse_destination
+from farm.dataset.foreign import is_foreign
 from farm.dataset.paths import manifest_path
 from farm.dataset.quarantine import Quarantine
 from farm.dataset.verify import damaged_jobs
@@ -28,7 +29,8 @@ def repair(
     """Compare folder and queue once, and queue every image that is neither done, nor waiting, nor being made."""
     dataset = open_dataset(parse_destination(place))
     handle = handle_of(dataset, broker, settles=True)
-    damaged = list(damaged_jobs(dataset)) if checksums else []
+    # What a checksum confirms stays, whatever description it is of; the coordinator refuses to go on then.
+    damaged = [job for job in damaged_jobs(dataset) if not is_foreign(dataset, job)] if checksums else []
     for job in damaged:
         dataset.storage.remove(manifest_path(job))
     count = Coordinator(dataset, handle).submit_missing()

@@ -87,6 +87,10 @@ class Completion:
     Args:
         dataset: the dataset.
         save_after: number of manifests read, from which on an audit saves the memory.
+
+    Attributes:
+        done: jobs that were done at the last look.
+        unfit: jobs whose manifest was there at the last look, and is damaged or of another dataset.
     """
 
     def __init__(self, dataset: Dataset, *, save_after: int = SAVE_AFTER) -> None:
@@ -98,6 +102,7 @@ class Completion:
         self._temporary: dict[str, StoredFile] = {}
         self._memory: Memory | None = None
         self.done = JobSet(quotas)
+        self.unfit = JobSet(quotas)
 
     @property
     def memory(self) -> Memory:
@@ -121,6 +126,7 @@ class Completion:
         """Find the jobs whose manifest is there and fits. A new manifest clears its job's mark of damage."""
         self._temporary = {}
         found: Members = {}
+        unfit: Members = {}
         categories = list(self._dataset.header.spec.quotas)
         for category, listing in zip(
             categories, in_order(self._list_manifests, categories, at_a_time=_LISTERS), strict=True
@@ -132,6 +138,8 @@ class Completion:
                 new |= files[name] != rows[name]
             self._read(category, files, new & (files["bytes"] != ABSENT))
             found[category] = (files["bytes"] != ABSENT) & (rows["state"] & FITS > 0)
+            unfit[category] = (files["bytes"] != ABSENT) & (rows["state"] & FITS == 0)
+        self.unfit = JobSet.of(unfit)
         return found
 
     def _read(self, category: Category, files: NDArray[Any], wanted: NDArray[np.bool_]) -> None:

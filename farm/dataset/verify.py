@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from farm.dataset.completion import STALE_TEMPORARY_S
 from farm.dataset.dataset import Dataset
+from farm.dataset.foreign import is_foreign
 from farm.dataset.instances import find_empty_fault, list_instances
 from farm.dataset.manifest import FileRecord, Manifest, parse_manifest, parse_receipt
 from farm.dataset.outputs import INSTANCES, find_faults, outputs_of
@@ -151,7 +152,9 @@ def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
         yield Finding(fault=Fault.MISSING, path=path, detail="not rendered yet, or its manifest is lost")
         return
     if receipt is None:
-        yield Finding(fault=Fault.ALTERED, path=path, detail="not a manifest of this job of this dataset")
+        foreign = is_foreign(dataset, job)
+        detail = "confirms its files, but is of another description" if foreign else "not a manifest of this job"
+        yield Finding(fault=Fault.ALTERED, path=path, detail=detail)
         return
     spec = dataset.header.spec
     contents: dict[str, Any] = {}

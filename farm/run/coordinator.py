@@ -9,6 +9,7 @@ from typing import TypeVar
 from farm.aside import patiently
 from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset
+from farm.dataset.foreign import refuse_foreign
 from farm.dataset.header_file import read_header
 from farm.dataset.paths import HEADER_FILE
 from farm.dataset.quarantine import Quarantine
@@ -77,6 +78,7 @@ class Coordinator:
         self._quarantined: Mapping[str, str] = {}
         self._leads = False
         self._unserved_since_s: float | None = None
+        self._judged: set[Job] = set()
         self._audited_s = float("-inf")
         self._audit_took_s = 0.0
 
@@ -103,6 +105,7 @@ class Coordinator:
             self._follow_notice()
             if theirs := why_not_ours(self._handle.run, self._dataset):
                 raise ConflictError(f"{self._dataset.storage.location}: {theirs}")
+            refuse_foreign(self._dataset, self._completion.unfit)
         else:
             self._take_down()
         self._feeder.survey()
@@ -261,10 +264,17 @@ class Coordinator:
             return theirs
         if not self._take_the_lead():
             return ""
+        self._refuse_new_foreign()
         undone = self._undone()
         self._feeder.mend(undone)
         self._feeder.top_up(undone)
         return self._feeder.trouble
+
+    def _refuse_new_foreign(self) -> None:
+        """Look for pictures of another description where manifests have come that don't fit; see `refuse_foreign`."""
+        if new := [job for job in self._completion.unfit if job not in self._judged]:
+            refuse_foreign(self._dataset, new)
+            self._judged.update(new)
 
     def _follow_notice(self) -> None:
         """Register the run as it was last seen, and take up its changes: a Redis that lost its data keeps a pause."""

@@ -1,18 +1,22 @@
 """`farm repair`, `farm retry` and the refusals of `farm replay`."""
 
+import json
+import shutil
 from pathlib import Path
 
 import pytest
 import redis
 
 from farm.dataset.dataset import Dataset
+from farm.dataset.header_file import header_content
 from farm.dataset.outputs import MASK
-from farm.dataset.paths import PLACE_FILE, file_path, manifest_path
+from farm.dataset.paths import HEADER_FILE, PLACE_FILE, file_path, manifest_path
 from farm.dataset.quarantine import Quarantine, put_in_quarantine
-from farm.errors import DestinationError, SpecError
+from farm.errors import ConflictError, DestinationError, SpecError
 from farm.run.handle import open_handle
 from farm.spec.job import Job
 from tests.farm.cli.result import USAGE, Farm, assert_refused
+from tests.stand_in import stand_in_header
 
 JOB = Job.from_id("far-000001")
 OTHER = Job.from_id("far-000000")
@@ -146,3 +150,27 @@ def test_replay_that_cannot_be(
     assert_refused(farm("replay", made.storage.location, job_id, *options), kind.exit_code, words)
     assert {path: file for path, file in made.storage.files().items() if path != PLACE_FILE} == before
     assert list(tmp_path.glob("*.png")) == []
+
+
+@pytest.mark.redis
+def test_repair_keeps_what_a_checksum_confirms(farm: Farm, made: Dataset, redis_url: str) -> None:
+    """Where dataset.json was replaced, its whole pictures stay, and the repair says what to put back."""
+    made.storage.write(HEADER_FILE, header_content(stand_in_header(seed=7)))
+    before = made.storage.files()
+    result = farm("repair", made.storage.location, "--checksums", "--broker", redis_url)
+    assert_refused(
+        result, ConflictError.exit_code, "whole pictures of another description", "put back the dataset.json"
+    )
+    assert {path: file for path, file in made.storage.files().items() if path != PLACE_FILE} == before
+
+
+@pytest.mark.redis
+def test_a_copy_is_whole(farm: Farm, made: Dataset, tmp_path: Path, redis_url: str, redis_client: object) -> None:
+    """A copied and renamed dataset is clean and complete, and a repair with checksums leaves all of it."""
+    del redis_client
+    shutil.copytree(made.storage.location, tmp_path / "cables (copy)")
+    assert farm("verify", "cables (copy)").returncode == 0
+    status = json.loads(farm("status", "cables (copy)", "--json").stdout)
+    assert sum(category["done"] for category in status["categories"].values()) == 4
+    repaired = farm("repair", "cables (copy)", "--checksums", "--broker", redis_url)
+    assert repaired.stdout.startswith("0 of 4 images queued"), repaired.stderr

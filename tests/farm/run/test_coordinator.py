@@ -13,6 +13,7 @@ import pytest
 import farm.run.coordinator
 from farm.dataset.dataset import Dataset, create_dataset
 from farm.dataset.destination import Destination
+from farm.dataset.header_file import header_content
 from farm.dataset.quarantine import Quarantine, put_in_quarantine
 from farm.dataset.verify import verify
 from farm.errors import (
@@ -533,14 +534,17 @@ def test_bucket(any_store: Callable[[str], str], header: DatasetHeader) -> None:
 
 
 def test_done_job_of_another_description_does_not_count(tmp_path: Path, dataset: Dataset) -> None:
-    """A manifest that was copied from another dataset proves nothing."""
+    """A picture that was copied from another dataset proves nothing, and nothing is rendered over it."""
     other = create_dataset(Destination(str(tmp_path), "other"), stand_in_header(seed=9))
     job = Job.from_id("far-000000")
     upload(StandInRenderer().make(job, other.header), job, other)
     for path in other.storage.files():
         if path.startswith("far/"):
             dataset.storage.write(path, other.storage.read(path))
-    assert Bench(dataset).coordinator.submit_missing() == 4
+    bench = Bench(dataset)
+    with pytest.raises(ConflictError, match="whole pictures of another description"):
+        bench.coordinator.submit_missing()
+    assert bench.coordinator.left_out == 4
 
 
 def looks_of(bench: Bench, number: int) -> list[Progress]:
@@ -567,6 +571,14 @@ def test_folder_that_vanished_is_not_taken_for_an_empty_one(bench: Bench, tmp_pa
     assert bench.queued() == []
     (tmp_path / "gone").rename(tmp_path / "store/cables")
     assert bench.coordinator.watch().done == 4
+
+
+def test_header_that_another_command_replaced_ends_the_watch(bench: Bench, dataset: Dataset) -> None:
+    """Of two commands that begin different datasets in one place at once, the one that wrote first is told."""
+    bench.coordinator.submit_missing()
+    dataset.storage.write(HEADER_FILE, header_content(stand_in_header(seed=7)))
+    with pytest.raises(ConflictError, match="is another dataset's by now"):
+        bench.coordinator.watch()
 
 
 def test_emptied_redis_does_not_undo_a_pause(bench: Bench) -> None:
