@@ -14,6 +14,7 @@ import farm.run.coordinator
 from farm.dataset.dataset import Dataset, create_dataset
 from farm.dataset.destination import Destination
 from farm.dataset.header_file import header_content
+from farm.dataset.paths import HEADER_FILE
 from farm.dataset.quarantine import Quarantine, put_in_quarantine
 from farm.dataset.verify import verify
 from farm.errors import (
