@@ -22,7 +22,7 @@ ROOMS = ("assets", "benchmarks", "blend", "docker", "docs", "examples", "farm", 
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *(page for room in ROOMS for page in (ROOT / room).rglob("*.md"))])
 SOURCES = [
     file
-    for pattern in ("Makefile", "pyproject.toml", *(f"{room}/**/*" for room in (*ROOMS, ".ci")))
+    for pattern in ("Makefile", "pyproject.toml", "*.py", *(f"{room}/**/*" for room in (*ROOMS, ".ci")))
     for file in sorted(ROOT.glob(pattern))
     if file.suffix in {".py", ".toml", ".yaml", ".sh", ".txt", ".lua"}
     or (file.name in {"Dockerfile", "Makefile", "run"} and file.is_file())
