@@ -1,6 +1,7 @@
 """Datasets that earlier releases made: a golden one of each that wrote another form of header or manifest.
 
-Each holds three pictures of 64 px, over the surface in `golden/textures`, made by that release's `farm run --seed 5`.
+Each holds three pictures of 64 px, over the surface in `golden/textures`, made by that release's `farm run --seed 5`. A
+release that writes another form adds one of its own.
 """
 
 import json
