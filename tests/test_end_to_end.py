@@ -70,7 +70,7 @@ def descendants(pid: int) -> list[int]:
 def is_a_worker(pid: int) -> bool:
     """Whether a process is a worker of the farm, a main process or a child."""
     with suppress(OSError):
-        return b"-m\0worker" in Path(f"/proc/{pid}/cmdline").read_bytes()
+        return b"\0worker.__main__\0serve" in Path(f"/proc/{pid}/cmdline").read_bytes()
     return False
 
 

@@ -19,7 +19,7 @@ def test_a_new_store_keeps_the_contract(tree: Tree) -> None:
     """The suite of all stores passes on it."""
     tree.follow(steps_of(PAGE))
     told = tree.pytest("tests/farm/storage/test_contract.py", "-k", "sqlite")
-    assert "14 passed" in told
+    assert "15 passed" in told
 
 
 def test_a_row_of_a_service_is_told_in_messages(tree: Tree) -> None:

@@ -45,8 +45,8 @@ def checked(url: str) -> str:
     url = url.strip()
     kind, separator, rest = url.partition("://")
     if kind not in _KINDS or not separator:
-        hint = _UNLIKE_OTHERS.get(kind.lower()) or _FORM
-        raise BrokerError(f"'{masked(url)}' is no Redis address; {hint}")
+        why = _UNLIKE_OTHERS.get(kind.lower(), "")
+        raise BrokerError(f"'{masked(url)}' is no Redis address; {why}{'; ' if why else ''}{_FORM}")
     if not rest.isprintable() or any(sign.isspace() for sign in rest):
         raise BrokerError(f"'{ascii(masked(url))[1:-1]}' holds white space or a control character; {_FORM}")
     if kind != "rediss":

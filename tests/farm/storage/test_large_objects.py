@@ -5,6 +5,7 @@ import random
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 
 import pytest
@@ -17,6 +18,7 @@ from tests.relay import Relay, relay
 pytestmark = pytest.mark.swift
 
 MB = 1_000_000
+PATIENCE_S = 10.0
 LARGE = random.Random(0).randbytes(60 * MB)  # noqa: S311 - any bytes will do
 
 UPLOAD = """
@@ -73,6 +75,10 @@ def test_cut_off(
         storage.write("large", former)
 
     def break_off(between: Relay) -> None:
+        # The smallest part has been sent by now; the store takes a moment to keep it.
+        give_up_s = time.monotonic() + PATIENCE_S
+        while not parts_of(object_store, bucket) and time.monotonic() < give_up_s:
+            time.sleep(0.02)
         if end == "server":
             object_store.kill()
         between.cut()
