@@ -174,15 +174,21 @@ def _check_job(dataset: Dataset, job: Job) -> Iterator[Finding]:
     for output, detail in find_faults(outputs_of(spec), contents, spec.resolution):
         faulty.add(output.role)
         yield Finding(fault=Fault.ALTERED, path=receipt.files[output.folder].path, detail=detail)
-    # One of an earlier release lists no instances, and its scene may be one that only that release can read.
+    # A manifest of an earlier release lists no instances, and only that release may be able to read its scene.
     manifest = None if receipt.instances is None else parse_manifest(written, dataset, job)
     if manifest is not None and INSTANCES.role in contents.keys() - faulty:
-        instances = contents[INSTANCES.role]
-        if (fault := find_empty_fault(manifest.scene, instances, spec)) is not None:
-            yield Finding(fault=Fault.ALTERED, path=manifest.files[INSTANCES.folder].path, detail=fault)
-        elif not _lists_instances(manifest, instances):
-            detail = "its list of instances is not what the instance map shows"
-            yield Finding(fault=Fault.ALTERED, path=path, detail=detail)
+        yield from _check_instances(manifest, contents[INSTANCES.role], dataset, job)
+
+
+def _check_instances(
+    manifest: Manifest, instances: NDArray[np.uint16], dataset: Dataset, job: Job
+) -> Iterator[Finding]:
+    """Check a picture's instance map against its scene, and against the list in its manifest."""
+    if (fault := find_empty_fault(manifest.scene, instances, dataset.header.spec)) is not None:
+        yield Finding(fault=Fault.ALTERED, path=manifest.files[INSTANCES.folder].path, detail=fault)
+    elif not _lists_instances(manifest, instances):
+        detail = "its list of instances is not what the instance map shows"
+        yield Finding(fault=Fault.ALTERED, path=manifest_path(job), detail=detail)
 
 
 def _lists_instances(manifest: Manifest, instances: NDArray[np.uint16]) -> bool:
