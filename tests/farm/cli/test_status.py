@@ -23,7 +23,7 @@ from farm.run.registry.redis import RedisRegistry
 from farm.spec.job import Job
 from tests.farm.cli.result import Farm, assert_refused
 
-submit_command = import_module("farm.cli.submit")  # the package's own name `submit` is the command
+continuing = import_module("farm.cli.submit")  # the package's own name `submit` is the command
 
 
 @pytest.mark.parametrize("command", ["status", "verify", "report"])
@@ -59,7 +59,7 @@ def test_watch_and_submit_leave_index_and_report(
     farm: Farm, made: Dataset, redis_url: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """After watching or waiting for a dataset its index and page exist, as after `farm run`."""
-    monkeypatch.setattr(submit_command, "make_header", lambda *_: made.header)
+    monkeypatch.setattr(continuing, "make_header", lambda *_: made.header)
     commands = [("watch", made.storage.location), ("submit", "--images", "1", "--out", made.storage.location, "--wait")]
     for arguments in commands:
         result = farm(*arguments, "--broker", redis_url)
