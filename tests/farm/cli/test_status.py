@@ -5,12 +5,12 @@ import os
 import shutil
 import subprocess
 import sys
-from importlib import import_module
 from pathlib import Path
 
 import pytest
 import redis
 
+from farm.cli import continuing
 from farm.dataset.dataset import Dataset
 from farm.dataset.paths import INDEX_FILE, REPORT_FILE
 from farm.dataset.quarantine import put_in_quarantine
@@ -22,8 +22,6 @@ from farm.run.registry.port import Refusal, RunState, WorkerReport, WorkerState
 from farm.run.registry.redis import RedisRegistry
 from farm.spec.job import Job
 from tests.farm.cli.result import Farm, assert_refused
-
-continuing = import_module("farm.cli.submit")  # the package's own name `submit` is the command
 
 
 @pytest.mark.parametrize("command", ["status", "verify", "report"])
