@@ -46,7 +46,8 @@ def wanted_dataset(options: DatasetOptions, destination: Destination, *, go_on: 
         description = options.describe()
         header = make_header(description.spec, description.inputs, InstalledAssets())
         return Wanted(header, description.inputs)
-    given = [field.name for field in fields(options) if getattr(options, field.name) not in (None, False)]
+    values = {field.name: getattr(options, field.name) for field in fields(options)}
+    given = [name for name, value in values.items() if value is not None and value is not False]
     if given:
         flag = given[0].replace("_", "-")
         raise SpecError(f"--continue takes the description from the dataset.json in --out; leave out --{flag}")
@@ -65,7 +66,10 @@ def _what_is_lacking(header: DatasetHeader) -> str:
             recipe = SURFACES.get(surface.name)
             if recipe is None or recipe.version != surface.recipe_version:
                 return f"this release draws no version {surface.recipe_version} of the surface '{surface.name}'"
+    builtin = {(hdri.name, hdri.sha256) for hdri in InstalledAssets().builtin_hdris()}
     for hdri in header.hdris:
+        if hdri.path is None and hdri.recipe_version is None and (hdri.name, hdri.sha256) not in builtin:
+            return f"this release's Blender comes with another HDRI '{hdri.name}'"
         environment = ENVIRONMENTS.get(hdri.name)
         if hdri.recipe_version is not None and (environment is None or environment.version != hdri.recipe_version):
             return f"this release renders no version {hdri.recipe_version} of the environment '{hdri.name}'"

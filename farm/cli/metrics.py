@@ -97,9 +97,10 @@ class _Datasets:
             return self._look()
 
     def _look(self) -> list[tuple[Dataset, RunHandle]]:
-        while self._named:
-            self._add(self._named[-1])
-            self._named.pop()
+        for dataset in list(self._named):
+            with suppress(DestinationError):  # its folder is away; the next scrape asks again
+                self._add(dataset)
+                self._named.remove(dataset)
         known = {handle.run.key for _, handle in self._found.values()}
         for run in RedisRegistry(self._client).runs().values() if self._store is not None else ():
             if run.key not in known:

@@ -15,7 +15,7 @@ from farm.run.worker_settings import DeviceChoice
 from farm.scene.picture_size import read_resolution
 from farm.spec.category import Category
 from farm.spec.dataset_spec import Engine
-from farm.spec.job import Job
+from farm.spec.job import MAX_INDEX, Job
 from farm.spec.parse import Description, describe, parse_quotas
 from farm.spec.quality import read_quality
 from farm.spec.simulation import Simulator
@@ -74,7 +74,8 @@ def job_of(job_id: str) -> Job:
         return Job.from_id(job_id)
     except MessageError:
         number = job_id.rpartition("-")[2]
-        nearest = f"{job_id.rpartition('-')[0]}-{int(number):06d}" if number.isascii() and number.isdecimal() else ""
+        is_number = number.isascii() and number.isdecimal() and len(number) <= len(str(MAX_INDEX))
+        nearest = f"{job_id.rpartition('-')[0]}-{int(number):06d}" if is_number else ""
         meant = f"; do you mean {nearest}?" if _is_job_id(nearest) else f"; categories are {', '.join(Category)}"
         raise typer.BadParameter(
             f"{job_id[:80]!a} is no id of an image; write CATEGORY-NUMBER with six digits, as in far-000042{meant}",

@@ -9,8 +9,10 @@ from farm.cli.display import console
 from farm.cli.options import Broker, DatasetOptions, Logs, Out, log_folder, takes_dataset_options
 from farm.cli.status import watch_to_the_end
 from farm.cli.worker_program import ask_worker, blender_is_installed
+from farm.dataset.completion import Completion
 from farm.dataset.dataset import create_dataset
 from farm.dataset.destination import parse_destination
+from farm.dataset.foreign import refuse_foreign
 from farm.dataset.release import refuse_to_mix
 from farm.run.coordinator import Coordinator
 from farm.run.handle import open_new_run
@@ -43,6 +45,9 @@ def submit(
     dataset = create_dataset(destination, header)
     if not go_on:
         refuse_to_mix(dataset)
+    completion = Completion(dataset)
+    completion.look()
+    refuse_foreign(dataset, completion.unfit)
     # A run that was paused or cancelled goes on when it is submitted again.
     handle, replaced = open_new_run(dataset, url, client, priority)
     if replaced is not None:

@@ -2,9 +2,7 @@
 
 import contextlib
 import importlib.util
-import os
 import subprocess
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -19,6 +17,7 @@ from farm.run.queue.broker import BROKER_VARIABLE
 from farm.run.worker_settings import DeviceChoice, RendererSettings, WorkerSettings
 from farm.spec.header import DatasetHeader
 from farm.spec.job import Job
+from farm.start import become
 
 
 def blender_is_installed() -> bool:
@@ -38,11 +37,7 @@ def require_blender() -> None:
 
 def become_worker(settings: WorkerSettings, broker_url: str) -> None:
     """Become a worker in place of this process, so that signals reach it; does not return."""
-    command = [*WORKER_COMMAND, *settings.serve_arguments()]
-    sys.stdout.flush()
-    sys.stderr.flush()
-    environment = {**own_environment(), BROKER_VARIABLE: broker_url}
-    os.execve(command[0], command, environment)  # noqa: S606 - no shell is wanted
+    become("worker.__main__", settings.serve_arguments(), **{BROKER_VARIABLE: broker_url})
 
 
 def check_device(device: DeviceChoice, logs: Path) -> None:

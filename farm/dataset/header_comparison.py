@@ -3,8 +3,10 @@
 import json
 from collections.abc import Mapping
 
+from farm.dataset.earlier_forms import in_todays_form
 from farm.dataset.header_file import WrittenHeader
 from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, FolderSurfaceRef
+from farm.spec.styles import RANGES_OF
 
 
 def difference(present: WrittenHeader, asked: DatasetHeader) -> str:
@@ -16,17 +18,30 @@ def difference(present: WrittenHeader, asked: DatasetHeader) -> str:
     """
     if present.header.farm_version == asked.farm_version:
         return first_difference(_without_places(present.header), _without_places(asked))
-    decided = _as_far_as_written(present.header.spec.model_dump(mode="json"), present.written["spec"])
-    return first_difference({"spec": decided}, {"spec": asked.spec.model_dump(mode="json")}, added=False) or (
+    spec = asked.spec.model_dump(mode="json")
+    written = in_todays_form(present.written)["spec"]
+    style = {"ranges": RANGES_OF[asked.spec.style].model_dump(mode="json")}
+    decided = _decided(present.header.spec.model_dump(mode="json"), written, spec, style)
+    return first_difference({"spec": decided}, {"spec": spec}, added=False) or (
         first_difference(_files_of_user(present.header), _files_of_user(asked))
     )
 
 
-def _as_far_as_written(parsed: object, written: object) -> object:
-    """Leave out the keys that the file does not hold: its release did not know them, so no user decided them."""
-    if isinstance(parsed, Mapping) and isinstance(written, Mapping):
-        return {key: _as_far_as_written(value, written[key]) for key, value in parsed.items() if key in written}
-    return parsed
+def _decided(parsed: object, written: object, asked: object, style: object) -> object:
+    """Leave out the keys that the file does not hold: its release did not know them, so no user decided them.
+
+    Such a key stays if it is asked for with another value than this release's default and the style's.
+    """
+    if not (isinstance(parsed, Mapping) and isinstance(written, Mapping) and isinstance(asked, Mapping)):
+        return parsed
+    of_style = style if isinstance(style, Mapping) else {}
+    kept: dict[str, object] = {}
+    for key, value in parsed.items():
+        if key in written:
+            kept[key] = _decided(value, written[key], asked.get(key), of_style.get(key))
+        elif asked.get(key) not in (value, of_style.get(key)):
+            kept[key] = value
+    return kept
 
 
 def _without_places(header: DatasetHeader) -> dict[str, object]:

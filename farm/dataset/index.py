@@ -108,8 +108,6 @@ def _read(dataset: Dataset, job: Job, parse: _Parse[T]) -> T | None:
 def index_entry(dataset: Dataset, job: Job, receipt: Receipt) -> IndexEntry:
     """Make the index entry of one image of a dataset, whichever release made it."""
     scene = receipt.scene
-    # Release 0.1.0 first had one lamp, then a list of lamps.
-    lamps = [scene["lamp"]] if scene.get("lamp") else scene.get("lamps") or ()
     records = {output.role: receipt.files[output.folder] for output in outputs_of(dataset.header.spec)}
     return IndexEntry(
         job_id=job.id,
@@ -117,12 +115,12 @@ def index_entry(dataset: Dataset, job: Job, receipt: Receipt) -> IndexEntry:
         index=job.index,
         seed=receipt.seed,
         files={role: IndexedFile(path=record.path, sha256=record.sha256) for role, record in records.items()},
-        attempt=scene["attempt"],
-        cables=len(scene["cables"]),
-        surface=scene["floor"]["texture"] if scene.get("floor") else None,
-        hdri=scene["hdri_world"]["hdri"] if scene.get("hdri_world") else None,
-        lamp=lamps[0]["kind"] if lamps else None,
-        camera_height_m=scene["camera"]["height_m"],
+        attempt=scene.attempt,
+        cables=len(scene.cables),
+        surface=scene.floor.texture if scene.floor else None,
+        hdri=scene.hdri_world.hdri if scene.hdri_world else None,
+        lamp=scene.first_lamp,
+        camera_height_m=scene.camera.height_m,
         visible_instances=None if receipt.instances is None else len(receipt.instances),
     )
 

@@ -123,24 +123,67 @@ class Manifest(Model):
     files: Mapping[str, FileRecord]
 
 
-class Receipt(BaseModel):
+class _Facts(BaseModel):
+    """A part of a manifest of whatever release, of which only some keys are known."""
+
+    model_config = ConfigDict(frozen=True, extra="ignore", strict=True, allow_inf_nan=False)
+
+
+class _Floor(_Facts):
+    texture: str
+
+
+class _World(_Facts):
+    hdri: str
+
+
+class _Lamp(_Facts):
+    kind: str
+
+
+class _Camera(_Facts):
+    height_m: float
+
+
+class SceneFacts(_Facts):
+    """The part of a scene that the index lists, as every release describes it.
+
+    Attributes:
+        lamp: the one lamp of the first datasets of release 0.1.0.
+        lamps: the lamps of all others.
+    """
+
+    attempt: Annotated[int, Field(ge=0)]
+    cables: tuple[Mapping[str, Any], ...]
+    floor: _Floor | None = None
+    hdri_world: _World | None = None
+    lamp: _Lamp | None = None
+    lamps: tuple[_Lamp, ...] = ()
+    camera: _Camera
+
+    @property
+    def first_lamp(self) -> str | None:
+        """Kind of the first lamp; None if there is none."""
+        lamp = next(iter(self.lamps), self.lamp)
+        return None if lamp is None else lamp.kind
+
+
+class Receipt(_Facts):
     """The part of a manifest by which its picture is done. Every release writes it, though their scenes differ.
 
     Attributes:
         spec_sha256: identity of the dataset.
         files: every file of the picture but its manifest, by the folder of its output.
-        scene: the scene as its release describes it.
+        scene: what the index lists of the scene.
         timings_s: seconds per stage.
         instances: its list of instances; None in manifests of releases that list none.
     """
 
-    model_config = ConfigDict(frozen=True, extra="ignore", strict=True, allow_inf_nan=False)
-
     spec_sha256: Sha256
     job_id: str
-    seed: int
+    seed: Annotated[int, Field(ge=0)]
     files: Mapping[str, FileRecord]
-    scene: Mapping[str, Any]
+    scene: SceneFacts
     timings_s: Mapping[str, Seconds] = {}
     instances: tuple[Mapping[str, Any], ...] | None = None
 

@@ -55,6 +55,16 @@ def claim_place(storage: Storage) -> str:
     return found
 
 
+def keep_place(storage: Storage, place: str) -> None:
+    """Write the id of a run's place again if it was lost, as by a move of `folder/*`: workers go by it.
+
+    Raises:
+        DestinationError: if the folder can't be read or written.
+    """
+    if place and not read_place(storage):
+        storage.create(PLACE_FILE, f"{place}\n".encode())
+
+
 def renew_place(storage: Storage) -> str:
     """Give a place another id: the present one came with a copy of the folder.
 

@@ -5,6 +5,8 @@ from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset
 from farm.dataset.quarantine import Quarantine
 from farm.errors import ConflictError
+from farm.spec.job import Job
+from farm.spec.job_set import JobSet
 
 
 def refuse_to_mix(dataset: Dataset) -> None:
@@ -16,7 +18,10 @@ def refuse_to_mix(dataset: Dataset) -> None:
     """
     if dataset.header.farm_version == __version__:
         return
-    if len(Completion(dataset).audit().others()) > len(Quarantine(dataset).look()):
+    given_up = JobSet(dataset.header.spec.quotas)
+    for job_id in Quarantine(dataset).look():
+        given_up.add(Job.from_id(job_id))
+    if len(Completion(dataset).audit().others() - given_up):
         place = dataset.storage.location
         raise ConflictError(
             f"{place}: begun by cable-farm {dataset.header.farm_version}, whose pictures may differ from those of this "

@@ -12,6 +12,7 @@ from farm.dataset.dataset import Dataset
 from farm.dataset.foreign import refuse_foreign
 from farm.dataset.header_file import read_header
 from farm.dataset.paths import HEADER_FILE
+from farm.dataset.place import keep_place
 from farm.dataset.quarantine import Quarantine
 from farm.errors import BrokerError, ConflictError, DestinationError, IncompleteError, RunCancelledError
 from farm.run.feeder import LOST_AFTER_S, WINDOW, Feeder
@@ -228,6 +229,8 @@ class Coordinator:
         else:
             self._completion.look()
         self._look_at_quarantine()
+        self._refuse_new_foreign()
+        keep_place(self._dataset.storage, self._handle.run.place)
 
     def _require_header(self) -> None:
         # A folder that is gone, for example with its mount, lists no file, as if no job were done.
@@ -264,7 +267,6 @@ class Coordinator:
             return theirs
         if not self._take_the_lead():
             return ""
-        self._refuse_new_foreign()
         undone = self._undone()
         self._feeder.mend(undone)
         self._feeder.top_up(undone)

@@ -6,8 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from farm.dataset.dataset import open_dataset
+from farm.dataset.destination import Destination
 from farm.dataset.paths import HEADER_FILE
+from farm.dataset.quarantine import put_in_quarantine
 from farm.errors import ConflictError, DatasetMissingError, SpecError
+from farm.spec.job import Job
 from tests.farm.cli.result import Farm, assert_refused
 
 _GOLDEN = Path(__file__).parents[1] / "dataset" / "golden"
@@ -48,9 +52,10 @@ def test_a_whole_dataset_of_another_release_is_left_as_it_is(
     assert told.stdout.startswith("0 of 3 images queued"), told.stderr
 
 
-def test_continue_takes_no_description(farm: Farm, begun: Path) -> None:
+@pytest.mark.parametrize("seed", ["0", "1"])
+def test_continue_takes_no_description(farm: Farm, begun: Path, seed: str) -> None:
     """The description is in the folder already."""
-    result = farm("run", "--continue", "--seed", "1", "--out", str(begun))
+    result = farm("run", "--continue", "--seed", seed, "--out", str(begun))
     assert_refused(result, SpecError.exit_code, "--continue takes the description", "--seed")
 
 
@@ -78,3 +83,30 @@ def test_parts_that_this_release_lacks(farm: Farm, begun: Path, part: str, chang
     (begun / HEADER_FILE).write_text(json.dumps(values))
     result = farm("submit", "--continue", "--out", str(begun))
     assert_refused(result, ConflictError.exit_code, "begun by cable-farm 0.1.0", said)
+
+
+@pytest.mark.redis
+def test_a_retry_that_is_refused_keeps_the_records(
+    farm: Farm, begun: Path, redis_url: str, redis_client: object
+) -> None:
+    """What another release gave up stays given up until the user says --continue."""
+    del redis_client
+    dataset = open_dataset(Destination(str(begun.parent), begun.name))
+    put_in_quarantine(dataset, Job.from_id("far-000001"), "died", attempts=3, worker="host:1", log="")
+    refused = farm("retry", "begun", "--broker", redis_url)
+    assert_refused(refused, ConflictError.exit_code, "release 0.1.0", "--continue")
+    assert (begun / "quarantine/far-000001.json").exists()
+    told = farm("retry", "begun", "--continue", "--broker", redis_url)
+    assert told.stdout.startswith("1 images put back; 1 queued"), told.stderr
+
+
+@pytest.mark.redis
+def test_a_repair_that_is_refused_removes_no_manifest(
+    farm: Farm, begun: Path, redis_url: str, redis_client: object
+) -> None:
+    """A damaged picture of another release keeps its manifest, since this release may not make it again."""
+    del redis_client
+    (begun / "far/masks/far-000000.png").write_bytes(b"damaged")
+    refused = farm("repair", "begun", "--checksums", "--broker", redis_url)
+    assert_refused(refused, ConflictError.exit_code, "release 0.1.0", "--continue")
+    assert (begun / "far/manifests/far-000000.json").exists()

@@ -121,6 +121,7 @@ def test_retry_of_what_was_not_given_up(farm: Farm, lacking: Dataset) -> None:
         ("", "as in far-000042"),
         ("far-00004²", "as in far-000042"),
         ("far-9999999999", "as in far-000042"),
+        (f"far-{'9' * 5000}", "as in far-000042"),
     ],
 )
 def test_wrong_id_is_wrong_usage(farm: Farm, lacking: Dataset, command: str, job_id: str, words: str) -> None:

@@ -19,10 +19,9 @@ def test_settings_of_the_cloth_move_to_the_cloth() -> None:
         {"spec": {"fall": {"max_attempts": 3}}},
         {"spec": {"fall": 7}},
         {"spec": []},
-        [],
-        None,
+        {},
     ],
 )
-def test_other_values_stay(written: object) -> None:
+def test_other_values_stay(written: dict[str, object]) -> None:
     """What is in place, and what is no header at all, is not touched."""
     assert in_todays_form(written) == written

@@ -56,7 +56,9 @@ def made(release: str, tmp_path: Path) -> Dataset:
 def _asked_again(release: str, **ranges: object) -> DatasetHeader:
     """The header that this release makes of the same description, with some ranges given in full."""
     keys = {"quotas": {"close_concentrated_light": 1, "far": 2}, "seed": 5, "resolution": 64, "quality": "draft"}
-    spec = parse_spec({**keys, "style": _STYLES[release], "ranges": ranges}, source="test")
+    simulator = "cloth" if release == "0.1.0-cloth" else "rod"
+    given = {**keys, "style": _STYLES[release], "ranges": ranges, "simulator": simulator}
+    spec = parse_spec(given, source="test")
     inputs = Inputs(textures=(_GOLDEN / "textures",), builtin_textures=False, environments=False)
     return make_header(spec, inputs, InstalledAssets())
 

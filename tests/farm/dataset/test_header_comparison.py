@@ -76,3 +76,17 @@ def test_what_a_user_decides_counts_in_every_release() -> None:
 def test_the_first_difference(present: object, asked: object, found: str) -> None:
     """It is named by its path, with both values, shortened."""
     assert first_difference(present, asked) == found
+
+
+def test_a_key_that_a_release_did_not_know_counts_if_it_is_asked_for() -> None:
+    """The style's own value is nobody's decision; another one is the user's."""
+    present = json.loads(header_content(stand_in_header()))
+    present["farm_version"] = "0.0.1"
+    del present["spec"]["ranges"]["cable"]["background_share"]
+    asked = stand_in_header()
+    written = parse_header(json.dumps(present).encode())
+    assert difference(written, asked) == ""
+    cable = asked.spec.ranges.cable.model_copy(update={"background_share": 0.5})
+    ranges = asked.spec.ranges.model_copy(update={"cable": cable})
+    other = asked.model_copy(update={"spec": asked.spec.model_copy(update={"ranges": ranges})})
+    assert difference(written, other) == "spec.ranges.cable.background_share is 0.0, asked 0.5"

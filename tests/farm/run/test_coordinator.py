@@ -14,7 +14,8 @@ import farm.run.coordinator
 from farm.dataset.dataset import Dataset, create_dataset
 from farm.dataset.destination import Destination
 from farm.dataset.header_file import header_content
-from farm.dataset.paths import HEADER_FILE
+from farm.dataset.paths import HEADER_FILE, PLACE_FILE
+from farm.dataset.place import claim_place, read_place
 from farm.dataset.quarantine import Quarantine, put_in_quarantine
 from farm.dataset.verify import verify
 from farm.errors import (
@@ -572,6 +573,16 @@ def test_folder_that_vanished_is_not_taken_for_an_empty_one(bench: Bench, tmp_pa
     assert bench.queued() == []
     (tmp_path / "gone").rename(tmp_path / "store/cables")
     assert bench.coordinator.watch().done == 4
+
+
+def test_lost_id_of_the_place_is_written_again(bench: Bench, dataset: Dataset) -> None:
+    """Workers go by it, and a move of `folder/*` leaves it behind."""
+    place = claim_place(dataset.storage)
+    bench.handle = replace(bench.handle, run=bench.handle.run.model_copy(update={"place": place}))
+    bench.coordinator = Coordinator(dataset, bench.handle)
+    dataset.storage.remove(PLACE_FILE)
+    looks_of(bench, 1)
+    assert read_place(dataset.storage) == place
 
 
 def test_header_that_another_command_replaced_ends_the_watch(bench: Bench, dataset: Dataset) -> None:

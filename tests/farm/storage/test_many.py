@@ -1,5 +1,7 @@
 """Many calls at a time."""
 
+import subprocess
+import sys
 import threading
 from collections.abc import Iterator
 
@@ -51,3 +53,16 @@ def test_failure_comes_up_in_its_turn() -> None:
     with pytest.raises(KeyError, match="five"):
         next(results)
     assert len(taken) < 30
+
+
+def test_calls_that_hang_do_not_hold_the_process() -> None:
+    """A command whose store hangs can be stopped: the threads end with it."""
+    program = """
+import time
+from farm.aside import Aside
+from farm.storage import in_order
+aside = Aside(lambda: list(in_order(time.sleep, [600.0])))
+aside.begin()
+time.sleep(0.2)
+"""
+    assert subprocess.run([sys.executable, "-c", program], check=False, timeout=60).returncode == 0
