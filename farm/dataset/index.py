@@ -73,29 +73,18 @@ class IndexEntry(Model):
         return line
 
 
-def done_receipts(dataset: Dataset) -> Iterator[tuple[Job, Receipt]]:
-    """Yield the done images with the receipts in their manifests, by category in order and then by index.
-
-    Raises:
-        DestinationError: if the folder can't be read.
-    """
-    return _parsed(dataset, parse_receipt)
-
-
 def done_manifests(dataset: Dataset) -> Iterator[tuple[Job, Manifest]]:
-    """Yield the done images with their manifests, in the same order, without those that only another release can read.
+    """Yield the done images with their manifests, by category in order and then by index.
+
+    Those that only another release can read are left out.
 
     Raises:
         DestinationError: if the folder can't be read.
     """
-    return _parsed(dataset, parse_manifest)
-
-
-def _parsed(dataset: Dataset, parse: _Parse[T]) -> Iterator[tuple[Job, T]]:
     done = Completion(dataset).audit().by_category()
-    for job, parsed in in_order(lambda job: (job, _read(dataset, job, parse)), done):
-        if parsed is not None:
-            yield job, parsed
+    for job, manifest in in_order(lambda job: (job, _read(dataset, job, parse_manifest)), done):
+        if manifest is not None:
+            yield job, manifest
 
 
 def _read(dataset: Dataset, job: Job, parse: _Parse[T]) -> T | None:

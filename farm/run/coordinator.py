@@ -41,6 +41,7 @@ _LEAD_S = 30.0
 
 _SILENCE_S = 10.0
 """Seconds without an answer of the folder after which this is told, and told again after as many more."""
+
 _UNSERVED_S = 20.0
 """Time, in seconds, for which no worker must have served a run before a watch says so: workers load Blender first."""
 

@@ -25,7 +25,6 @@ LOST_AFTER_S = 10.0
 a message is in no list: a worker has taken it and has not claimed its job yet. A job queued twice does no harm, but it
 costs a look."""
 
-
 _LOST_OFTEN = 2
 """Losses of one job after which this is told: a message or two may get lost, but this one is taken by somebody."""
 

@@ -1,6 +1,7 @@
 """The index: the same bytes however it is made, and few reads."""
 
 import json
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,7 +9,8 @@ import pytest
 
 from farm.dataset.completion import Completion
 from farm.dataset.dataset import Dataset
-from farm.dataset.index import done_receipts, index_entry, index_line, read_line, write_index, write_index_of
+from farm.dataset.index import done_manifests, index_entry, index_line, read_line, write_index, write_index_of
+from farm.dataset.manifest import Receipt, parse_receipt
 from farm.dataset.paths import CACHE_FILE, INDEX_FILE, manifest_path
 from farm.dataset.report import write_overview, write_report
 from farm.spec.job import Job
@@ -46,9 +48,17 @@ def written(dataset: Dataset) -> tuple[list[str], JobSet]:
     return read, write_index_of(recording, completion)
 
 
+def receipts(dataset: Dataset) -> Iterator[tuple[Job, Receipt]]:
+    """The receipts of all done images, in the index's order."""
+    for job, _ in done_manifests(dataset):
+        receipt = parse_receipt(dataset.storage.read(manifest_path(job)), dataset, job)
+        assert receipt is not None
+        yield job, receipt
+
+
 def by_hand(dataset: Dataset) -> bytes:
     """The index as it must be, from all manifests."""
-    return b"".join(index_line(index_entry(dataset, job, receipt)) for job, receipt in done_receipts(dataset))
+    return b"".join(index_line(index_entry(dataset, job, receipt)) for job, receipt in receipts(dataset))
 
 
 def test_lines_are_kept(made: Dataset) -> None:
@@ -91,7 +101,7 @@ def test_index_that_is_not_as_written(made: Dataset, spoil: str) -> None:
 
 def test_line_reads_back(made: Dataset) -> None:
     """An entry is the same after it was a line."""
-    for job, receipt in done_receipts(made):
+    for job, receipt in receipts(made):
         entry = index_entry(made, job, receipt)
         assert read_line(index_line(entry)) == entry
         assert next(iter(json.loads(index_line(entry)))) == "job_id"

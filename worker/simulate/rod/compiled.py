@@ -20,6 +20,7 @@ from farm.machine import cache_folder
 # numba reads settings from .numba_config.yaml in the working folder, which is a project's own.
 with chdir(Path(__file__).parent) if Path(".numba_config.yaml").exists() else nullcontext():
     import numba
+
 log = logging.getLogger(__name__)
 
 _ROOM_BYTES = 2**20
