@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from assets.colour import REC709_LUMINANCE
 from assets.files import Checksum, read_bounded, sha256
 from assets.scan.float_image import FLOAT_SUFFIXES, read_float_image
-from assets.scan.survey import Survey, broken, entries_of, names_of, sort_out
+from assets.scan.survey import Survey, entries_of, survey_files
 from farm.errors import AssetError
 
 REGISTRY_PATH = Path(__file__).with_name("hdris.toml")
@@ -150,14 +150,7 @@ def survey_hdris(folder: Path) -> Survey[Hdri]:
         AssetError: It is no folder, or can't be listed.
     """
     entries = entries_of(folder, "give the folder that holds your .hdr or .exr files")
-    paths, left_out = sort_out(entries, FLOAT_SUFFIXES, ".hdr or .exr, with high dynamic range")
-    found = []
-    for name, path in names_of(paths).items():
-        try:
-            found.append(read_hdri(path, name))
-        except AssetError as error:
-            left_out.append(broken(path, error))
-    return Survey(tuple(found), tuple(sorted(left_out, key=lambda entry: entry.path)))
+    return survey_files(entries, FLOAT_SUFFIXES, ".hdr or .exr, with high dynamic range", read_hdri)
 
 
 def scan_hdris(folder: Path) -> tuple[Hdri, ...]:

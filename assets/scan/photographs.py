@@ -11,7 +11,7 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 from pydantic import BaseModel, ConfigDict, Field
 
 from assets.files import Checksum, read_bounded, sha256
-from assets.scan.survey import Survey, broken, entries_of, names_of, sort_out
+from assets.scan.survey import Survey, entries_of, survey_files
 from assets.scan.texture_image import NO_IMAGE
 from farm.errors import AssetError
 
@@ -59,14 +59,7 @@ def survey_plates(folder: Path) -> Survey[PlateFile]:
         AssetError: It is no folder, or can't be listed.
     """
     entries = entries_of(folder, "give the folder that holds your photographs")
-    paths, left_out = sort_out(entries, SUFFIXES, "JPEG, PNG, WebP or TIFF")
-    found = []
-    for name, path in names_of(paths).items():
-        try:
-            found.append(read_plate(path, name))
-        except AssetError as error:
-            left_out.append(broken(path, error))
-    return Survey(tuple(found), tuple(sorted(left_out, key=lambda entry: entry.path)))
+    return survey_files(entries, SUFFIXES, "JPEG, PNG, WebP or TIFF", read_plate)
 
 
 def scan_plates(folder: Path) -> tuple[PlateFile, ...]:

@@ -1,7 +1,7 @@
 """What a scan of a user's folder gives: what can be used, and each file that is left out, with the reason."""
 
 import stat
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Generic, TypeVar
@@ -149,3 +149,24 @@ def names_of(paths: Iterable[Path]) -> dict[str, Path]:
     for path in paths:
         named[path.name if path.stem in named else path.stem] = path
     return named
+
+
+def survey_files(
+    entries: Iterable[Path], suffixes: Iterable[str], kinds: str, read: Callable[[Path, str], T]
+) -> Survey[T]:
+    """Read the files of a folder that are each a thing of their own.
+
+    Args:
+        entries: Entries of the folder; see `entries_of`.
+        suffixes: Suffixes, in lower case, of the files to read.
+        kinds: What the suffixes mean, for the notes.
+        read: Reads a file under a name of its own; raises AssetError if it can't be used.
+    """
+    paths, left_out = sort_out(entries, suffixes, kinds)
+    found = []
+    for name, path in names_of(paths).items():
+        try:
+            found.append(read(path, name))
+        except AssetError as error:
+            left_out.append(broken(path, error))
+    return Survey(tuple(found), tuple(sorted(left_out, key=lambda entry: entry.path)))

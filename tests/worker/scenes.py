@@ -1,6 +1,7 @@
 """Headers, scenes and pieces of cables for the tests of the worker's stages."""
 
 from farm.scene.cable import Sheath, Skin
+from farm.scene.clutter import Stick, StickKind
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.header import BuiltinSurfaceRef, DatasetHeader, HdriRef, TemplateRef
@@ -45,6 +46,22 @@ def make_skin(**keys: object) -> Skin:
         marking=None,
         dirt=0.0,
         wear=0.0,
+        pattern_seed=0,
+    )
+    return plain.model_copy(update=keys)
+
+
+def make_stick(kind: StickKind = StickKind.ROD, **keys: object) -> Stick:
+    """A grey stick along x through the origin, on its floor; `keys` are fields of the stick."""
+    plain = Stick(
+        kind=kind,
+        diameter_m=0.004,
+        length_m=0.1,
+        x_m=0.0,
+        y_m=0.0,
+        start_height_m=0.0,
+        rotation_deg=0.0,
+        colour=(9, 9, 9),
         pattern_seed=0,
     )
     return plain.model_copy(update=keys)

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from farm.scene.camera import NEAR_CLIP_M, Camera
-from farm.scene.clutter import Part, PartKind, Stick, StickKind
+from farm.scene.clutter import Part, PartKind, StickKind
 from farm.scene.light import AreaLamp, Lamp, PointLamp, StudioLamp
 from farm.scene.picture_size import PictureSize
 from farm.scene.scene import Scene
 from farm.spec.category import Category
 from farm.spec.rendering import CableDetail
-from tests.worker.scenes import make_scene
+from tests.worker.scenes import make_scene, make_stick
 from tests.worker.settled import RADIUS, rod, shapes
 from worker.camera.view import View
 from worker.clearance import distances_m, find_room_fault, settled_top_m
@@ -19,17 +19,7 @@ from worker.simulate.shapes import CableShapes
 
 ONE = {"cable": {"count": [1, 1], "diameter_m": 2 * RADIUS}}
 SCENE = make_scene(Category.CLOSE_CONCENTRATED, ranges=ONE)
-STICK = Stick(
-    kind=StickKind.PIPE,
-    diameter_m=0.02,
-    length_m=0.2,
-    x_m=0.0,
-    y_m=0.0,
-    start_height_m=0.0,
-    rotation_deg=0.0,
-    colour=(9, 9, 9),
-    pattern_seed=0,
-)
+STICK = make_stick(StickKind.PIPE, diameter_m=0.02, length_m=0.2)
 PART = Part(kind=PartKind.CONNECTOR, x_m=0.0, y_m=0.05, rotation_deg=0.0, size_m=0.02, colour=(9, 9, 9), pattern_seed=0)
 SIZE = PictureSize.square(96)
 WIDE_LENS = Camera(height_m=0.018, f_number=8.0, focal_length_mm=10.0)

@@ -6,9 +6,8 @@ from scipy.spatial.distance import cdist
 
 from farm.dataset.instances import number_instances
 from farm.scene.cable import Bundle, Cable, CableEnd, EndKind, Tie, envelope_ratio
-from farm.scene.clutter import Stick, StickKind
 from farm.scene.scene import Scene
-from tests.worker.scenes import make_scene, make_skin
+from tests.worker.scenes import make_scene, make_skin, make_stick
 from worker.cable.piece import OCCLUDER, Convex, Piece, Plain, Substance, Tubular
 from worker.cable.pieces import pieces_of
 from worker.curves import Points
@@ -114,17 +113,7 @@ def test_a_tie_keeps_clear_of_a_cable_that_crosses_its_bundle() -> None:
 def test_a_tie_keeps_clear_of_a_stick_that_lies_on_its_bundle() -> None:
     """A tie moves along the bundle until it doesn't reach the stick."""
     axis = np.array([[0.0, -0.06, 0.008], [0.0, 0.06, 0.008]])
-    stick = Stick(
-        kind=StickKind.ROD,
-        diameter_m=0.008,
-        length_m=0.12,
-        x_m=0.0,
-        y_m=0.0,
-        start_height_m=0.01,
-        rotation_deg=90.0,
-        colour=(20, 20, 20),
-        pattern_seed=0,
-    )
+    stick = make_stick(diameter_m=0.008, length_m=0.12, start_height_m=0.01, rotation_deg=90.0)
     scene = scene_of(cable(material=bundle(3, TIE))).model_copy(update={"sticks": (stick,)})
     solids = [piece for piece in pieces_of(scene, [line(0.002)], (axis,)) if isinstance(piece, Convex)]
     assert solids

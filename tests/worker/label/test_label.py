@@ -11,11 +11,10 @@ import worker.label.silhouette
 from farm.dataset.instances import list_instances
 from farm.scene.cable import Bundle, Cable, Skin, Tie, envelope_ratio
 from farm.scene.camera import Camera
-from farm.scene.clutter import Stick, StickKind
 from farm.scene.picture_size import PictureSize
 from farm.spec.category import Category
 from farm.spec.rendering import CableDetail
-from tests.worker.scenes import make_scene, make_skin, tubular
+from tests.worker.scenes import make_scene, make_skin, make_stick, tubular
 from worker.cable.piece import OCCLUDER, Convex, Plain, Substance
 from worker.cable.tube import sweep
 from worker.camera.view import View
@@ -160,19 +159,12 @@ def test_a_picture_without_cables_has_empty_labels() -> None:
 def test_a_bundle_s_strands_are_listed_as_the_map_shows_them() -> None:
     """Each number's pixels lie where its cable or strand does, and ties and sticks have no number."""
     left, bundle, right = (bundled(strands, tie) for strands, tie in ((0, False), (3, True), (0, False)))
-    stick = Stick(
-        kind=StickKind.ROD,
-        diameter_m=0.004,
-        length_m=0.1,
-        x_m=0.0,
-        y_m=0.0,
-        start_height_m=0.0,
-        rotation_deg=0.0,
-        colour=(9, 9, 9),
-        pattern_seed=0,
-    )
     scene = make_scene(Category.CLOSE_CONCENTRATED).model_copy(
-        update={"cables": (left, bundle, right), "sticks": (stick,), "camera": Camera(height_m=0.15, f_number=8.0)}
+        update={
+            "cables": (left, bundle, right),
+            "sticks": (make_stick(),),
+            "camera": Camera(height_m=0.15, f_number=8.0),
+        }
     )
     heights = (0.002, 0.002, 0.008)
     rows = [bar(z=z, shift=shift, length=0.2) for z, shift in zip(heights, (0.02, 0.0, -0.02), strict=True)]
