@@ -20,6 +20,7 @@ class Bodies(NamedTuple):
         mass: (nodes,) mass of each node, kg; an end has half the mass of a segment.
         curvature: (nodes,) natural curvature, 1/m.
         pinned: (nodes,) whether a node is held in its place.
+        pull: (3, nodes) constant force on each node, N.
         length: (rods,) length of a rod's segments, m.
         stiffness: (rods,) bending stiffness EI, N m^2.
         radius: (rods,) radius, m.
@@ -30,6 +31,7 @@ class Bodies(NamedTuple):
     mass: Array
     curvature: Array
     pinned: NDArray[np.bool_]
+    pull: Array
     length: Array
     stiffness: Array
     radius: Array
@@ -90,19 +92,21 @@ def flatten(rods: Sequence[Rod]) -> tuple[Bodies, Motion]:
     counts = [len(rod.nodes_m) for rod in rods]
     nodes = int(np.sum(counts))
     length = np.array([rod.segment_length_m for rod in rods])
-    masses, curvatures, pinned = [], [], []
+    masses, curvatures, pinned, pulls = [], [], [], []
     for rod, count in zip(rods, counts, strict=True):
         mass = np.full(count, rod.mass_per_length_kg_m * rod.segment_length_m)
         mass[[0, -1]] *= 0.5
         masses.append(mass)
         curvatures.append(np.zeros(count) if rod.natural_curvature_per_m is None else rod.natural_curvature_per_m)
         pinned.append(np.zeros(count, np.bool_) if rod.pinned is None else rod.pinned)
+        pulls.append(np.zeros((count, 3)) if rod.pull_n is None else rod.pull_n)
     bodies = Bodies(
         first=np.concatenate([[0], np.cumsum(counts)]).astype(np.int64),
         owner=np.repeat(np.arange(len(rods)), counts).astype(np.int64),
         mass=np.concatenate(masses),
         curvature=np.concatenate(curvatures),
         pinned=np.concatenate(pinned),
+        pull=np.ascontiguousarray(np.concatenate(pulls).T),
         length=length,
         stiffness=np.array([rod.bending_stiffness_n_m2 for rod in rods]),
         radius=np.array([rod.radius_m for rod in rods]),

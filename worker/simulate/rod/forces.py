@@ -1,4 +1,4 @@
-"""The forces that are known at the start of a step: gravity, bending, natural curvature, tension and wind."""
+"""The forces that are known at the start of a step: pulls, gravity, bending, natural curvature, tension and wind."""
 
 import numpy as np
 
@@ -129,7 +129,7 @@ def momentum_to_be(bodies: Bodies, motion: Motion, world: World, step: float, ti
         time: time at the end of the step, s.
         momentum: (3, nodes) array that gets the momentum, N s.
     """
-    force = np.zeros(motion.x.shape)
+    force = bodies.pull.copy()
     _add_gravity(bodies, world.gravity, force)
     for rod in range(len(bodies.length)):
         _add_elastic(bodies, motion, rod, force)

@@ -22,6 +22,7 @@ class Rod:
         natural_curvature_per_m: (N,) natural curvature about the vertical axis, in 1/m, anticlockwise seen from above:
             tan(theta) / l at each node, with theta the angle between its segments and l their length. None is straight.
         pinned: (N,) whether a node is held in its place; None holds no node.
+        pull_n: (N, 3) constant force on each node, in newtons; None pulls at no node.
     """
 
     nodes_m: Array
@@ -30,6 +31,7 @@ class Rod:
     density_kg_m3: float
     natural_curvature_per_m: Array | None = None
     pinned: NDArray[np.bool_] | None = None
+    pull_n: Array | None = None
 
     @property
     def bending_stiffness_n_m2(self) -> float:

@@ -46,16 +46,18 @@ class Energy:
         kinetic: kinetic energy.
         gravitational: gravitational energy, relative to the origin.
         bending: energy of bending about the natural shape, but for a constant.
+        pulls: energy of the constant pulls, relative to the origin: it falls by the work that they do.
     """
 
     kinetic: float
     gravitational: float
     bending: float
+    pulls: float
 
     @property
     def total(self) -> float:
-        """Sum of the three energies, in joules."""
-        return self.kinetic + self.gravitational + self.bending
+        """Sum of the energies, in joules."""
+        return self.kinetic + self.gravitational + self.bending + self.pulls
 
 
 class RodSimulation:
@@ -140,6 +142,7 @@ class RodSimulation:
             kinetic=0.5 * float(np.sum(bodies.mass * v**2)),
             gravitational=-float(np.sum(bodies.mass * (self._world.gravity @ x))),
             bending=bending,
+            pulls=-float(np.sum(bodies.pull * x)),
         )
 
     def advance(self, steps: int) -> None:
