@@ -63,7 +63,8 @@ class Scratch(NamedTuple):
         load: (3, nodes) that momentum with the impulses of contacts, N s.
         v: (3, nodes) velocities at the end of the step, m/s.
         start: (3, nodes) places of the nodes at the start of the step, m.
-        bulge: (nodes,) largest distance of the curve from its chords, m; see `worker.simulate.rod.narrow_phase`.
+        bends: (3, nodes) second derivatives of the curves at the nodes, m; see `worker.simulate.rod.curves`.
+        bulge: (nodes,) largest distance of the curve from its chords, m; see `worker.simulate.rod.curves`.
         reach: (nodes,) distance around each node within which contact is looked for, m; see
             `worker.simulate.rod.narrow_phase`.
         stirred: (stretches,) number of the sweep that last changed velocities in a stretch of nodes; see
@@ -78,6 +79,7 @@ class Scratch(NamedTuple):
     load: Array
     v: Array
     start: Array
+    bends: Array
     bulge: Array
     reach: Array
     stirred: Integers

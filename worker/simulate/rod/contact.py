@@ -1,7 +1,8 @@
 """Contact: the places where rods touch, and the impulses that keep them apart and act as friction.
 
-A contact acts on the smooth curves through the nodes, not on the chords: a point of a segment lies on the mean of the
-two parabolas at its ends (a Catmull-Rom curve), so that it has weights on four nodes.
+A contact lies where the smooth curves through the nodes are closest, not the chords. Its distance is that of the splines
+of `worker.simulate.rod.curves`. It acts on four nodes at either side, with the weights of the mean of the two parabolas
+at a segment's ends (a Catmull-Rom curve), which comes close to the spline.
 
 The implicit operator, with bending, gives the velocity that an impulse causes, so that a contact knows how soft a rod
 is there. As the operator is the same in x, y and z, a contact's own block is a multiple of the unit matrix, and
@@ -16,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from worker.simulate.rod.arrays import Bodies, Integers, Motion
+from worker.simulate.rod.arrays import Bodies, Integers, Motion, Scratch
 from worker.simulate.rod.bending import Operator
 from worker.simulate.rod.broad_phase import Candidates
 from worker.simulate.rod.compiled import compiled
@@ -158,13 +159,26 @@ def _respond(
 
 
 @compiled
+def _crosstalk(base: Integers, weights: Array, n: int, low: Integers, width: Integers, column: Array) -> float:
+    """Compute the velocity that an impulse on the second side of contact n gives to its first side, 1/kg.
+
+    Both sides are of one rod. The arguments are the parts of `Contacts`.
+    """
+    total = 0.0
+    for k in range(4):
+        j = base[0, n] + k - low[1, n]
+        if 0 <= j < width[1, n]:
+            total += weights[0, n, k] * column[1, n, j]
+    return total
+
+
+@compiled
 def gather_contacts(
     bodies: Bodies,
     operator: Operator,
     motion: Motion,
     candidates: Candidates,
-    bulge: Array,
-    reach: Array,
+    scratch: Scratch,
     margin: float,
     contacts: Contacts,
 ) -> int:
@@ -175,18 +189,30 @@ def gather_contacts(
         operator: operator of this time step.
         motion: places and velocities of the rods.
         candidates: pairs that may touch; their memory changes.
-        bulge: (nodes,) largest distance of the curve from its chords, m.
-        reach: (nodes,) distance around each node within which contact is looked for, m.
+        scratch: arrays of the step: `bends`, `bulge` and `reach` are read.
         margin: largest distance of two surfaces that may count as near, m.
         contacts: arrays that get the contacts.
 
     Returns:
         The number of contacts.
     """
-    x, owner, radius, first = motion.x, bodies.owner, bodies.radius, bodies.first
+    owner, radius, first = bodies.owner, bodies.radius, bodies.first
     pairs, at, base, weights = contacts.pair, contacts.at, contacts.base, contacts.weights
     segments, remembered, impulse = (candidates.one, candidates.other), candidates.normal, candidates.impulse
-    near = find_near(bodies, motion, candidates, bulge, reach, operator.step, margin, pairs, at)
+    normal = contacts.normal
+    near = find_near(
+        bodies,
+        motion,
+        candidates,
+        scratch.bends,
+        scratch.bulge,
+        scratch.reach,
+        operator.step,
+        margin,
+        pairs,
+        at,
+        normal,
+    )
     count = 0
     for n in range(near):
         pair = pairs[n]
@@ -195,9 +221,10 @@ def gather_contacts(
             rod = owner[i]
             base[side, count] = _weigh(weights, side, count, i, at[side, n], first[rod], first[rod + 1])
         one, other = radius[owner[segments[0][pair]]], radius[owner[segments[1][pair]]]
-        _point(x, base, weights, count, contacts.normal)
-        distance = _turn(contacts.normal, count, remembered, pair, one + other)
-        _forget_pull(impulse, pair, contacts.normal, count)
+        # `count` is never ahead of `n`, so no pair is overwritten before it is read.
+        normal[count] = normal[n]
+        distance = _turn(normal, count, remembered, pair, one + other)
+        _forget_pull(impulse, pair, normal, count)
         compliance = 0.0
         for side in range(2):
             rod, middle = owner[base[side, count]], base[side, count]
@@ -209,24 +236,14 @@ def gather_contacts(
             compliance += _respond(
                 operator.response, operator.reach[rod], weights, side, count, middle, (low, high), contacts.column
             )
+        if owner[base[0, count]] == owner[base[1, count]]:
+            compliance -= 2 * _crosstalk(base, weights, count, contacts.low, contacts.width, contacts.column)
         if compliance > 0.0:
-            # `count` is never ahead of `n`, so no pair is overwritten before it is read.
             pairs[count] = pair
             contacts.compliance[count] = compliance
             contacts.approach[count] = allowed_approach(distance - one - other, operator.step, min(one, other))
             count += 1
     return count
-
-
-@compiled
-def _point(x: Array, base: Integers, weights: Array, n: int, normal: Array) -> None:
-    """Set `normal[n]` to the vector from the second side of contact n to the first, m."""
-    for c in range(3):
-        offset = 0.0
-        for k in range(4):
-            offset += weights[0, n, k] * x[c, base[0, n] + k]
-            offset -= weights[1, n, k] * x[c, base[1, n] + k]
-        normal[n, c] = offset
 
 
 @compiled

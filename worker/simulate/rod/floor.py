@@ -4,6 +4,7 @@ from worker.simulate.rod.arrays import Bodies, Integers, Motion, Scratch
 from worker.simulate.rod.bending import Operator
 from worker.simulate.rod.compiled import compiled
 from worker.simulate.rod.contact import allowed_approach, is_calm, on_cone, push, stir
+from worker.simulate.rod.curves import point
 from worker.simulate.rod.lengths import AT_REST, FREE, IN_HEIGHT
 from worker.simulate.rod.model import Array
 
@@ -17,13 +18,14 @@ SUNK_RADII = 0.004
 
 @compiled
 def find_near_floor(
-    bodies: Bodies, motion: Motion, step: float, friction: float, touching: Integers, rise: Array
+    bodies: Bodies, motion: Motion, bends: Array, step: float, friction: float, touching: Integers, rise: Array
 ) -> int:
     """Find the nodes that could reach the floor in this step, and set the floor's impulses on the others to 0.
 
     Args:
         bodies: the rods.
         motion: state of the rods, whose `floor_impulse` is changed.
+        bends: (3, nodes) second derivatives of the curves at the nodes, m.
         step: time step, s.
         friction: Coulomb's coefficient.
         touching: (nodes,) array that gets the numbers of these nodes, ascending, from its beginning.
@@ -39,7 +41,7 @@ def find_near_floor(
         for i in range(bodies.first[rod], bodies.first[rod + 1]):
             gap = motion.x[2, i] - radius
             if gap < radius:
-                gap -= max(_dip(motion.x, i - 1, bodies.first, rod), _dip(motion.x, i, bodies.first, rod))
+                gap -= max(_dip(motion.x, bends, i - 1, bodies.first, rod), _dip(motion.x, bends, i, bodies.first, rod))
             rise[i] = allowed_approach(gap, step, radius)
             if not bodies.pinned[i] and gap < NEAR_FLOOR_RADII * radius + 2 * step * abs(motion.v[2, i]):
                 touching[count] = i
@@ -52,18 +54,13 @@ def find_near_floor(
 
 
 @compiled
-def _dip(x: Array, i: int, first: Integers, rod: int) -> float:
+def _dip(x: Array, bends: Array, i: int, first: Integers, rod: int) -> float:
     """Compute how far the smooth curve dips below the lower end of the segment that starts at node i, m, 0 or more."""
     if i < first[rod] or i + 1 >= first[rod + 1]:
         return 0.0
-    here, there = x[2, i], x[2, i + 1]
-    before = x[2, i - 1] if i > first[rod] else 2 * here - there
-    after = x[2, i + 2] if i + 2 < first[rod + 1] else 2 * there - here
-    bend, next_bend = before - 2 * here + there, here - 2 * there + after
     deepest = 0.0
     for t in (0.25, 0.5, 0.75):
-        height = here + t * (there - here) - 0.5 * t * (1 - t) * ((1 - t) * bend + t * next_bend)
-        deepest = max(deepest, min(here, there) - height)
+        deepest = max(deepest, min(x[2, i], x[2, i + 1]) - point(x, bends, 2, i, t))
     return deepest
 
 

@@ -10,12 +10,13 @@ from worker.simulate.rod.bending import Operator
 from worker.simulate.rod.broad_phase import Candidates, find_candidates, middle_of, still_hold
 from worker.simulate.rod.compiled import compiled
 from worker.simulate.rod.contact import STRETCH, Contacts, gather_contacts, room_for_contacts
+from worker.simulate.rod.curves import find_bends, find_bulge
 from worker.simulate.rod.floor import find_near_floor
 from worker.simulate.rod.forces import momentum_to_be
 from worker.simulate.rod.impulses import Touch
 from worker.simulate.rod.lengths import AT_REST, FREE, keep_lengths, room_for_system
 from worker.simulate.rod.model import Array
-from worker.simulate.rod.narrow_phase import find_bulge, find_reach
+from worker.simulate.rod.narrow_phase import find_reach
 from worker.simulate.rod.step import make_step
 from worker.simulate.rod.tally import CONTACTS, LISTS, STEPS, Tally
 from worker.simulate.rod.world import World
@@ -94,7 +95,8 @@ def march(
         move = step * _fastest(motion.v, frame)
         # Both rods of a pair may move, and gravity adds to it within the step.
         near = 2 * move + 0.1 * smallest
-        find_bulge(bodies, motion.x, scratch.bulge)
+        find_bends(bodies, motion.x, scratch.bends)
+        find_bulge(scratch.bends, scratch.bulge)
         find_reach(bodies, motion.v, frame, step, near, scratch.bulge, scratch.reach)
         if not still_hold(candidates, motion.x, scratch.reach, not landing):
             candidates = find_candidates(bodies, motion, frame, step, scratch.reach, candidates)
@@ -140,6 +142,7 @@ def _room(nodes: int) -> Scratch:
         load=np.empty((3, nodes)),
         v=np.empty((3, nodes)),
         start=np.empty((3, nodes)),
+        bends=np.zeros((3, nodes)),
         bulge=np.empty(nodes),
         reach=np.empty(nodes),
         stirred=np.empty(nodes // STRETCH + 1, np.int64),
@@ -161,11 +164,11 @@ def _find_touch(
     near: float,
     scratch: Scratch,
 ) -> Touch:
-    count = gather_contacts(bodies, operator, motion, candidates, scratch.bulge, scratch.reach, near, contacts)
+    count = gather_contacts(bodies, operator, motion, candidates, scratch, near, contacts)
     touching = 0
     if world.floor:
         touching = find_near_floor(
-            bodies, motion, operator.step, world.friction_floor, scratch.near_floor, scratch.rise
+            bodies, motion, scratch.bends, operator.step, world.friction_floor, scratch.near_floor, scratch.rise
         )
     return Touch(contacts, count, candidates.impulse, scratch.near_floor[:touching])
 

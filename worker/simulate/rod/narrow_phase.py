@@ -9,6 +9,7 @@ import numpy as np
 from worker.simulate.rod.arrays import Bodies, Integers, Motion
 from worker.simulate.rod.broad_phase import Candidates
 from worker.simulate.rod.compiled import compiled
+from worker.simulate.rod.curves import closest_on_curves, point
 from worker.simulate.rod.model import Array
 
 APPROACH_SHARE = 1.5
@@ -19,24 +20,6 @@ NEARBY_SHARE = 0.05
 
 SPARE_SHARE = 0.1
 """Distance of two surfaces within which segments always count as near, as a share of the smaller radius."""
-
-
-@compiled
-def find_bulge(bodies: Bodies, x: Array, bulge: Array) -> None:
-    """Set `bulge` (nodes,) to the largest distance of the smooth curve from its chords at each node, m.
-
-    At a share t of a segment, the curve's distance from the chord is t (1 - t) / 2 times the mean of the second
-    differences at the two ends.
-    """
-    first, length = bodies.first, bodies.length
-    for rod in range(len(length)):
-        bulge[first[rod]] = bulge[first[rod + 1] - 1] = 0.0
-        for i in range(first[rod] + 1, first[rod + 1] - 1):
-            dx = x[0, i - 1] - 2 * x[0, i] + x[0, i + 1]
-            dy = x[1, i - 1] - 2 * x[1, i] + x[1, i + 1]
-            dz = x[2, i - 1] - 2 * x[2, i] + x[2, i + 1]
-            # A rod that is folded back on itself has the largest bulge.
-            bulge[i] = min(np.sqrt(dx * dx + dy * dy + dz * dz) / 8, length[rod] / 4)
 
 
 @compiled
@@ -65,12 +48,14 @@ def find_near(  # noqa: PLR0913, PLR0917 - each pair needs all of them
     bodies: Bodies,
     motion: Motion,
     candidates: Candidates,
+    bends: Array,
     bulge: Array,
     reach: Array,
     step: float,
     margin: float,
     near: Integers,
     at: Array,
+    way: Array,
 ) -> int:
     """Find the candidate pairs that may touch in this step, and set the impulses of the others to 0.
 
@@ -78,13 +63,15 @@ def find_near(  # noqa: PLR0913, PLR0917 - each pair needs all of them
         bodies: the rods.
         motion: places and velocities of the rods.
         candidates: pairs that may touch; their memory changes.
+        bends: (3, nodes) second derivatives of the curves at the nodes, m.
         bulge: (nodes,) largest distance of the curve from its chords, m.
         reach: (nodes,) reach of each node in this step, m.
         step: time step, s.
         margin: largest distance of two surfaces that may count as near, m.
         near: (pairs,) array that gets the numbers of the pairs found, ascending, from its beginning.
-        at: (2, pairs) array that gets the place on each segment that is closest to the other one, as a share of its
-            length, 0 to 1.
+        at: (2, pairs) array that gets the place on each segment whose curve is closest to the other one, as a share of
+            the segment, 0 to 1.
+        way: (pairs, 3) array that gets the vector from the second of these places to the first, m.
 
     Returns:
         The number of pairs found.
@@ -96,16 +83,21 @@ def find_near(  # noqa: PLR0913, PLR0917 - each pair needs all of them
         pair = near[k]
         i, j = one[pair], other[pair]
         s, t = closest(x, i, j)
-        away, fast = _between(x, i, j, s, t), _between(v, i, j, s, t)
-        distance = _norm(away)
+        away, fast = _between(x, i, j, s, t), _norm(_between(v, i, j, s, t))
+        limit = _near(radius[owner[i]], radius[owner[j]], step * fast, margin)
         bulges = max(bulge[i], bulge[i + 1]) + max(bulge[j], bulge[j + 1])
-        if distance > _near(radius[owner[i]], radius[owner[j]], step * _norm(fast), margin) + bulges:
+        if _norm(away) <= limit + bulges:
+            s, t = closest_on_curves(x, bends, i, j, s, t)
+            away = _away(x, bends, i, j, s, t)
+        distance = _norm(away)
+        if distance > limit:
             for c in range(3):
                 normal[pair, c] = away[c] / distance
                 impulse[pair, c] = 0.0
         else:
             near[count] = pair
             at[0, count], at[1, count] = s, t
+            way[count, 0], way[count, 1], way[count, 2] = away
             count += 1
     return count
 
@@ -130,6 +122,16 @@ def _between(x: Array, i: int, j: int, s: float, t: float) -> tuple[float, float
         x[0, i] + s * (x[0, i + 1] - x[0, i]) - x[0, j] - t * (x[0, j + 1] - x[0, j]),
         x[1, i] + s * (x[1, i + 1] - x[1, i]) - x[1, j] - t * (x[1, j + 1] - x[1, j]),
         x[2, i] + s * (x[2, i + 1] - x[2, i]) - x[2, j] - t * (x[2, j + 1] - x[2, j]),
+    )
+
+
+@compiled
+def _away(x: Array, bends: Array, i: int, j: int, s: float, t: float) -> tuple[float, float, float]:
+    """Compute the vector from share t of segment j's curve to share s of segment i's, m."""
+    return (
+        point(x, bends, 0, i, s) - point(x, bends, 0, j, t),
+        point(x, bends, 1, i, s) - point(x, bends, 1, j, t),
+        point(x, bends, 2, i, s) - point(x, bends, 2, j, t),
     )
 
 
