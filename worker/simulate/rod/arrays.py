@@ -69,6 +69,7 @@ class Scratch(NamedTuple):
             `worker.simulate.rod.narrow_phase`.
         stirred: (stretches,) number of the sweep that last changed velocities in a stretch of nodes; see
             `worker.simulate.rod.contact`.
+        owed: (3, nodes) impulses of the floor that sweeps have yet to pass on, N s; see `worker.simulate.rod.floor`.
         rise: (nodes,) least upward speed of the nodes near the floor, m/s.
         near_floor: (nodes,) numbers of the nodes that the floor may touch, at the beginning of the array.
         held: (nodes,) whether and how a node is held while lengths are kept; see `worker.simulate.rod.lengths`.
@@ -83,6 +84,7 @@ class Scratch(NamedTuple):
     bulge: Array
     reach: Array
     stirred: Integers
+    owed: Array
     rise: Array
     near_floor: Integers
     held: NDArray[np.int8]

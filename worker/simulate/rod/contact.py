@@ -49,24 +49,28 @@ class Contacts(NamedTuple):
 
     Attributes:
         pair: (n,) number of the contact's candidate pair.
+        segment: (2, n) number of each side's first node.
         at: (2, n) place on each segment that is closest to the other one, as a share of its length, 0 to 1.
         base: (2, n) number of the first of the four nodes on which each side acts.
         weights: (2, n, 4) weights of these nodes.
         normal: (n, 3) unit vector from the second side to the first.
         approach: (n,) least relative speed of the first side along the normal, m/s.
         compliance: (n,) relative velocity per impulse, 1/kg.
+        softness: (2, n) velocity per impulse of each side alone, 1/kg.
         low: (2, n) number of the first node that responds to an impulse.
         width: (2, n) number of nodes that respond.
         column: (2, n, max) velocity per impulse of these nodes, 1/kg.
     """
 
     pair: Integers
+    segment: Integers
     at: Array
     base: Integers
     weights: Array
     normal: Array
     approach: Array
     compliance: Array
+    softness: Array
     low: Integers
     width: Integers
     column: Array
@@ -78,12 +82,14 @@ def room_for_contacts(pairs: int, operator: Operator) -> Contacts:
     widest = operator.response.shape[1] + 3
     return Contacts(
         np.empty(pairs, np.int64),
+        np.empty((2, pairs), np.int64),
         np.empty((2, pairs)),
         np.empty((2, pairs), np.int64),
         np.empty((2, pairs, 4)),
         np.empty((pairs, 3)),
         np.empty(pairs),
         np.empty(pairs),
+        np.empty((2, pairs)),
         np.empty((2, pairs), np.int64),
         np.empty((2, pairs), np.int64),
         np.empty((2, pairs, widest)),
@@ -113,14 +119,17 @@ def _weigh(weights: Array, side: int, n: int, i: int, t: float, first: int, end:
     weights[side, n, k] = 1 - t
     weights[side, n, k + 1] = t
     bulge = -0.5 * t * (1 - t)
-    if i > first:
-        weights[side, n, k - 1] += bulge * (1 - t)
-        weights[side, n, k] -= 2 * bulge * (1 - t)
-        weights[side, n, k + 1] += bulge * (1 - t)
-    if i + 2 < end:
-        weights[side, n, k] += bulge * t
-        weights[side, n, k + 1] -= 2 * bulge * t
-        weights[side, n, k + 2] += bulge * t
+    # An end segment has one parabola, which is the whole curve there.
+    before = 0.0 if i == first else 1.0 if i + 2 == end else 1 - t
+    after = 1.0 - before
+    if before > 0.0:
+        weights[side, n, k - 1] += bulge * before
+        weights[side, n, k] -= 2 * bulge * before
+        weights[side, n, k + 1] += bulge * before
+    if after > 0.0:
+        weights[side, n, k] += bulge * after
+        weights[side, n, k + 1] -= 2 * bulge * after
+        weights[side, n, k + 2] += bulge * after
     return int(base)
 
 
@@ -219,6 +228,7 @@ def gather_contacts(
         for side in range(2):
             i = segments[side][pair]
             rod = owner[i]
+            contacts.segment[side, count] = i
             base[side, count] = _weigh(weights, side, count, i, at[side, n], first[rod], first[rod + 1])
         one, other = radius[owner[segments[0][pair]]], radius[owner[segments[1][pair]]]
         # `count` is never ahead of `n`, so no pair is overwritten before it is read.
@@ -233,9 +243,10 @@ def gather_contacts(
                 min(first[rod + 1], middle + 4 + operator.reach[rod]),
             )
             contacts.low[side, count], contacts.width[side, count] = low, high - low
-            compliance += _respond(
+            contacts.softness[side, count] = _respond(
                 operator.response, operator.reach[rod], weights, side, count, middle, (low, high), contacts.column
             )
+            compliance += contacts.softness[side, count]
         if owner[base[0, count]] == owner[base[1, count]]:
             compliance -= 2 * _crosstalk(base, weights, count, contacts.low, contacts.width, contacts.column)
         if compliance > 0.0:

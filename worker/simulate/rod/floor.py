@@ -79,6 +79,7 @@ def sweep_floor(  # noqa: PLR0913, PLR0917 - in nested tuples every access would
     friction: float,
     sweep: int,
     small: float,
+    owed: Array,
     stirred: Integers,
     v: Array,
 ) -> float:
@@ -92,7 +93,9 @@ def sweep_floor(  # noqa: PLR0913, PLR0917 - in nested tuples every access would
         touching: numbers of the nodes that the floor may touch.
         friction: Coulomb's coefficient.
         sweep: number of the sweep in this step; every second sweep goes backwards.
-        small: change of velocity, m/s, summed over a rod, up to which a change moves the node alone.
+        small: change of velocity, m/s, summed over a rod, up to which changes move the node alone.
+        owed: (3, nodes) sum of the changes of each node's impulse, N s, that have moved it alone so far. Many of them
+            would move a stiff rod as a whole, so they are passed on together.
         stirred: (stretches,) number of the sweep that last changed each stretch of nodes, changed in place. Nodes of
             stretches that neither this sweep nor the one before it has changed are left out.
         v: (3, nodes) velocities, m/s, changed in place as the impulses act.
@@ -114,16 +117,22 @@ def sweep_floor(  # noqa: PLR0913, PLR0917 - in nested tuples every access would
         wx, wy, wz = on_cone(wx, wy, wz, 0.0, 0.0, 1.0, friction)
         floor_impulse[0, i], floor_impulse[1, i], floor_impulse[2, i] = wx, wy, wz
         dx, dy, dz = wx - px, wy - py, wz - pz
+        v[0, i] -= compliance * owed[0, i]
+        v[1, i] -= compliance * owed[1, i]
+        v[2, i] -= compliance * owed[2, i]
+        dx, dy, dz = dx + owed[0, i], dy + owed[1, i], dz + owed[2, i]
         moved = max(abs(dx), abs(dy), abs(dz)) * compliance * coupling[rod]
         if moved > small:
             low, high = max(first[rod], i - reach[rod]), min(first[rod + 1], i + reach[rod] + 1)
             push(response[i], low - i + centre, low, high - low, dx, dy, dz, v)
             stir(stirred, low, high - low, sweep)
             worst = max(worst, moved)
+            owed[0, i], owed[1, i], owed[2, i] = 0.0, 0.0, 0.0
         else:
             v[0, i] += compliance * dx
             v[1, i] += compliance * dy
             v[2, i] += compliance * dz
+            owed[0, i], owed[1, i], owed[2, i] = dx, dy, dz
     return worst
 
 

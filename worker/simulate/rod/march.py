@@ -146,6 +146,7 @@ def _room(nodes: int) -> Scratch:
         bulge=np.empty(nodes),
         reach=np.empty(nodes),
         stirred=np.empty(nodes // STRETCH + 1, np.int64),
+        owed=np.zeros((3, nodes)),
         rise=np.empty(nodes),
         near_floor=np.empty(nodes, np.int64),
         held=np.empty(nodes, np.int8),

@@ -24,14 +24,16 @@ from worker.simulate.rod.impulses import (
 )
 from worker.simulate.rod.lengths import MAX_ITERATIONS, keep_lengths
 from worker.simulate.rod.model import Array
-from worker.simulate.rod.tally import ITERATIONS, RETRIES, ROUNDS, STOPS, SWEEPS, UNKEPT, Tally
+from worker.simulate.rod.passing import count_passes
+from worker.simulate.rod.tally import GAINS, ITERATIONS, MISSES, PASSES, RETRIES, ROUNDS, STOPS, SWEEPS, UNKEPT, Tally
 from worker.simulate.rod.world import World
 
 MAX_ROUNDS = 4
 """Largest number of turns of sweeps and lengths."""
 
-MAX_ROUNDS_FROM_NOTHING = 16
-"""Largest number of turns of sweeps and lengths in a step that starts without the impulses of the step before."""
+MORE_ROUNDS = 16
+"""Largest number of turns of sweeps and lengths in a step whose first turns find no sound end: first they go on from
+the impulses found so far, then they start without any."""
 
 MAX_FLOOR_CHANGES = 4
 """Largest number of times that the nodes which the floor holds are chosen again, after keeping the lengths has pressed
@@ -76,21 +78,26 @@ def make_step(
     scratch.start[:] = motion.x
     spare = 0.5 * bodies.mass.sum() * SPEED_SPARE_M_S**2
     may_miss = MISS_RADII * bodies.radius.min() / operator.step
-    rounds, sound = MAX_ROUNDS, False
-    for _ in range(2):
+    sound = False
+    for attempt in range(3):
+        rounds = MAX_ROUNDS if attempt == 0 else MORE_ROUNDS
         kept = _take_turns(bodies, operator, motion, world, touch, scratch, tally, rounds)
         gained = _energy_gained(bodies, operator, motion.v, scratch)
         given = work_of_depenetration(motion, touch, scratch.rise)
         missed = worst_miss(touch.contacts, touch.pairs, scratch.v)
-        sound = kept and missed <= may_miss and gained <= given + spare
+        passed = count_passes(touch.contacts, touch.pairs, scratch.start, motion.x)
+        sound = kept and missed <= may_miss and gained <= given + spare and passed == 0
         if sound:
             break
+        tally.counts[GAINS] += gained > given + spare
+        tally.counts[MISSES] += missed > may_miss
+        tally.counts[PASSES] += passed > 0
         tally.counts[RETRIES] += 1
-        rounds = MAX_ROUNDS_FROM_NOTHING
-        motion.x[:] = scratch.start
-        motion.tension[:] = 0.0
-        motion.floor_impulse[:] = 0.0
-        touch.impulse[:] = 0.0
+        if attempt > 0:
+            motion.x[:] = scratch.start
+            motion.tension[:] = 0.0
+            motion.floor_impulse[:] = 0.0
+            touch.impulse[:] = 0.0
     if not sound:
         if not finest:
             return False

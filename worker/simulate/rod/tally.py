@@ -7,7 +7,7 @@ import numpy as np
 from worker.simulate.rod.arrays import Integers
 from worker.simulate.rod.model import Array
 
-STEPS, SWEEPS, ROUNDS, ITERATIONS, LISTS, CONTACTS, UNKEPT, RETRIES, STOPS = range(9)
+STEPS, SWEEPS, ROUNDS, ITERATIONS, LISTS, CONTACTS, UNKEPT, RETRIES, STOPS, GAINS, MISSES, PASSES = range(12)
 """Numbers of the entries of `Tally.counts`."""
 
 COUNT_NAMES = (
@@ -20,6 +20,9 @@ COUNT_NAMES = (
     "lengths_unkept",
     "retries",
     "stops",
+    "gains",
+    "misses",
+    "passes",
 )
 
 
@@ -27,9 +30,11 @@ class Tally(NamedTuple):
     """The counts and times of a simulation.
 
     Attributes:
-        counts: (9,) numbers of time steps; sweeps over contacts; turns of sweeps and lengths; iterations of the
+        counts: (12,) numbers of time steps; sweeps over contacts; turns of sweeps and lengths; iterations of the
             lengths; lists of candidates; contacts, summed over steps; rods that did not keep their lengths in a step;
-            steps that were tried again from no impulses; and steps that stopped all rods, as no sound end was found.
+            steps that were tried again from no impulses; steps that stopped all rods, as no sound end was found; and
+            tried ends of steps that gained energy, left rods too deep within each other, or let them pass through each
+            other.
         time: (1,) time since the start, s.
         quiet: (1,) time for which the rods have been at rest, s.
         wary: (1,) number of steps before a larger time step is tried.
