@@ -17,13 +17,14 @@ class Bodies(NamedTuple):
     Attributes:
         first: (rods + 1,) number of each rod's first node; last the number of nodes.
         owner: (nodes,) number of each node's rod.
-        mass: (nodes,) mass of each node, kg; an end has half the mass of a segment.
+        mass: (nodes,) inertia of each node, kg; an end has half of a segment's.
         curvature: (nodes,) natural curvature, 1/m.
         pinned: (nodes,) whether a node is held in its place.
         pull: (3, nodes) constant force on each node, N.
         length: (rods,) length of a rod's segments, m.
         stiffness: (rods,) bending stiffness EI, N m^2.
         radius: (rods,) radius, m.
+        inertia: (rods,) inertia over mass.
     """
 
     first: Integers
@@ -35,6 +36,7 @@ class Bodies(NamedTuple):
     length: Array
     stiffness: Array
     radius: Array
+    inertia: Array
 
 
 class Motion(NamedTuple):
@@ -46,6 +48,7 @@ class Motion(NamedTuple):
         tension: (nodes,) tension of the segment that starts at each node, N; 0 at a rod's last node.
         floor_impulse: (3, nodes) impulse of the floor on each node in the last step, N s.
         touched: (rods,) whether the floor or another rod pushed a rod in the last step.
+        landed: (rods,) whether one of them ever has.
     """
 
     x: Array
@@ -53,6 +56,7 @@ class Motion(NamedTuple):
     tension: Array
     floor_impulse: Array
     touched: NDArray[np.bool_]
+    landed: NDArray[np.bool_]
 
 
 class Scratch(NamedTuple):
@@ -62,6 +66,7 @@ class Scratch(NamedTuple):
         momentum: (3, nodes) momentum at the end of the step without contact and tension, N s.
         load: (3, nodes) that momentum with the impulses of contacts, N s.
         v: (3, nodes) velocities at the end of the step, m/s.
+        last: (3, nodes) those velocities before the present turn, m/s.
         start: (3, nodes) places of the nodes at the start of the step, m.
         bends: (3, nodes) second derivatives of the curves at the nodes, m; see `worker.simulate.rod.curves`.
         bulge: (nodes,) largest distance of the curve from its chords, m; see `worker.simulate.rod.curves`.
@@ -79,6 +84,7 @@ class Scratch(NamedTuple):
     momentum: Array
     load: Array
     v: Array
+    last: Array
     start: Array
     bends: Array
     bulge: Array
@@ -98,7 +104,7 @@ def flatten(rods: Sequence[Rod]) -> tuple[Bodies, Motion]:
     length = np.array([rod.segment_length_m for rod in rods])
     masses, curvatures, pinned, pulls = [], [], [], []
     for rod, count in zip(rods, counts, strict=True):
-        mass = np.full(count, rod.mass_per_length_kg_m * rod.segment_length_m)
+        mass = np.full(count, rod.inertia * rod.mass_per_length_kg_m * rod.segment_length_m)
         mass[[0, -1]] *= 0.5
         masses.append(mass)
         curvatures.append(np.zeros(count) if rod.natural_curvature_per_m is None else rod.natural_curvature_per_m)
@@ -114,6 +120,7 @@ def flatten(rods: Sequence[Rod]) -> tuple[Bodies, Motion]:
         length=length,
         stiffness=np.array([rod.bending_stiffness_n_m2 for rod in rods]),
         radius=np.array([rod.radius_m for rod in rods]),
+        inertia=np.array([rod.inertia for rod in rods]),
     )
     motion = Motion(
         x=np.ascontiguousarray(np.concatenate([rod.nodes_m for rod in rods]).T),
@@ -121,5 +128,6 @@ def flatten(rods: Sequence[Rod]) -> tuple[Bodies, Motion]:
         tension=np.zeros(nodes),
         floor_impulse=np.zeros((3, nodes)),
         touched=np.zeros(len(rods), np.bool_),
+        landed=np.zeros(len(rods), np.bool_),
     )
     return bodies, motion

@@ -1,5 +1,7 @@
 """Lets the cables of a sampled scene fall as rods until they rest; sticks are rods that hardly bend."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from farm.errors import SceneError
@@ -30,6 +32,10 @@ REST_FASTEST_M_S = 2.5e-3
 
 REST_S = 0.02
 """Time for which the cables must have been that slow, in seconds."""
+
+LIGHTEST_SHARE = 1 / 16
+"""Least inertia of a rod's length over that of the heaviest rod in the scene. A rod that weighs less moves as if it had
+that much: impulses between rods of very different mass are found slowly. Where rods rest, inertia plays no part."""
 
 MOST_STEPS_OVER_PLAN = 4.0
 """Most time steps of a fall, as a multiple of those that `max_time_s` has without halvings. Cables at rest need none of
@@ -101,8 +107,10 @@ def most_steps(simulation: RodSimulation, fall: RodFall) -> int:
 
 def rods_of(scene: Scene, fall: RodFall) -> list[Rod]:
     """Make the rods of a scene at the start: its cables, without stress, and after them its sticks."""
-    cables = [_rod(cable, fall.segment_radii) for cable in scene.cables]
-    return cables + [_stiff_rod(stick, fall.segment_radii) for stick in scene.sticks]
+    rods = [_rod(cable, fall.segment_radii) for cable in scene.cables]
+    rods += [_stiff_rod(stick, fall.segment_radii) for stick in scene.sticks]
+    least = LIGHTEST_SHARE * max(rod.mass_per_length_kg_m for rod in rods)
+    return [replace(rod, inertia=max(least / rod.mass_per_length_kg_m, 1.0)) for rod in rods]
 
 
 def surroundings_of(scene: Scene) -> Surroundings:

@@ -20,11 +20,19 @@ at Re = 4e4 (Hoerner, ch. 2)."""
 
 
 @compiled
-def _add_gravity(bodies: Bodies, gravity: Array, force: Array) -> None:
+def _load_share(bodies: Bodies, motion: Motion, rod: int) -> float:
+    """Compute the share of a rod's inertia on which gravity and wind act."""
+    return 1.0 / bodies.inertia[rod] if motion.landed[rod] else 1.0
+
+
+@compiled
+def _add_gravity(bodies: Bodies, motion: Motion, gravity: Array, force: Array) -> None:
     """Add the weight of each node to `force` (3, nodes), N."""
-    for i in range(len(bodies.mass)):
-        for c in range(3):
-            force[c, i] += bodies.mass[i] * gravity[c]
+    for rod in range(len(bodies.length)):
+        share = _load_share(bodies, motion, rod)
+        for i in range(bodies.first[rod], bodies.first[rod + 1]):
+            for c in range(3):
+                force[c, i] += share * bodies.mass[i] * gravity[c]
 
 
 @compiled
@@ -88,6 +96,7 @@ def _add_wind(bodies: Bodies, motion: Motion, air: Array, step: float, force: Ar
         ux, uy, uz = ux - along * tx, uy - along * ty, uz - along * tz
         across = np.sqrt(ux * ux + uy * uy + uz * uz)
         per_speed = 0.5 * AIR_DENSITY_KG_M3 * 2 * bodies.radius[rod] * length
+        per_speed *= bodies.inertia[rod] * _load_share(bodies, motion, rod)
         mass = max(bodies.mass[i], bodies.mass[i + 1])
         push = _damped(per_speed * DRAG_COEFFICIENT * across, step, mass)
         rub = _damped(per_speed * SKIN_COEFFICIENT * abs(along), step, mass) * along
@@ -109,10 +118,11 @@ def _resist(bodies: Bodies, motion: Motion, slower: float, momentum: Array) -> N
     for rod in range(len(bodies.length)):
         if not motion.touched[rod]:
             continue
+        most = slower * _load_share(bodies, motion, rod)
         for i in range(bodies.first[rod], bodies.first[rod + 1]):
             speed = np.sqrt(motion.v[0, i] ** 2 + motion.v[1, i] ** 2 + motion.v[2, i] ** 2)
             if speed > 0.0:
-                share = min(slower / speed, 1.0)
+                share = min(most / speed, 1.0)
                 for c in range(3):
                     momentum[c, i] -= share * bodies.mass[i] * motion.v[c, i]
 
@@ -130,7 +140,7 @@ def momentum_to_be(bodies: Bodies, motion: Motion, world: World, step: float, ti
         momentum: (3, nodes) array that gets the momentum, N s.
     """
     force = bodies.pull.copy()
-    _add_gravity(bodies, world.gravity, force)
+    _add_gravity(bodies, motion, world.gravity, force)
     for rod in range(len(bodies.length)):
         _add_elastic(bodies, motion, rod, force)
     if world.drag:

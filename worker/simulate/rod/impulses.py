@@ -106,7 +106,13 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - in nested tuples every access w
         if carried >= 0:
             hard = max(hard - contacts.softness[carried, n] * nz * nz, contacts.softness[1 - carried, n])
         apart = ux * nx + uy * ny + uz * nz
-        push_apart = (apart - least) / hard - apart / compliance[n]
+        # Less force between the rods unloads the floor; once that is free, both sides give way.
+        spare = (apart - least) / hard
+        if carried >= 0 and spare > 0.0:
+            held = _floor_force(contacts, n, carried, floor_impulse)
+            if spare > held:
+                spare = held + (apart - least - hard * held) / compliance[n]
+        push_apart = spare - apart / compliance[n]
         wx, wy, wz = on_cone(
             px - ux / compliance[n] - push_apart * nx,
             py - uy / compliance[n] - push_apart * ny,
@@ -139,6 +145,16 @@ def _carried_side(contacts: Contacts, n: int, floor_impulse: Array, nz: float) -
         if contacts.weights[lower, n, k] > CARRIED_WEIGHT and floor_impulse[2, base + k] <= 0.0:
             return -1
     return lower
+
+
+@compiled
+def _floor_force(contacts: Contacts, n: int, side: int, floor_impulse: Array) -> float:
+    """Compute the impulse, N s, with which the floor holds the nodes of a side of contact n."""
+    total = 0.0
+    for k in range(4):
+        if contacts.weights[side, n, k] > CARRIED_WEIGHT:
+            total += floor_impulse[2, contacts.base[side, n] + k]
+    return total
 
 
 @compiled
@@ -296,7 +312,7 @@ def work_of_depenetration(motion: Motion, touch: Touch, rise: Array) -> float:
 
 @compiled
 def find_touched(bodies: Bodies, motion: Motion, touch: Touch) -> None:
-    """Note in `motion.touched` which rods the floor or another rod has pushed in this step."""
+    """Note in `motion` which rods the floor or another rod has pushed in this step."""
     motion.touched[:] = False
     for i in touch.floor:
         if motion.floor_impulse[2, i] > 0.0:
@@ -306,6 +322,7 @@ def find_touched(bodies: Bodies, motion: Motion, touch: Touch) -> None:
         if push[0] != 0.0 or push[1] != 0.0 or push[2] != 0.0:
             motion.touched[bodies.owner[touch.contacts.base[0, n]]] = True
             motion.touched[bodies.owner[touch.contacts.base[1, n]]] = True
+    motion.landed[:] |= motion.touched
 
 
 @compiled

@@ -141,6 +141,7 @@ def _room(nodes: int) -> Scratch:
         momentum=np.empty((3, nodes)),
         load=np.empty((3, nodes)),
         v=np.empty((3, nodes)),
+        last=np.empty((3, nodes)),
         start=np.empty((3, nodes)),
         bends=np.zeros((3, nodes)),
         bulge=np.empty(nodes),

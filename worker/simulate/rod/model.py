@@ -23,6 +23,8 @@ class Rod:
             tan(theta) / l at each node, with theta the angle between its segments and l their length. None is straight.
         pinned: (N,) whether a node is held in its place; None holds no node.
         pull_n: (N, 3) constant force on each node, in newtons; None pulls at no node.
+        inertia: inertia over mass, at least 1. Above 1, gravity and wind act on the inertia until the rod first touches
+            something, so that it falls as any rod does, and on its mass from then on. At rest it makes no difference.
     """
 
     nodes_m: Array
@@ -32,6 +34,7 @@ class Rod:
     natural_curvature_per_m: Array | None = None
     pinned: NDArray[np.bool_] | None = None
     pull_n: Array | None = None
+    inertia: float = 1.0
 
     @property
     def bending_stiffness_n_m2(self) -> float:

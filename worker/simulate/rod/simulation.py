@@ -140,10 +140,17 @@ class RodSimulation:
             bending -= stiffness / length**2 * float(np.sum(curvature * turn))
         return Energy(
             kinetic=0.5 * float(np.sum(bodies.mass * v**2)),
-            gravitational=-float(np.sum(bodies.mass * (self._world.gravity @ x))),
+            gravitational=-float(np.sum(self._weighing_kg() * (self._world.gravity @ x))),
             bending=bending,
             pulls=-float(np.sum(bodies.pull * x)),
         )
+
+    def _weighing_kg(self) -> Array:
+        """The mass of each node, (nodes,), on which gravity acts at present."""
+        bodies = self._bodies
+        share = np.where(self._motion.landed, 1 / bodies.inertia, 1.0)
+        weighing: Array = bodies.mass * share[bodies.owner]
+        return weighing
 
     def advance(self, steps: int) -> None:
         """Make a number of time steps, each of `step_s` or smaller.

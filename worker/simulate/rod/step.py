@@ -39,6 +39,10 @@ MAX_FLOOR_CHANGES = 4
 """Largest number of times that the nodes which the floor holds are chosen again, after keeping the lengths has pressed
 others into the floor or would have to pull held ones down."""
 
+STEADY_M_S = 2e-4
+"""Change of all velocities in a turn, in m/s, below which turns end: a twelfth of the speed that counts as rest. Two
+contacts at one place may trade impulses for ever without moving anything."""
+
 SLACK = 50.0
 """Multiple of the tolerances of lengths that is enough while sweeps may still change the load."""
 
@@ -148,6 +152,7 @@ def _take_turns(
     sweeps, tolerance = 0, 0.0
     for turn in range(rounds):
         before = sweeps
+        scratch.last[:] = scratch.v
         if touch.pairs > 0 or len(touch.floor) > 0:
             sweeps, tolerance = correct(bodies, operator, motion, world, touch, scratch, sweeps, tolerance)
             if turn > 0 and sweeps == before + 1:
@@ -163,6 +168,8 @@ def _take_turns(
             if due[rod]:
                 _place(bodies, operator, motion, world, scratch, tally, rod)
                 stir(stirred, bodies.first[rod], bodies.first[rod + 1] - bodies.first[rod], sweeps)
+        if turn > 0 and _largest_change(scratch.last, scratch.v) < STEADY_M_S:
+            break
     tally.counts[SWEEPS] += sweeps
     kept = True
     for rod in range(rods):
@@ -170,6 +177,16 @@ def _take_turns(
             tally.counts[UNKEPT] += 1
             kept = False
     return kept
+
+
+@compiled
+def _largest_change(before: Array, after: Array) -> float:
+    """Compute the largest change of a coordinate of velocities (3, nodes), m/s."""
+    largest = 0.0
+    for c in range(3):
+        for i in range(before.shape[1]):
+            largest = max(largest, abs(after[c, i] - before[c, i]))
+    return largest
 
 
 @compiled
