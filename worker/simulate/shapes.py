@@ -25,6 +25,8 @@ class CableShapes:
         sticks_m: for each stick (N, 3) metres, nodes of the axis from end to end; none if the simulator has no sticks.
         stick_radii_m: (sticks,) metres, radius of each stick.
         rested: whether the fall ended because all rested, and not because its time was over.
+        passages: number of times that cables or sticks went through each other and stayed so, as the simulator watched
+            it; None if it does not watch.
     """
 
     nodes_m: tuple[Points, ...]
@@ -37,6 +39,7 @@ class CableShapes:
     sticks_m: tuple[Points, ...] = ()
     stick_radii_m: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
     rested: bool = True
+    passages: int | None = None
 
 
 NOTHING_FELL = CableShapes(

@@ -31,7 +31,7 @@ def find_fault(figures: SettleFigures) -> str | None:
     penetration tells), and its tip may slip round another's.
     """
     if figures.pass_throughs:
-        return f"{figures.pass_throughs} crossing(s) of cables that passed through each other"
+        return f"cables passed through each other {figures.pass_throughs} time(s)"
     if figures.floor_pass_throughs:
         return f"{figures.floor_pass_throughs} cable(s) passed through the floor"
     limits = [

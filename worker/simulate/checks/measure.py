@@ -93,10 +93,13 @@ def settled_figures(figures: SettleFigures) -> Mapping[Gate, float]:
 def measure(shapes: CableShapes) -> SettleFigures:
     """Measure gates 1 to 4 of settled cables, and the other figures that decide whether a picture is sound.
 
-    Penetration, air and crossings are those of the smooth centrelines that are rendered, with the true radii. Cables
-    start at stacked heights, so the order of a pair at every crossing is that of their start; another order means that
-    one went through the other or, close to an end, that it may have slipped round it. Whether a cable went through
-    itself can't be seen from where it rests: nothing says which strand was to be on top.
+    Penetration, air and crossings are those of the smooth centrelines that are rendered, with the true radii.
+
+    A simulator that watches for passages tells how many there were. Then a crossing whose order is not that of the
+    start heights only tells that a cable has slipped round another's end, or has come to lie across one that it did not
+    cross before. For any other simulator such a crossing counts as a passage unless it is close to an end: cables start
+    at stacked heights, and lie in that order wherever they have crossed all the time. It can't tell whether a cable
+    went through itself: nothing says which strand was to be on top.
 
     Sticks count as cables do where rods cut, carry or cross each other or the floor; lengths, speeds and air are the
     cables' own.
@@ -112,6 +115,8 @@ def measure(shapes: CableShapes) -> SettleFigures:
     flipped = crossings.flipped(shapes.start_order)
     # No cable slips round the end of a stick, which lies below it from the start.
     near_end = crossings.near_end(radii) & (np.maximum(crossings.one, crossings.other) < len(shapes.radii_m))
+    slips = flipped if shapes.passages is not None else flipped & near_end
+    passages = shapes.passages if shapes.passages is not None else int(np.count_nonzero(flipped & ~near_end))
     floor_depth = np.maximum(1 - spans.samples_m[:, 2] / radii[spans.cable_of_sample], 0)
     gaps = (np.minimum(spans.lowest_m - radii, contacts.clearance_m) / radii)[: len(shapes.radii_m)]
     speeds = np.concatenate(shapes.speeds_m_s) * 1000
@@ -123,8 +128,8 @@ def measure(shapes: CableShapes) -> SettleFigures:
         cable_penetration_max=float(contacts.depth.max()),
         floor_penetration=float(np.percentile(floor_depth, 99.9)),
         floor_penetration_max=float(floor_depth.max()),
-        pass_throughs=int(np.count_nonzero(flipped & ~near_end)),
-        end_slips=int(np.count_nonzero(flipped & near_end)),
+        pass_throughs=passages,
+        end_slips=int(np.count_nonzero(slips)),
         floor_pass_throughs=int(np.count_nonzero(spans.lowest_m < 0)),
         self_crossings=int(np.count_nonzero(crossings.own)),
         speed_rms_mm_s=float(np.sqrt(np.mean(speeds**2))),

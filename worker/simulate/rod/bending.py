@@ -149,7 +149,8 @@ def _reach(bodies: Bodies, factors: Array, reach: Integers, coupling: Array) -> 
             if left_out < 0.0:
                 break
             far -= 1
-        reach[rod] = far
+        # Where even the ends respond to a push on the middle, one end responds to a push on the other.
+        reach[rod] = far if far < min(middle - first, end - 1 - middle) else end - first - 1
 
 
 @compiled

@@ -1,8 +1,8 @@
 """Contact: the places where rods touch, and the impulses that keep them apart and act as friction.
 
-A contact lies where the smooth curves through the nodes are closest, not the chords. Its distance is that of the splines
-of `worker.simulate.rod.curves`. It acts on four nodes at either side, with the weights of the mean of the two parabolas
-at a segment's ends (a Catmull-Rom curve), which comes close to the spline.
+A contact lies where the smooth curves through the nodes are closest, not the chords. Its distance is that of the
+splines of `worker.simulate.rod.curves`. It acts on four nodes at either side, with the weights of the mean of the two
+parabolas at a segment's ends (a Catmull-Rom curve), which comes close to the spline.
 
 The implicit operator, with bending, gives the velocity that an impulse causes, so that a contact knows how soft a rod
 is there. As the operator is the same in x, y and z, a contact's own block is a multiple of the unit matrix, and

@@ -97,6 +97,8 @@ def drop_cables(scene: Scene, fall: RodFall) -> CableShapes:
         sticks_m=tuple(simulation.nodes_m(len(cables) + k) for k in range(len(scene.sticks))),
         stick_radii_m=np.array([stick.diameter_m / 2 for stick in scene.sticks], dtype=np.float64),
         rested=rested,
+        # No step in which rods would pass through each other is made.
+        passages=0,
     )
 
 

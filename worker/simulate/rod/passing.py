@@ -7,7 +7,6 @@ self-collision handling in cloth model dedicated to design garments"). If they p
 
 import numpy as np
 
-from worker.simulate.rod.arrays import Integers
 from worker.simulate.rod.compiled import compiled
 from worker.simulate.rod.contact import Contacts
 from worker.simulate.rod.model import Array

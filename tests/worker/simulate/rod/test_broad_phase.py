@@ -18,7 +18,8 @@ from worker.simulate.rod.broad_phase import (
     still_hold,
 )
 from worker.simulate.rod.model import Array
-from worker.simulate.rod.narrow_phase import APPROACH_SHARE, NEARBY_SHARE, SPARE_SHARE, closest, find_bulge, find_reach
+from worker.simulate.rod.curves import find_bends, find_bulge
+from worker.simulate.rod.narrow_phase import APPROACH_SHARE, NEARBY_SHARE, SPARE_SHARE, closest, find_reach
 from worker.simulate.shapes import bent_rod
 
 STEP_S = 1e-3
@@ -47,8 +48,9 @@ def margin_m(bodies: Bodies, v: Array, frame: Array, step_s: float) -> float:
 
 def bulge_m(bodies: Bodies, x: Array) -> Array:
     """The bulge at each node."""
-    bulge = np.empty(len(bodies.owner))
-    find_bulge(bodies, x, bulge)
+    bends, bulge = np.empty(x.shape), np.empty(len(bodies.owner))
+    find_bends(bodies, x, bends)
+    find_bulge(bends, bulge)
     return bulge
 
 

@@ -8,8 +8,10 @@ from worker.simulate.rod.arrays import flatten
 from worker.simulate.rod.bending import operator_for
 from worker.simulate.rod.broad_phase import find_candidates, no_candidates
 from worker.simulate.rod.contact import gather_contacts, room_for_contacts
+from worker.simulate.rod.curves import find_bends, find_bulge
+from worker.simulate.rod.march import room_for_step
 from worker.simulate.rod.model import Array, Rod
-from worker.simulate.rod.narrow_phase import find_bulge, find_reach
+from worker.simulate.rod.narrow_phase import find_reach
 
 STEP_S = 1e-3
 MARGIN_M = 0.1 * RADIUS_M
@@ -18,15 +20,17 @@ MARGIN_M = 0.1 * RADIUS_M
 def normals_and_approaches(rods: list[Rod], known: Array | None = None) -> tuple[Array, Array]:
     """Normals (n, 3) and approaches (n,) of all contacts at rest; `known` is the last direction to the first rod."""
     bodies, motion = flatten(rods)
-    bulge, reach = np.empty(len(bodies.owner)), np.empty(len(bodies.owner))
-    find_bulge(bodies, motion.x, bulge)
-    find_reach(bodies, motion.v, np.zeros(3), STEP_S, MARGIN_M, bulge, reach)
-    candidates = find_candidates(bodies, motion, np.zeros(3), STEP_S, reach, no_candidates(len(bodies.owner)))
+    scratch = room_for_step(len(bodies.owner))
+    find_bends(bodies, motion.x, scratch.bends)
+    find_bulge(scratch.bends, scratch.bulge)
+    find_reach(bodies, motion.v, np.zeros(3), STEP_S, MARGIN_M, scratch.bulge, scratch.reach)
+    before = no_candidates(len(bodies.owner))
+    candidates = find_candidates(bodies, motion, np.zeros(3), STEP_S, scratch.reach, before)
     if known is not None:
         candidates.normal[:] = known
     operator = operator_for(bodies, STEP_S, 0.0)
     contacts = room_for_contacts(len(candidates.one), operator)
-    count = gather_contacts(bodies, operator, motion, candidates, bulge, reach, MARGIN_M, contacts)
+    count = gather_contacts(bodies, operator, motion, candidates, scratch, MARGIN_M, contacts)
     return contacts.normal[:count], contacts.approach[:count]
 
 

@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
-from tests.worker.simulate.physics.rods import RADIUS_M, curve_m, line, rod
+from tests.worker.simulate.physics.rods import RADIUS_M, line, rod
+from worker.curves import smooth
 from worker.simulate.rod.arrays import flatten
 from worker.simulate.rod.contact import SLOP_RADII, UNDOING_S
+from worker.simulate.rod.curves import find_bends
 from worker.simulate.rod.floor import NEAR_FLOOR_RADII, find_near_floor
 from worker.simulate.rod.model import Array
 
@@ -17,7 +19,9 @@ def near_floor(heights_m: Array) -> tuple[list[int], Array]:
     bodies, motion = flatten([rod(line((0, 0, 0), (0.004 * (len(heights_m) - 1), 0, 0), len(heights_m) - 1))])
     motion.x[2] = heights_m
     touching, rise = np.empty(len(heights_m), np.int64), np.empty(len(heights_m))
-    count = find_near_floor(bodies, motion, STEP_S, 0.4, touching, rise)
+    bends = np.empty(motion.x.shape)
+    find_bends(bodies, motion.x, bends)
+    count = find_near_floor(bodies, motion, bends, STEP_S, 0.4, touching, rise)
     return touching[:count].tolist(), rise
 
 
