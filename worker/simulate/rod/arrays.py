@@ -49,6 +49,7 @@ class Motion(NamedTuple):
         floor_impulse: (3, nodes) impulse of the floor on each node in the last step, N s.
         touched: (rods,) whether the floor or another rod pushed a rod in the last step.
         landed: (rods,) whether one of them ever has.
+        anchor: (3, nodes) places of the nodes when they last had moved too far to rest, m.
     """
 
     x: Array
@@ -57,6 +58,7 @@ class Motion(NamedTuple):
     floor_impulse: Array
     touched: NDArray[np.bool_]
     landed: NDArray[np.bool_]
+    anchor: Array
 
 
 class Scratch(NamedTuple):
@@ -129,5 +131,6 @@ def flatten(rods: Sequence[Rod]) -> tuple[Bodies, Motion]:
         floor_impulse=np.zeros((3, nodes)),
         touched=np.zeros(len(rods), np.bool_),
         landed=np.zeros(len(rods), np.bool_),
+        anchor=np.ascontiguousarray(np.concatenate([rod.nodes_m for rod in rods]).T),
     )
     return bodies, motion

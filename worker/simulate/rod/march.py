@@ -41,9 +41,9 @@ class Bounds(NamedTuple):
 
     Attributes:
         steps: largest number of steps.
-        rest_rms: root mean square speed up to which the rods rest, m/s.
-        rest_fastest: speed of the fastest node up to which the rods rest, m/s.
-        rest_s: time for which they must have rested, s.
+        rest_rms: root mean square distance by which the nodes may move in `rest_s` if the rods rest, m.
+        rest_farthest: distance by which any node may, m.
+        rest_s: time for which they must have stayed that close to their places, s.
         horizon: time before their landing from which rods count as landing, s, whatever the time step is.
         most_move: largest movement of a node in a step while others may be in its way, m; inf if the time step can't be
             made smaller.
@@ -53,7 +53,7 @@ class Bounds(NamedTuple):
 
     steps: int
     rest_rms: float
-    rest_fastest: float
+    rest_farthest: float
     rest_s: float
     horizon: float
     most_move: float
@@ -86,7 +86,7 @@ def march(
         The value of an `Outcome`, and the present list of candidates.
     """
     smallest, step = bodies.radius.min(), operator.step
-    scratch = _room(len(bodies.mass))
+    scratch = room_for_step(len(bodies.mass))
     contacts = room_for_contacts(len(candidates.one) + 1, operator)
     for _ in range(bounds.steps):
         landing = world.floor and _is_landing(bodies, motion, bounds.horizon)
@@ -113,10 +113,14 @@ def march(
             tally.wary[0] = WARY_STEPS
             return Outcome.UNSOUND.value, candidates
         _count(tally, step, touch.pairs)
-        rms, fastest = _speeds(motion.v)
+        rms, farthest = _distances(motion.x, motion.anchor)
         if not np.isfinite(rms):
             return Outcome.DIVERGED.value, candidates
-        tally.quiet[0] = tally.quiet[0] + step if rms <= bounds.rest_rms and fastest <= bounds.rest_fastest else 0.0
+        if rms <= bounds.rest_rms and farthest <= bounds.rest_farthest:
+            tally.quiet[0] += step
+        else:
+            tally.quiet[0] = 0.0
+            motion.anchor[:] = motion.x
         if tally.quiet[0] >= bounds.rest_s:
             return Outcome.RESTED.value, candidates
     return Outcome.STEPS_DONE.value, candidates
@@ -125,7 +129,7 @@ def march(
 @compiled
 def prestress(bodies: Bodies, operator: Operator, motion: Motion, world: World) -> None:
     """Set `motion.tension` to the tension that balances the rods at the start: a curved rod at rest has some."""
-    scratch = _room(len(bodies.mass))
+    scratch = room_for_step(len(bodies.mass))
     momentum_to_be(bodies, motion, world, operator.step, 0.0, scratch.load)
     scratch.start[:] = motion.x
     for i in range(len(bodies.mass)):
@@ -136,7 +140,7 @@ def prestress(bodies: Bodies, operator: Operator, motion: Motion, world: World) 
 
 
 @compiled
-def _room(nodes: int) -> Scratch:
+def room_for_step(nodes: int) -> Scratch:
     return Scratch(
         momentum=np.empty((3, nodes)),
         load=np.empty((3, nodes)),
@@ -203,11 +207,11 @@ def _fastest(v: Array, frame: Array) -> float:
 
 
 @compiled
-def _speeds(v: Array) -> tuple[float, float]:
-    """Compute the root mean square speed and the largest one, m/s, of velocities (3, nodes)."""
+def _distances(x: Array, y: Array) -> tuple[float, float]:
+    """Compute the root mean square distance of places from others, (3, nodes) each, and the largest one, m."""
     total = worst = 0.0
-    for i in range(v.shape[1]):
-        squared = v[0, i] ** 2 + v[1, i] ** 2 + v[2, i] ** 2
+    for i in range(x.shape[1]):
+        squared = (x[0, i] - y[0, i]) ** 2 + (x[1, i] - y[1, i]) ** 2 + (x[2, i] - y[2, i]) ** 2
         total += squared
         worst = max(worst, squared)
-    return float(np.sqrt(total / v.shape[1])), float(np.sqrt(worst))
+    return float(np.sqrt(total / x.shape[1])), float(np.sqrt(worst))

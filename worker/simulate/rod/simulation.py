@@ -27,7 +27,7 @@ MAX_EXPLICIT_SHARE = 0.25
 """Largest ratio of the explicit pull towards the natural shape to the implicit part; from 1 on it would be unstable."""
 
 NEVER_RESTS = (-1.0, -1.0, np.inf)
-"""Speeds and time of rest, as `Bounds` has them, that no rods reach."""
+"""Distances and time of rest, as `Bounds` has them, that no rods reach."""
 
 
 class DivergedError(Exception):
@@ -108,6 +108,18 @@ class RodSimulation:
         """Return the velocities of a rod's nodes, (N, 3) m/s."""
         return np.ascontiguousarray(self._motion.v[:, self._part(rod)].T)
 
+    def drift_m_s(self, rod: int) -> Array:
+        """Return the mean velocities of a rod's nodes, (N, 3) m/s, since they last moved too far to rest.
+
+        They are those of the last step if that has only just happened.
+        """
+        quiet_s = float(self._tally.quiet[0])
+        if quiet_s <= 0.0:
+            return self.velocities_m_s(rod)
+        part = self._part(rod)
+        drift: Array = (self._motion.x[:, part] - self._motion.anchor[:, part]).T / quiet_s
+        return np.ascontiguousarray(drift)
+
     def floor_forces_n(self, rod: int) -> Array:
         """Return the forces of the floor on a rod's nodes in the last step, (N, 3) newtons."""
         force: Array = self._motion.floor_impulse[:, self._part(rod)].T / self._operator().step
@@ -176,7 +188,8 @@ class RodSimulation:
         Args:
             rms_m_s: root mean square speed of the nodes up to which the rods rest, in m/s.
             fastest_m_s: speed of the fastest node up to which the rods rest, in m/s.
-            quiet_s: time for which they must have rested, in seconds.
+            quiet_s: time over which the speeds are means, in seconds: within it no node moves farther, at any step, than
+                at these speeds. Within single steps, contacts chatter.
             max_time_s: time since the start at which to stop in any case, in seconds.
             max_steps: number of steps that may be made, halved ones included.
 
@@ -187,7 +200,7 @@ class RodSimulation:
             DivergedError: if the state is no longer finite.
             TooManyStepsError: if the steps are made before the rods rest and before the time is over.
         """
-        outcome = self._march(max_steps, (rms_m_s, fastest_m_s, quiet_s), max_time_s)
+        outcome = self._march(max_steps, (rms_m_s * quiet_s, fastest_m_s * quiet_s, quiet_s), max_time_s)
         if outcome is not Outcome.RESTED and self.time_s < max_time_s:
             raise TooManyStepsError(f"after {max_steps} time steps, at {self.time_s:.4g} s")
         return outcome is Outcome.RESTED
@@ -219,7 +232,7 @@ class RodSimulation:
         return Bounds(
             steps=min(steps, int(np.ceil(left))) if np.isfinite(left) else steps,
             rest_rms=rest[0],
-            rest_fastest=rest[1],
+            rest_farthest=rest[1],
             rest_s=rest[2],
             horizon=2 * self.step_s,
             most_move=np.inf if finest else move,
