@@ -40,7 +40,7 @@ def drawn_table(results: Sequence[DrawnResult]) -> Table:
         depth, cpu = depths(those), np.array([each.cpu_s for each in those])
         shares = [f"{np.mean(depth > limit):.2%}" for limit in (_TARGET, _BOUND)]
         table.add_row(
-            name,
+            "  " + name.split(": ")[1] if ": " in name else name,
             str(len(those)),
             str(sum(each.again is not None for each in those)),
             str(sum(each.passes > 0 for each in those)),
@@ -63,7 +63,7 @@ def drawn_failures(results: Sequence[DrawnResult], out: Path) -> Iterator[str]:
     for each in results:
         if each.fault is None and each.again is None:
             continue
-        faults = "" if each.fault is None else f"{each.fault.value}, {'; '.join(each.passages) or 'no passage'}; "
+        faults = "" if each.fault is None else "; ".join((each.fault.value, *each.passages, ""))
         again = "" if each.again is None else f"drawn again: {each.again}; "
         yield f"{faults}{again}{drawn_replay_command(each, out)}"
 
@@ -97,6 +97,7 @@ def draw_depths(plane: Axes, results: Sequence[DrawnResult]) -> None:
     for limit in (_TARGET, _BOUND):
         plane.axvline(limit, color="0.5", linestyle=":")
     plane.set_xscale("symlog", linthresh=0.001)
+    plane.set_xlim(left=0.0)
     plane.set_yscale("log")
     plane.set_xlabel("penetration over radius, 99.9th percentile of a scene")
     plane.set_ylabel("share of scenes that are deeper")

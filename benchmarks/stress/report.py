@@ -68,9 +68,14 @@ def kind_table(results: Sequence[Result]) -> Table:
 
 
 def gate_table(results: Sequence[Result]) -> Table:
-    """A table of gates 1 to 4: the worst figure, and the numbers of runs off target and beyond the bound."""
-    table = _table("gates 1 to 4 over all runs", "figure", "worst", "in run", "off target", "beyond the bound")
-    measured = [result for result in results if result.figures]
+    """A table of gates 1 to 4: the worst figure, and the numbers of runs off target and beyond the bound.
+
+    Runs that were cut off are left out, as their cables still move.
+    """
+    table = _table(
+        "gates 1 to 4 over all runs that ended", "figure", "worst", "in run", "off target", "beyond the bound"
+    )
+    measured = [result for result in results if result.figures and not result.cut]
     for gate in measured[0].gates if measured else ():
         figures = [result.gates[gate] for result in measured]
         worst = int(np.argmax(figures))
@@ -95,7 +100,9 @@ def slowest_table(results: Sequence[Result], count: int = 5) -> Table:
 def summary(results: Sequence[Result]) -> str:
     """A few sentences on what the tables leave out."""
     undone, slips = (sum(getattr(each, name) for each in results) for name in ("undone", "end_slips"))
-    deepest = max((each.figures.cable_penetration_max for each in results if each.figures), default=0.0)
+    deepest = max(
+        (each.figures.cable_penetration_max for each in results if each.figures and not each.cut), default=0.0
+    )
     sunk = sum(each.sunk_nodes > 0 for each in results)
     failed = sum(each.fault is not None for each in results)
     return (

@@ -55,7 +55,7 @@ def test_a_failure_is_told_with_place_and_command(tmp_path: Path) -> None:
     passed = replace(SOUND, fault=StressFault.PASSED_THROUGH, passes=1, passages=("rods 0 and 1 at 3 and 4 radii",))
     assert conclude([], [SOUND, passed], tmp_path, console) == 1
     text = console.export_text()
-    assert "passed through, rods 0 and 1 at 3 and 4 radii" in text
+    assert "passed through; rods 0 and 1 at 3 and 4 radii" in text
     assert f"python -m benchmarks stress --out {tmp_path} --seed 77 --only wide:far-000001" in text
     assert (tmp_path / "stress.png").stat().st_size > 10_000
 
