@@ -81,7 +81,7 @@ def conclude(extremes: Sequence[Result], drawn: Sequence[DrawnResult], out: Path
 
 
 def play_any(scene: Case | Draw, most_steps: int) -> Result | DrawnResult:
-    """Play an extreme, of at most so many steps, or a drawn scene."""
+    """Play a drawn scene, or an extreme of at most `most_steps` time steps."""
     return play(scene, most_steps) if isinstance(scene, Case) else play_drawn(scene)
 
 
