@@ -9,10 +9,10 @@ from benchmarks.farm.options import add_farm
 from benchmarks.farm.splits import SPLITS
 from benchmarks.pictures.options import add_pictures, styles_of
 from benchmarks.soak.options import add_soak
+from benchmarks.stress.options import add_stress, stress_plan_of
 from benchmarks.training.options import add_training, training_plan_of
 from benchmarks.whole.options import add_whole, plan_of
 from farm.errors import FarmError
-from farm.spec.styles import Style
 from worker.service.exit import end_process
 
 
@@ -29,13 +29,7 @@ def main(arguments: list[str]) -> int:
     add_training(commands, shared)
     masks = commands.add_parser("masks", parents=[shared], help="masks against fine renders")
     masks.add_argument("--images", type=int, help="images of each category")
-    stress = commands.add_parser("stress", parents=[shared], help="the rod solver over the whole range of everything")
-    stress.add_argument("--runs", type=int, help="number of scenes")
-    stress.add_argument("--only", type=int, help="number of the one scene to play")
-    stress.add_argument("--processes", type=int, help="number of processes at the same time")
-    falls = commands.add_parser("falls", parents=[shared], help="the falls of a style against the gates' targets")
-    falls.add_argument("--images", type=int, help="number of jobs whose first scene falls")
-    falls.add_argument("--style", choices=[style.value for style in Style], default=Style.WIDE.value)
+    add_stress(commands, shared)
     render = commands.add_parser("render", parents=[shared], help="time against error of rendering")
     render.add_argument("--scenes", type=int, help="scenes of each category, for the ladder of samples")
     render.add_argument("--turn-scenes", type=int, help="how many of these scenes to use for single changed settings")
@@ -70,7 +64,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.benchmark == "stress":
         from benchmarks.stress.command import run  # noqa: PLC0415
 
-        return run(options.out, seed=options.seed, runs=options.runs, only=options.only, processes=options.processes)
+        return run(options.out, stress_plan_of(options))
     if options.benchmark == "physics":
         from benchmarks.physics.command import run as run_physics  # noqa: PLC0415
 
@@ -89,17 +83,13 @@ def _run(options: argparse.Namespace) -> int:
             quality=options.quality,
             resolution=options.resolution,
         )
-    if options.benchmark in {"falls", "pictures", "training"}:
+    if options.benchmark in {"pictures", "training"}:
         return _run_styles(options)
     return _run_pictures(options)
 
 
 def _run_styles(options: argparse.Namespace) -> int:
     """Run a benchmark of styles; other processes make the pictures, so this one never loads Blender."""
-    if options.benchmark == "falls":
-        from benchmarks.falls.command import run as run_falls  # noqa: PLC0415
-
-        return run_falls(options.out, seed=options.seed, images=options.images, style=options.style)
     if options.benchmark == "training":
         from benchmarks.training.command import run as run_training  # noqa: PLC0415
 

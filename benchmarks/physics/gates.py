@@ -158,12 +158,16 @@ def _bits(value: object) -> object:
 
 
 class StressFault(Enum):
-    """The reasons for which a run of the stress grid fails."""
+    """The reasons for which a run of the stress grid fails.
+
+    Rods keep their length to rounding, so that of a sound run is on target, and not only within its bound.
+    """
 
     NOT_FINITE = "not finite"
     ESCAPED = "escaped"
     PASSED_THROUGH = "passed through"
     STRETCHED = "stretched"
+    PENETRATED = "penetrated"
     NOT_AT_REST = "not at rest"
 
 
@@ -185,7 +189,9 @@ def stress_fault(shapes: CableShapes, *, reach_m: float, passes: int | None = No
     passes = figures.pass_throughs if passes is None else passes
     broken = {
         StressFault.PASSED_THROUGH: passes + figures.floor_pass_throughs > 0,
-        StressFault.STRETCHED: Gate.LENGTH.is_broken_by(figures.length_error),
+        StressFault.STRETCHED: not Gate.LENGTH.on_target(figures.length_error),
+        StressFault.PENETRATED: Gate.CABLE_PENETRATION.is_broken_by(figures.cable_penetration)
+        or Gate.FLOOR_PENETRATION.is_broken_by(figures.floor_penetration),
         StressFault.NOT_AT_REST: not Gate.SPEED_RMS.on_target(figures.speed_rms_mm_s)
         or not Gate.SPEED_MAX.on_target(figures.speed_max_mm_s),
     }

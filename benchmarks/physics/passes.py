@@ -135,6 +135,11 @@ class PassWatch:
         self._standing: list[Passage] = []
 
     @property
+    def standing(self) -> tuple[Passage, ...]:
+        """All passages that weren't undone, in the order in which they were seen."""
+        return tuple(self._standing)
+
+    @property
     def passes(self) -> int:
         """Number of passages away from all ends that weren't undone."""
         return sum(not each.near_end for each in self._standing)

@@ -1,13 +1,19 @@
 """`python -m benchmarks stress`: play the scenes in several processes, and report the runs that failed."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
 
 from rich.console import Console
 from rich.progress import track
 
+from benchmarks.physics.gates import StressFault
+from benchmarks.stress.drawn import DrawnResult, play_drawn
+from benchmarks.stress.drawn_report import drawn_failures, drawn_table, reasons, too_many_again
+from benchmarks.stress.kinds import Draw, draw_named
+from benchmarks.stress.options import StressPlan
 from benchmarks.stress.play import Result, play
 from benchmarks.stress.report import (
     axis_table,
@@ -22,55 +28,80 @@ from benchmarks.stress.report import (
 from benchmarks.stress.scenes import Case, draw_cases
 from benchmarks.terminal import bench_console
 
-DEFAULT_RUNS = 560
-"""Scenes unless the command line says otherwise: more than gate 10's 500, and the same number for each start."""
 
-DEFAULT_PROCESSES = 2
-"""Processes at the same time unless the command line says otherwise."""
-
-
-def run(out: Path, *, seed: int, runs: int | None, only: int | None, processes: int | None) -> int:
+def run(out: Path, plan: StressPlan) -> int:
     """Play all scenes, or one alone; print, write `stress.json` and `stress.png` into `out`.
 
     Args:
         out: an existing folder.
-        seed: seed of the scenes.
-        runs: number of scenes; `DEFAULT_RUNS` if None.
-        only: number of the one scene to play; None for all.
-        processes: number of processes at the same time; `DEFAULT_PROCESSES` if None.
+        plan: the scenes.
 
     Returns:
         Exit code: 0 if no run failed.
 
     Raises:
-        ValueError: if there is no scene with that number.
+        ValueError: if there is no such scene as the plan names.
     """
-    cases = draw_cases(runs or DEFAULT_RUNS, seed)
     console = bench_console()
-    if only is not None:
-        if not 0 <= only < len(cases):
-            raise ValueError(f"scene {only} is not one of 0 to {len(cases) - 1}")
-        result = play(cases[only])
+    cases = draw_cases(plan.runs, plan.seed)
+    if plan.only is not None:
+        result = play_any(_named(plan.only, cases, plan.seed), plan.most_steps)
         console.print(result)
-        return int(result.fault is not None)
-    results = _play_all(cases, processes or DEFAULT_PROCESSES)
-    return conclude(list(track(results, "runs", len(cases), console=console, transient=True)), out, console)
+        return int(_decides(result))
+    draws = plan.draws()
+    results = list(
+        track(_play_all([*cases, *draws], plan), "falls", len(cases) + len(draws), console=console, transient=True)
+    )
+    extremes = [each for each in results if isinstance(each, Result)]
+    drawn = [each for each in results if isinstance(each, DrawnResult)]
+    return conclude(extremes, drawn, out, console)
 
 
-def conclude(results: Sequence[Result], out: Path, console: Console) -> int:
-    """Print and write the results of all runs; return 0 if none failed, else 1."""
-    for table in (axis_table(results), kind_table(results), gate_table(results), slowest_table(results)):
-        console.print(table)
-    console.print(summary(results))
-    failed = failures(results, out)
-    for line in failed:
+def conclude(extremes: Sequence[Result], drawn: Sequence[DrawnResult], out: Path, console: Console) -> int:
+    """Print and write the results of all runs.
+
+    Returns:
+        0 if no run failed and few enough drawn scenes are drawn again, else 1. Unrest alone is told, and decides
+        nothing: a drawn scene that does not rest is drawn again, and counts as such.
+    """
+    lines: list[str] = []
+    if extremes:
+        for table in (axis_table(extremes), kind_table(extremes), gate_table(extremes), slowest_table(extremes)):
+            console.print(table)
+        console.print(summary(extremes))
+        lines += failures(extremes, out)
+    if drawn:
+        console.print(drawn_table(drawn))
+        lines += [*reasons(drawn), *drawn_failures(drawn, out)]
+    for line in lines:
         console.print(line, soft_wrap=True, markup=False, highlight=False)
-    write_json(out / "stress.json", results)
-    write_plot(out / "stress.png", results)
-    return int(bool(failed))
+    write_json(out / "stress.json", extremes, drawn)
+    write_plot(out / "stress.png", extremes, drawn)
+    return int(_any_decides([*extremes, *drawn]) or too_many_again(drawn))
 
 
-def _play_all(cases: Sequence[Case], processes: int) -> Iterator[Result]:
-    """Results in the order of the cases; runs are independent, so any process may play any of them."""
-    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
-        yield from pool.map(play, cases, chunksize=1)
+def play_any(scene: Case | Draw, most_steps: int) -> Result | DrawnResult:
+    """Play a drawn scene, or an extreme of at most `most_steps` time steps."""
+    return play(scene, most_steps) if isinstance(scene, Case) else play_drawn(scene)
+
+
+def _named(only: str, cases: Sequence[Case], seed: int) -> Case | Draw:
+    if not only.isdigit():
+        return draw_named(only, seed)
+    if int(only) >= len(cases):
+        raise ValueError(f"scene {only} is not one of 0 to {len(cases) - 1}")
+    return cases[int(only)]
+
+
+def _play_all(scenes: Sequence[Case | Draw], plan: StressPlan) -> Iterator[Result | DrawnResult]:
+    """Results in the order of the scenes; runs are independent, so any process may play any of them."""
+    with ProcessPoolExecutor(plan.processes, mp_context=get_context("spawn")) as pool:
+        yield from pool.map(partial(play_any, most_steps=plan.most_steps), scenes, chunksize=1)
+
+
+def _any_decides(results: Iterable[Result | DrawnResult]) -> bool:
+    return any(_decides(result) for result in results)
+
+
+def _decides(result: Result | DrawnResult) -> bool:
+    return result.fault not in {None, StressFault.NOT_AT_REST}

@@ -1,4 +1,4 @@
-"""The tables, the JSON file and the plot of the stress test."""
+"""The tables of the extremes, and the JSON file and the plot of the whole stress test."""
 
 import json
 from collections import Counter
@@ -13,6 +13,8 @@ import numpy as np
 from rich.table import Table
 
 from benchmarks.physics.gates import StressFault
+from benchmarks.stress.drawn import DrawnResult
+from benchmarks.stress.drawn_report import draw_depths, draw_seconds
 from benchmarks.stress.play import Result
 from benchmarks.stress.scenes import AXES, Axis, Case, Scale, Start
 
@@ -22,7 +24,7 @@ from matplotlib.axes import Axes
 
 _PARTS = 4
 _PLANES = (("radius", "modulus"), ("wind", "drop"), ("steps", "density"))
-_MARKS = dict(zip(StressFault, "vsxPo", strict=True))
+_MARKS = dict(zip(StressFault, "vsxPDo", strict=True))
 
 
 def replay_command(case: Case, out: Path) -> str:
@@ -66,9 +68,14 @@ def kind_table(results: Sequence[Result]) -> Table:
 
 
 def gate_table(results: Sequence[Result]) -> Table:
-    """A table of gates 1 to 4: the worst figure, and the numbers of runs off target and beyond the bound."""
-    table = _table("gates 1 to 4 over all runs", "figure", "worst", "in run", "off target", "beyond the bound")
-    measured = [result for result in results if result.figures]
+    """A table of gates 1 to 4: the worst figure, and the numbers of runs off target and beyond the bound.
+
+    Runs that were cut off are left out, as their cables still move.
+    """
+    table = _table(
+        "gates 1 to 4 over all runs that ended", "figure", "worst", "in run", "off target", "beyond the bound"
+    )
+    measured = [result for result in results if result.figures and not result.cut]
     for gate in measured[0].gates if measured else ():
         figures = [result.gates[gate] for result in measured]
         worst = int(np.argmax(figures))
@@ -81,11 +88,11 @@ def gate_table(results: Sequence[Result]) -> Table:
 
 def slowest_table(results: Sequence[Result], count: int = 5) -> Table:
     """A table of the runs that took longest."""
-    columns = ("run", "seconds", "steps", "simulated s", "cables", "radius m", "wind m/s")
+    columns = ("run", "CPU s", "steps", "simulated s", "cables", "radius m", "wind m/s")
     table = _table("the slowest runs", "start", *columns)
-    for result in sorted(results, key=lambda each: -each.wall_s)[:count]:
+    for result in sorted(results, key=lambda each: -each.cpu_s)[:count]:
         case = result.case
-        cells = (case.number, f"{result.wall_s:.1f}", result.steps, f"{result.fall_s:.2f}", case.cables)
+        cells = (case.number, f"{result.cpu_s:.1f}", result.steps, f"{result.fall_s:.2f}", case.cables)
         table.add_row(case.start.value, *map(str, cells), f"{case.radius:.2g}", f"{case.wind:.2g}")
     return table
 
@@ -93,29 +100,46 @@ def slowest_table(results: Sequence[Result], count: int = 5) -> Table:
 def summary(results: Sequence[Result]) -> str:
     """A few sentences on what the tables leave out."""
     undone, slips = (sum(getattr(each, name) for each in results) for name in ("undone", "end_slips"))
-    deepest = max((each.figures.cable_penetration_max for each in results if each.figures), default=0.0)
+    deepest = max(
+        (each.figures.cable_penetration_max for each in results if each.figures and not each.cut), default=0.0
+    )
     sunk = sum(each.sunk_nodes > 0 for each in results)
     failed = sum(each.fault is not None for each in results)
     return (
         f"{failed} of {len(results)} runs failed. On the way {undone} passages were undone and {slips} slipped round "
-        f"an end; in {sunk} runs a centreline dipped below the floor. Deepest place at the end: {deepest:.3g} radii."
+        f"an end; in {sunk} runs a centreline dipped below the floor. Deepest place at the end: {deepest:.3g} radii. "
+        f"{sum(each.cut for each in results)} runs were cut off before they rested."
     )
 
 
-def write_json(path: Path, results: Sequence[Result]) -> None:
-    """Write every case and its result."""
-    content = [asdict(result) | _figures(result) for result in results]
+def write_json(path: Path, extremes: Sequence[Result], drawn: Sequence[DrawnResult]) -> None:
+    """Write every scene and its result."""
+    content = {
+        name: [asdict(result) | _figures(result) for result in results]
+        for name, results in (("extremes", extremes), ("drawn", drawn))
+    }
     path.write_text(json.dumps(content, indent=1, default=_plain) + "\n")
 
 
-def write_plot(path: Path, results: Sequence[Result]) -> None:
-    """Draw the runs over pairs of axes; marks show the faults of those that failed."""
-    figure, planes = plt.subplots(1, len(_PLANES), figsize=(15, 4.8), layout="constrained")
-    for plane, names in zip(planes, _PLANES, strict=True):
-        _draw_plane(plane, names, results)
-    figure.legend(*planes[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(_MARKS) + 1)
-    failed = sum(result.fault is not None for result in results)
-    figure.suptitle(f"{len(results)} runs of the rod solver, {failed} failed")
+def write_plot(path: Path, extremes: Sequence[Result], drawn: Sequence[DrawnResult]) -> None:
+    """Draw the extremes over pairs of axes, with marks for their faults, and the drawn scenes' depths and seconds."""
+    figure = plt.figure(figsize=(15, 10), layout="constrained")
+    halves = figure.subfigures(2, 1, squeeze=False)
+    above, below = halves[0, 0], halves[1, 0]
+    if extremes:
+        planes = above.subplots(1, len(_PLANES))
+        for plane, names in zip(planes, _PLANES, strict=True):
+            _draw_plane(plane, names, extremes)
+        above.legend(*planes[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(_MARKS) + 1)
+        failed = sum(result.fault is not None for result in extremes)
+        above.suptitle(f"{len(extremes)} extremes of the rod solver, {failed} failed")
+    if drawn:
+        depth, seconds = below.subplots(1, 2)
+        draw_depths(depth, drawn)
+        draw_seconds(seconds, drawn)
+        failed = sum(result.fault is not None for result in drawn)
+        again = sum(result.again is not None for result in drawn)
+        below.suptitle(f"{len(drawn)} drawn scenes, {failed} failed, {again} drawn again")
     figure.savefig(path, dpi=110)
     plt.close(figure)
 
@@ -147,7 +171,7 @@ def _table(title: str, *columns: str) -> Table:
     return table
 
 
-def _figures(result: Result) -> dict[str, object]:
+def _figures(result: Result | DrawnResult) -> dict[str, object]:
     return {"figures": result.figures.model_dump() if result.figures else None}
 
 

@@ -28,6 +28,10 @@ SEGMENT_RADII = 4.0
 MIN_LENGTH_RADII = 48.0
 """Least length of a cable, in radii: a dozen segments."""
 
+MOST_STEPS = 2000
+"""Time steps of a run at most, unless the command line says otherwise. A third of the runs need more, up to 33,000,
+most of them thin cables that the wind drags along; to their ends they would take two thirds of the time of all."""
+
 _SEED_STREAM, _SCENE_STREAM = 0, 1
 """First spawn keys of the random streams for the cases, and for everything else that is drawn in each scene."""
 

@@ -152,8 +152,8 @@ def _upright(rods: list[Rod], widest: float, drop: float) -> list[Rod]:
 
 
 def _tilted(rods: list[Rod], widest: float) -> list[Rod]:
-    """Turn all rods together about the y axis until the lowest place is two radii lower than it would lie."""
-    farthest = max(float(np.abs(rod.nodes_m[:, 0]).max()) for rod in rods)
+    """Turn all rods together about the y axis until the first one's lowest place is two radii lower than it lay."""
+    farthest = -float(rods[0].nodes_m[:, 0].min())
     sine = min(2 * widest / max(farthest, 2 * widest), 0.9)
     cosine = float(np.sqrt(1 - sine * sine))
     turn = np.array([[cosine, 0, sine], [0, 1, 0], [-sine, 0, cosine]])

@@ -1,4 +1,4 @@
-"""The stress test: its scenes, its judgement, and its report of a failure."""
+"""The extremes of the stress test: their scenes, their judgement, and the report of a failure."""
 
 import json
 from dataclasses import replace
@@ -10,7 +10,8 @@ from rich.console import Console
 
 from benchmarks.__main__ import main
 from benchmarks.physics.gates import STRESS_RUNS, StressFault
-from benchmarks.stress.command import DEFAULT_RUNS, conclude
+from benchmarks.stress.command import conclude
+from benchmarks.stress.options import DEFAULT_RUNS
 from benchmarks.stress.play import Result, play
 from benchmarks.stress.report import replay_command
 from benchmarks.stress.scenes import AXES, CROWD, Axis, Case, Start, draw_cases
@@ -55,7 +56,7 @@ def test_every_start_and_a_crowd_are_there() -> None:
     """Half of the scenes start in a hostile way, and each hostile way is equally common."""
     counts = {start: sum(case.start is start for case in CASES) for start in Start}
     assert counts.pop(Start.STACKED) == DEFAULT_RUNS // 2
-    assert set(counts.values()) == {DEFAULT_RUNS // 2 // 7}
+    assert set(counts.values()) <= {DEFAULT_RUNS // 2 // 7, DEFAULT_RUNS // 2 // 7 + 1}
     assert sum(case.cables == CROWD for case in CASES) >= 10
     assert sum(case.mixed for case in CASES) == sum(case.aligned for case in CASES) == DEFAULT_RUNS // 2
 
@@ -136,7 +137,8 @@ def made_up(number: int, fault: StressFault | None) -> Result:
         fall_s=0.5,
         max_time_s=2.0,
         steps=250,
-        wall_s=0.1,
+        cut=False,
+        cpu_s=0.1,
     )
 
 
@@ -144,13 +146,13 @@ def test_a_failure_is_reported_with_the_command_that_replays_it(tmp_path: Path) 
     """A failure is reported with number, seed and runs, the exit code isn't 0, and the files are written."""
     console = Console(width=130, record=True)
     results = [made_up(3, None), made_up(11, StressFault.PASSED_THROUGH), made_up(12, StressFault.NOT_FINITE)]
-    assert conclude(results, tmp_path, console) == 1
+    assert conclude(results, [], tmp_path, console) == 1
     text = console.export_text()
     assert f"passed through (2 of cables), {CASES[11].start.value}: " in text
     assert f"python -m benchmarks stress --out {tmp_path} --seed 0 --runs {DEFAULT_RUNS} --only 11" in text
     assert "--only 3\n" not in text
     assert "2 of 3 runs failed" in text
-    written = json.loads((tmp_path / "stress.json").read_text())
+    written = json.loads((tmp_path / "stress.json").read_text())["extremes"]
     assert [each["fault"] for each in written] == [None, "passed through", "not finite"]
     assert written[1]["case"]["number"] == 11
     assert (tmp_path / "stress.png").stat().st_size > 10_000
@@ -158,16 +160,29 @@ def test_a_failure_is_reported_with_the_command_that_replays_it(tmp_path: Path) 
 
 def test_no_failure_is_no_error(tmp_path: Path) -> None:
     """Without a failure the exit code is 0."""
-    assert conclude([made_up(3, None)], tmp_path, Console(width=130, record=True)) == 0
+    assert conclude([made_up(3, None)], [], tmp_path, Console(width=130, record=True)) == 0
+
+
+def test_unrest_alone_is_told_and_decides_nothing(tmp_path: Path) -> None:
+    """A run that does not rest is listed with its command, and the exit code stays 0."""
+    console = Console(width=130, record=True)
+    assert conclude([made_up(3, StressFault.NOT_AT_REST)], [], tmp_path, console) == 0
+    assert "--only 3" in console.export_text()
+
+
+def test_a_run_that_is_cut_off_is_not_blamed_for_unrest() -> None:
+    """After one step no cable rests; what can't be known yet is no fault, and the run says that it was cut off."""
+    result = play(of_start(Start.STACKED), most_steps=1)
+    assert (result.cut, result.fault, result.steps) == (True, None, 1)
 
 
 @pytest.mark.slow
 def test_a_real_stress_test_agrees_with_its_replays(tmp_path: Path) -> None:
     """Six scenes in two processes give the same results as each one played alone."""
-    code = main(["stress", "--out", str(tmp_path), "--runs", "6", "--seed", "2", "--processes", "2"])
-    written = json.loads((tmp_path / "stress.json").read_text())
+    code = main(["stress", "--out", str(tmp_path), "--runs", "6", "--drawn", "0", "--seed", "2"])
+    written = json.loads((tmp_path / "stress.json").read_text())["extremes"]
     assert [each["case"]["number"] for each in written] == list(range(6))
-    assert code == int(any(each["fault"] for each in written))
+    assert code == int(any(each["fault"] not in {None, "not at rest"} for each in written))
     for case, each in zip(draw_cases(6, 2), written, strict=True):
         alone = play(case)
         assert (alone.fault and alone.fault.value, alone.steps) == (each["fault"], each["steps"])

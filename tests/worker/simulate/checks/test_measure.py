@@ -286,7 +286,9 @@ def test_a_stress_run_is_judged_by_what_was_seen_on_the_way() -> None:
         (shapes(rod() + np.array([5.0, 0, 0])), StressFault.ESCAPED),
         (shapes(rod(z=-0.01)), StressFault.PASSED_THROUGH),
         (shapes(rod(z=3 * RADIUS), rod(along_y=True)), StressFault.PASSED_THROUGH),
-        (replace(shapes(rod()), lengths_m=np.array([0.19])), StressFault.STRETCHED),
+        (replace(shapes(rod()), lengths_m=np.array([0.1996])), StressFault.STRETCHED),
+        (shapes(rod(), rod(y=1.7 * RADIUS)), StressFault.PENETRATED),
+        (shapes(rod(z=0.7 * RADIUS)), StressFault.PENETRATED),
         (shapes(rod(), speed=0.01), StressFault.NOT_AT_REST),
     ],
 )

@@ -1,1 +1,0 @@
-"""The falls of a dataset's scenes, measured against the gates' targets."""
