@@ -141,6 +141,7 @@ def prestress(bodies: Bodies, operator: Operator, motion: Motion, world: World) 
 
 @compiled
 def room_for_step(nodes: int) -> Scratch:
+    """Make the arrays of a step for rods of `nodes` nodes together."""
     return Scratch(
         momentum=np.empty((3, nodes)),
         load=np.empty((3, nodes)),
