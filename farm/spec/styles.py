@@ -81,9 +81,8 @@ RANGES_OF: Mapping[Style, Ranges] = MappingProxyType({Style.PUBLISHED: Ranges(),
 """Every range of each style."""
 
 
-_UNTANGLED = {
-    name: 0.0 for name in TangleRanges.model_fields if name.endswith("_share") and name != "figure_eight_share"
-}
+_UNTANGLED = {f"{kind}_share": 0.0 for kind in ("heap", "knot", "threaded", "crossed_bundles", "peg")}
+"""Shares of a style without tangles."""
 
 
 def merge_ranges(

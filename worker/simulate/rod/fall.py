@@ -10,9 +10,9 @@ from farm.scene.clutter import Peg, Stick, StickKind
 from farm.scene.physics import GRAVITY_M_S2, Wind
 from farm.scene.scene import Scene
 from farm.spec.simulation import RodFall
+from worker.simulate.rod.knots import tie
 from worker.simulate.rod.model import Array, Breeze, Rod, Surroundings
 from worker.simulate.rod.simulation import DivergedError, RodSimulation, TooManyStepsError
-from worker.simulate.rod.knots import tie
 from worker.simulate.shapes import NOT_WOVEN, CableShapes, WovenStart, height_at, start_nodes
 
 INTERNAL_DAMPING_S = 0.01
