@@ -14,6 +14,9 @@ from worker.simulate.shapes import bent_rod
 PAIRS_PER_KNOT = 4
 """Places of a long meeting at which its gap holds, to one height that describes a cable."""
 
+_DIGITS = 9
+"""Decimal places of heights in metres."""
+
 Choice = Callable[[Sequence[Meeting], list[bool]], list[bool]]
 """Chooses for each meeting whether its first strand is to be over the second, given a safe choice."""
 
@@ -88,8 +91,9 @@ def _raised(cable: Cable, heights_m: Array, lowest_m: float) -> Cable:
     lowest = max(float(heights_m.min()), 0.0)
     return cable.model_copy(
         update={
-            "start_height_m": lowest_m + lowest,
+            "start_height_m": lowest_m + round(lowest, _DIGITS),
             "rise_m": 0.0,
-            "heights_m": tuple(np.maximum(heights_m - lowest, 0.0).tolist()),
+            # The last digits of the solution differ from one processor to another.
+            "heights_m": tuple(np.round(np.maximum(heights_m - lowest, 0.0), _DIGITS).tolist()),
         }
     )

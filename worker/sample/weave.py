@@ -181,7 +181,7 @@ def weave_near(
         firm: numbers of the meetings that must stay as wanted.
 
     Returns:
-        The heights and the choice that they follow; None if every cable that may give way has, and one is too steep still.
+        The heights and the choice that they follow; None if all that may give way has, and one is too steep still.
     """
     chosen = list(wanted)
     given_way = [k in firm or want == safe[k] for k, want in enumerate(wanted)]

@@ -15,6 +15,7 @@ from farm.dataset.manifest import SettleFigures
 from worker.simulate.checks.contact import find_contacts, search_reach_m
 from worker.simulate.checks.plan_view import find_crossings
 from worker.simulate.checks.spans import cut
+from worker.simulate.checks.woven import passed_woven_pairs
 from worker.simulate.shapes import CableShapes
 
 
@@ -98,21 +99,31 @@ def measure(shapes: CableShapes) -> SettleFigures:
     one went through the other or, close to an end, that it may have slipped round it. Whether a cable went through
     itself can't be seen from where it rests: nothing says which strand was to be on top.
 
+    Cables that were woven have no order of heights: a pair of them passed through each other if the sum of its
+    crossings' signs changed by two or more while all its crossings are away from ends (`passed_woven_pairs`). Passages
+    that leave that sum as it was, in opposite directions for example, are not found.
+
     Sticks count as cables do where rods cut, carry or cross each other or the floor; lengths, speeds and air are the
-    cables' own.
+    cables' own. Pegs count where they cut into cables or carry them.
 
     Args:
         shapes: settled cables whose places and speeds are all finite.
     """
-    spans = cut((*shapes.nodes_m, *shapes.sticks_m))
-    radii = np.concatenate([shapes.radii_m, shapes.stick_radii_m])
+    spans = cut((*shapes.nodes_m, *shapes.sticks_m, *shapes.pegs_m))
+    radii = np.concatenate([shapes.radii_m, shapes.stick_radii_m, shapes.peg_radii_m])
+    fallen = len(radii) - len(shapes.pegs_m)
     near = spans.near_in_plan(search_reach_m(radii))
     contacts = find_contacts(spans, near, radii)
     crossings = find_crossings(spans, near)
-    flipped = crossings.flipped(shapes.start_order)
+    # A peg stands upright, so that nothing crosses it in plan view.
+    ordered = np.maximum(crossings.one, crossings.other) < fallen
+    woven = np.isin(crossings.one, shapes.woven.cables) & np.isin(crossings.other, shapes.woven.cables)
+    flipped = crossings.flipped((*shapes.start_order, *range(fallen, len(radii)))) & ordered & ~woven
+    passed, slipped = passed_woven_pairs(shapes.woven, crossings, radii)
     # No cable slips round the end of a stick, which lies below it from the start.
     near_end = crossings.near_end(radii) & (np.maximum(crossings.one, crossings.other) < len(shapes.radii_m))
-    floor_depth = np.maximum(1 - spans.samples_m[:, 2] / radii[spans.cable_of_sample], 0)
+    above_floor = spans.cable_of_sample < fallen
+    floor_depth = np.maximum(1 - (spans.samples_m[:, 2] / radii[spans.cable_of_sample])[above_floor], 0)
     gaps = (np.minimum(spans.lowest_m - radii, contacts.clearance_m) / radii)[: len(shapes.radii_m)]
     speeds = np.concatenate(shapes.speeds_m_s) * 1000
     return SettleFigures(
@@ -123,9 +134,9 @@ def measure(shapes: CableShapes) -> SettleFigures:
         cable_penetration_max=float(contacts.depth.max()),
         floor_penetration=float(np.percentile(floor_depth, 99.9)),
         floor_penetration_max=float(floor_depth.max()),
-        pass_throughs=int(np.count_nonzero(flipped & ~near_end)),
-        end_slips=int(np.count_nonzero(flipped & near_end)),
-        floor_pass_throughs=int(np.count_nonzero(spans.lowest_m < 0)),
+        pass_throughs=int(np.count_nonzero(flipped & ~near_end)) + passed,
+        end_slips=int(np.count_nonzero(flipped & near_end)) + slipped,
+        floor_pass_throughs=int(np.count_nonzero(spans.lowest_m[:fallen] < 0)),
         self_crossings=int(np.count_nonzero(crossings.own)),
         speed_rms_mm_s=float(np.sqrt(np.mean(speeds**2))),
         speed_max_mm_s=float(speeds.max()),
