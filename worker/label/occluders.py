@@ -7,7 +7,7 @@ from worker.geometry import SettledGeometry
 
 
 def hiding_pieces(geometry: SettledGeometry) -> list[Tubular]:
-    """The silhouettes of a settled scene's sticks and pegs, for `worker.label.label.label_cables`; no render needs them.
+    """The silhouettes of settled sticks and pegs, for `worker.label.label.label_cables`; no render needs them.
 
     A floor that is not seen has no clutter on it.
     """
