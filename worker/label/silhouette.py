@@ -116,7 +116,7 @@ def _silhouette(
     up = np.cross(across, along)
     to_camera = view.eye_m - curve
     x, y = np.einsum("ij,ij->i", to_camera, across), np.einsum("ij,ij->i", to_camera, up)
-    toward, half = np.arctan2(y, x), np.arccos(np.minimum(radius_m / np.hypot(x, y), 1.0))
+    toward, half = np.arctan2(y, x), np.arccos(np.minimum(radius_m / np.maximum(np.hypot(x, y), 1e-12), 1.0))
     step = 2 * np.pi / sides
     corner_radius = np.broadcast_to(2 * radius_m / (1 + np.cos(np.pi / sides)), len(curve))[:, None]
 

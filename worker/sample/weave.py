@@ -34,6 +34,9 @@ _BED_RADII = 40.0
 _STIFFEST = 30.0
 """Largest ratio of stiffness that decides which of two cables gives way more."""
 
+_LEAN = 1.05
+"""Factor by which slopes bring strands nearer, from which on gaps are made wider by it."""
+
 _GIVE = 0.5
 """Share of a meeting's gap that the one strand makes; its partner makes the rest."""
 
@@ -46,8 +49,8 @@ class Weave:
     """Heights of woven cables.
 
     Attributes:
-        heights_m: for each cable (K,) metres, heights at equally spaced places from end to end, of which the lowest is
-            0 or a little above.
+        heights_m: for each cable (K,) metres, heights of its underside at equally spaced places from end to end; the
+            lowest of all is at 0.
         slopes: for each cable, its steepest slope.
         steepest_m: for each cable, the place along it with that slope, in metres.
     """
@@ -79,6 +82,37 @@ def weave(plans: Sequence[Plan], meetings: Sequence[Meeting], over: Sequence[boo
         The heights, or None if no heights keep all gaps.
     """
     bases = [_basis(plan) for plan in plans]
+    first = _solve(plans, bases, meetings, over, None)
+    if first is None:
+        return None
+    steeper = _slants(bases, meetings, first)
+    leans = bool((steeper > _LEAN).any())
+    heights = _solve(plans, bases, meetings, over, steeper) if leans else first
+    return None if heights is None else _finished(plans, bases, heights)
+
+
+def _slants(bases: Sequence[CubicSpline], meetings: Sequence[Meeting], heights: Sequence[Array]) -> Array:
+    """Compute for each pair of places by how much their slopes bring the strands nearer than their heights are.
+
+    Two lines that cross in plan view at a right angle, with slopes a and b, are as far apart as their heights over
+    sqrt(1 + a^2 + b^2).
+    """
+    slopes = [
+        (bases[each.one](each.one_m, 1) @ heights[each.one], bases[each.other](each.other_m, 1) @ heights[each.other])
+        for each in meetings
+    ]
+    slants: Array = np.concatenate([np.sqrt(1 + one**2 + other**2) for one, other in slopes] or [np.ones(0)])
+    return slants
+
+
+def _solve(
+    plans: Sequence[Plan],
+    bases: Sequence[CubicSpline],
+    meetings: Sequence[Meeting],
+    over: Sequence[bool],
+    wider: Array | None,
+) -> list[Array] | None:
+    """Find the heights of each cable with the least bending, with gaps that are wider by factors (pairs of places,)."""
     starts = np.concatenate([[0], np.cumsum([knots_of(plan) for plan in plans])])
     unit_m = float(np.mean([plan.radius_m for plan in plans]))
     rows = sum(len(meeting.one_m) for meeting in meetings)
@@ -92,6 +126,8 @@ def weave(plans: Sequence[Plan], meetings: Sequence[Meeting], over: Sequence[boo
         constraints[here, other] -= sign * bases[meeting.other](meeting.other_m)
         gaps[here] = GAP * (plans[meeting.one].radius_m + plans[meeting.other].radius_m) / unit_m
         row = here.stop
+    if wider is not None:
+        gaps *= wider
     factors = [np.linalg.cholesky(_energy(plan, basis)) for plan, basis in zip(plans, bases, strict=True)]
     factors = [factor * weight for factor, weight in zip(factors, _weights(plans), strict=True)]
     scaled = np.empty_like(constraints)
@@ -101,15 +137,15 @@ def weave(plans: Sequence[Plan], meetings: Sequence[Meeting], over: Sequence[boo
     distance = _least_distance(scaled, gaps)
     if distance is None:
         return None
-    heights = [
+    return [
         unit_m * solve_triangular(factor, distance[starts[k] : starts[k + 1]], lower=True, trans="T")
         for k, factor in enumerate(factors)
     ]
-    return _finished(plans, bases, heights)
 
 
 def _finished(plans: Sequence[Plan], bases: Sequence[CubicSpline], heights: Sequence[Array]) -> Weave:
-    """Lift all heights so that the lowest place is at 0, and measure the slopes."""
+    """Turn heights of centrelines to those of undersides, lift them so that the lowest is at 0, and measure slopes."""
+    heights = [height - plan.radius_m for plan, height in zip(plans, heights, strict=True)]
     places = [np.linspace(0.0, plan.length_m, 4 * knots_of(plan)) for plan in plans]
     values = [basis(place) @ height for basis, place, height in zip(bases, places, heights, strict=True)]
     lowest = min(min(float(value.min()), float(each.min())) for value, each in zip(values, heights, strict=True))

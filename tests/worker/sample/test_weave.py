@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
-from worker.sample.meetings import Meeting, Plan, find_meetings, samples_of
+from worker.sample.meetings import Array, Meeting, Plan, find_meetings, samples_of
 from worker.sample.weave import GAP, STEEPEST, Weave, knot_spacings_m, weave, weave_near
 from worker.simulate.shapes import bent_rod
 
@@ -37,9 +37,9 @@ def meetings_of(plans: Sequence[Plan]) -> list[Meeting]:
     return find_meetings(plans, [spacing / 4 for spacing in knot_spacings_m(plans)])
 
 
-def height(woven: Weave, plans: Sequence[Plan], cable: int, places_m: np.ndarray) -> np.ndarray:
-    """The heights of a woven cable at places along it."""
-    heights = woven.heights_m[cable]
+def height(woven: Weave, plans: Sequence[Plan], cable: int, places_m: Array) -> Array:
+    """The heights of a woven cable's centreline at places along it."""
+    heights = plans[cable].radius_m + woven.heights_m[cable]
     return np.asarray(
         CubicSpline(np.linspace(0, plans[cable].length_m, len(heights)), heights, bc_type="natural")(places_m)
     )
@@ -68,7 +68,7 @@ def test_every_meeting_of_a_random_diagram_has_its_gap(seed: int, count: int) ->
 
 def test_cables_between_their_meetings_keep_apart_too() -> None:
     """All pairs of samples of two woven cables that overlap in plan view are a sum of radii apart in height."""
-    plans = [straight(0, 0, 0), straight(-0.02, 0, 70), straight(0.02, 0, 110, radius_m=0.002)]
+    plans = [straight(0, 0, 0), straight(-0.02, 0, 80), straight(0.02, 0, 80, radius_m=0.002)]
     meetings = meetings_of(plans)
     woven = weave(plans, meetings, [True, False])
     assert woven is not None
@@ -90,26 +90,32 @@ def test_a_cable_that_meets_no_other_lies_level() -> None:
 
 
 def test_the_lowest_place_is_at_height_zero() -> None:
-    """Two crossing cables lie as low as they can."""
-    plans = [straight(0, 0, 0), straight(0, 0, 90)]
+    """The underside of the lower of two crossing cables touches it, whatever their thickness."""
+    plans = [straight(0, 0, 0), straight(0, 0, 90, radius_m=0.002)]
     woven = weave(plans, meetings_of(plans), [True])
     assert woven is not None
     assert min(float(heights.min()) for heights in woven.heights_m) == pytest.approx(0.0, abs=1e-12)
 
 
+def plain_weave() -> tuple[list[Plan], list[Meeting]]:
+    """Two touching cables that cross two others, and their four meetings."""
+    aside = 1.2 * RADIUS_M
+    plans = [straight(0, y, 0) for y in (-aside, aside)] + [straight(x, 0, 90) for x in (-aside, aside)]
+    return plans, meetings_of(plans)
+
+
 def test_over_and_under_within_a_diameter_gives_way() -> None:
-    """A cable can't pass over one and under the next of two that touch: one of the choices becomes the safe one."""
-    plans = [straight(0, 0, 0), straight(-0.0012, 0, 90), straight(0.0012, 0, 90)]
-    meetings = meetings_of(plans)
-    found = weave_near(plans, meetings, [True, False], [True, True])
+    """Thick cables that touch can't be woven over one and under the next: some choices become the safe ones."""
+    plans, meetings = plain_weave()
+    found = weave_near(plans, meetings, [True, False, False, True], [True] * 4)
     assert found is not None
-    assert found[1] == (True, True)
+    assert found[1] != (True, False, False, True)
 
 
 def test_a_firm_choice_does_not_give_way() -> None:
-    """Where both choices must stay, there is no weave."""
-    plans = [straight(0, 0, 0), straight(-0.0012, 0, 90), straight(0.0012, 0, 90)]
-    assert weave_near(plans, meetings_of(plans), [True, False], [True, True], firm={0, 1}) is None
+    """Where all choices must stay, there is no weave."""
+    plans, meetings = plain_weave()
+    assert weave_near(plans, meetings, [True, False, False, True], [True] * 4, firm=range(4)) is None
 
 
 def test_the_stiffer_of_two_cables_bends_less() -> None:

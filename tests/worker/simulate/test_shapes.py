@@ -1,5 +1,7 @@
 """Curves: smoothing and bent rods."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -47,12 +49,12 @@ CABLE = (
     .cables[0]
     .model_copy(update={"bends_per_m": (20.0, -30.0, 40.0, 10.0), "rotation_deg": 37.0, "x_m": 0.01, "y_m": -0.02})
 )
-RISES = [{}, {"rise_m": 0.02}, {"heights_m": (0.0, 0.01, 0.002, 0.009, 0.0, 0.0, 0.004)}]
+RISES: list[dict[str, Any]] = [{}, {"rise_m": 0.02}, {"heights_m": (0.0, 0.01, 0.002, 0.009, 0.0, 0.0, 0.004)}]
 
 
 @pytest.mark.parametrize("count", [40, 81])
 @pytest.mark.parametrize("rises", RISES)
-def test_every_start_has_the_cables_length_in_equal_segments(rises: dict[str, object], count: int) -> None:
+def test_every_start_has_the_cables_length_in_equal_segments(rises: dict[str, Any], count: int) -> None:
     """Whether level, rising evenly or with heights along it."""
     cable = CABLE.model_copy(update=rises)
     segments = np.linalg.norm(np.diff(start_nodes(cable, count), axis=0), axis=1)

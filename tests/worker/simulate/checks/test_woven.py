@@ -43,7 +43,7 @@ def test_a_crossing_that_turned_over_is_a_passage() -> None:
 
 def test_crossings_that_come_apart_in_pairs_are_no_passage() -> None:
     """A cable that lies over another twice may slide off it: the two signs were opposite."""
-    figures = measure(fallen((LINE, hooked(3 * RADIUS)), (LINE, hooked(3 * RADIUS) + [0.0, 0.2, 0.0])))
+    figures = measure(fallen((LINE, hooked(3 * RADIUS)), (LINE, hooked(3 * RADIUS) + np.array([0.0, 0.2, 0.0]))))
     assert figures.pass_throughs == 0
 
 

@@ -129,8 +129,7 @@ def test_a_coil_that_rises_is_as_long_as_its_cable() -> None:
 
 def test_the_natural_curvature_of_a_sloped_circle_is_that_of_its_plan() -> None:
     """With the plan's turn t a segment it is tan(t) / l with the length l along the slope; see `Rod`."""
-    (cable,), turn = coiled().cables, 0.1
-    count, step = 41, 0.004
+    turn, count, step = 0.1, 41, 0.004
     angle, plan = turn * np.arange(count), 0.9 * step
     edges = plan * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     rise = np.sqrt(step**2 - plan**2) * np.arange(count + 1)
@@ -207,7 +206,7 @@ def test_a_knotted_rod_is_turned_shifted_and_lifted_to_its_place(monkeypatch: py
         youngs_modulus_pa=1e7,
         density_kg_m3=1500.0,
     )
-    monkeypatch.setattr(fall, "tie", lambda cable, segment_radii: tied)
+    monkeypatch.setattr(fall, "tie", lambda *_: tied)
     (rod,) = rods_of(over_a_stick().model_copy(update={"cables": (cable,), "sticks": ()}), RodFall())
     height = 0.05 + cable.diameter_m / 2
     assert rod.nodes_m[[0, -1]] == pytest.approx(np.array([[0.1, 0.0, height], [0.1, 0.4, height]]))
