@@ -7,8 +7,9 @@ import numpy as np
 
 from farm.scene.cable import Cable
 from farm.scene.clutter import Peg
+from worker.sample.loom import knot_spacings_m
 from worker.sample.meetings import Array, Meeting, Plan, find_meetings, samples_of
-from worker.sample.weave import knot_spacings_m, weave_near
+from worker.sample.weave import weave_near
 from worker.simulate.shapes import bent_rod
 
 PAIRS_PER_KNOT = 4

@@ -14,7 +14,8 @@ from farm.spec.category import Background, CategoryTraits, Disposition
 from farm.spec.ranges.placement import SPACING_DIAMETERS
 from farm.spec.ranges.tangle import TangleRanges
 from worker.sample.diagram import Diagram, turned, weave_diagram
-from worker.sample.tangle_diagrams import cross_bundles, heap_up, run_round_peg, thread
+from worker.sample.peg_diagram import run_round_peg
+from worker.sample.tangle_diagrams import cross_bundles, heap_up, thread
 from worker.sample.values import chance, log_uniform, uniform
 
 TRIES = 4

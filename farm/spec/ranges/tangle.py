@@ -28,7 +28,7 @@ class TangleRanges(Model):
         crossed_bundles_share: share of the pictures of three cables or more in which two groups of nearly parallel
             cables cross.
         peg_share: share of the pictures in which cables run round a peg.
-        heap_bend_per_m: natural curvature of a heap's cables at points along them, in 1/m.
+        heap_bend_per_m: natural curvature at points along a heap's cables beside that of their curls, in 1/m.
         figure_eight_share: share of the knots that are figures of eight; the others are overhand knots.
         knot_loop_diameters: radius of a knot's loop, in diameters of its cable, sampled log-uniformly.
         knot_set_share: share of its curvature that a knotted cable keeps by itself.
@@ -45,7 +45,7 @@ class TangleRanges(Model):
     threaded_share: Fraction = 0.0
     crossed_bundles_share: Fraction = 0.0
     peg_share: Fraction = 0.0
-    heap_bend_per_m: BendRange = (-35.0, 35.0)
+    heap_bend_per_m: BendRange = (-15.0, 15.0)
     figure_eight_share: Fraction = 0.4
     knot_loop_diameters: Annotated[tuple[LoopDiameters, LoopDiameters], AfterValidator(in_order)] = (4.0, 12.0)
     knot_set_share: FractionRange = (0.3, 1.0)

@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
+from worker.sample.loom import GAP, STEEPEST, Loom, Weave, knot_spacings_m
 from worker.sample.meetings import Array, Meeting, Plan, find_meetings, samples_of
-from worker.sample.weave import GAP, STEEPEST, Weave, knot_spacings_m, weave, weave_near
+from worker.sample.weave import weave_near
 from worker.simulate.shapes import bent_rod
 
 RADIUS_M = 0.001
@@ -70,7 +71,7 @@ def test_cables_between_their_meetings_keep_apart_too() -> None:
     """All pairs of samples of two woven cables that overlap in plan view are a sum of radii apart in height."""
     plans = [straight(0, 0, 0), straight(-0.02, 0, 80), straight(0.02, 0, 80, radius_m=0.002)]
     meetings = meetings_of(plans)
-    woven = weave(plans, meetings, [True, False])
+    woven = Loom(plans, meetings).weave([True, False])
     assert woven is not None
     for other in (1, 2):
         apart = np.linalg.norm(plans[0].points_m[:, None] - plans[other].points_m[None], axis=2)
@@ -84,7 +85,7 @@ def test_cables_between_their_meetings_keep_apart_too() -> None:
 
 def test_a_cable_that_meets_no_other_lies_level() -> None:
     """Without a meeting the least bending is none."""
-    woven = weave([straight(0, 0, 0), straight(0, 0.05, 0)], [], [])
+    woven = Loom([straight(0, 0, 0), straight(0, 0.05, 0)], []).weave([])
     assert woven is not None
     assert [np.ptp(heights) for heights in woven.heights_m] == [0.0, 0.0]
 
@@ -92,7 +93,7 @@ def test_a_cable_that_meets_no_other_lies_level() -> None:
 def test_the_lowest_place_is_at_height_zero() -> None:
     """The underside of the lower of two crossing cables touches it, whatever their thickness."""
     plans = [straight(0, 0, 0), straight(0, 0, 90, radius_m=0.002)]
-    woven = weave(plans, meetings_of(plans), [True])
+    woven = Loom(plans, meetings_of(plans)).weave([True])
     assert woven is not None
     assert min(float(heights.min()) for heights in woven.heights_m) == pytest.approx(0.0, abs=1e-12)
 
@@ -121,6 +122,6 @@ def test_a_firm_choice_does_not_give_way() -> None:
 def test_the_stiffer_of_two_cables_bends_less() -> None:
     """A cable that is ten times as stiff as the one that it crosses is lifted or pressed down less."""
     plans = [straight(0, 0, 0), Plan(straight(0, 0, 90).points_m, 0.2, RADIUS_M, 10.0)]
-    woven = weave(plans, meetings_of(plans), [True])
+    woven = Loom(plans, meetings_of(plans)).weave([True])
     assert woven is not None
     assert np.ptp(woven.heights_m[1]) < 0.5 * np.ptp(woven.heights_m[0])
