@@ -33,7 +33,8 @@ def run_round_peg(
         colour=rgb(rng, (0, 255)),
         pattern_seed=pattern_seed(rng),
     )
-    order = rng.permutation(len(cables)).tolist()
+    # Cables that bend tightly enough to touch the peg go first.
+    order = sorted(rng.permutation(len(cables)).tolist(), key=lambda number: not _can_touch(cables[number], peg))
     count = level(rng, (1, min(3, len(cables))))
     beside = chance(rng, 0.5)
     laid = dict(enumerate(cables))
@@ -50,10 +51,19 @@ def run_round_peg(
     return Diagram(tuple(laid[k] for k in range(len(cables))), at_random(rng), peg=peg)
 
 
+def _can_touch(cable: Cable, peg: Peg) -> bool:
+    """Whether a cable bends as tightly as a peg is thick."""
+    return TIGHTEST_DIAMETERS * cable.diameter_m <= _nearest_m(cable, peg)
+
+
+def _nearest_m(cable: Cable, peg: Peg) -> float:
+    """Compute the least radius with which a cable runs round a peg, in metres."""
+    return peg.diameter_m / 2 + (0.5 + _PEG_ROOM / 2) * cable.diameter_m
+
+
 def _wrapped(ranges: TangleRanges, cable: Cable, peg: Peg, aside_m: float, rng: np.random.Generator) -> Cable:
     """Lay a cable round a peg, `aside_m` metres farther out than it could."""
-    radius = peg.diameter_m / 2 + (0.5 + _PEG_ROOM) * cable.diameter_m + aside_m
-    radius = max(radius, TIGHTEST_DIAMETERS * cable.diameter_m)
+    radius = max(_nearest_m(cable, peg) + aside_m, TIGHTEST_DIAMETERS * cable.diameter_m)
     turn = np.radians(uniform(rng, ranges.peg_wrap_deg))
     sign = 1.0 if chance(rng, 0.5) else -1.0
     middle_m = float(rng.uniform(0.4, 0.6)) * cable.length_m
@@ -82,5 +92,5 @@ def _lack_m(cable: Cable, peg: Peg) -> tuple[float, Array]:
     away = plan_of(cable).points_m - [peg.x_m, peg.y_m]
     distance = np.linalg.norm(away, axis=1)
     nearest = int(distance.argmin())
-    least = peg.diameter_m / 2 + (0.5 + 0.2 * _PEG_ROOM) * cable.diameter_m
+    least = peg.diameter_m / 2 + (0.5 + _PEG_ROOM / 10) * cable.diameter_m
     return float(least - distance[nearest]), away[nearest] / max(float(distance[nearest]), 1e-9)
