@@ -69,7 +69,7 @@ def cross_bundles(ranges: TangleRanges, cables: tuple[Cable, ...], edge_m: float
     bearings = bearing, bearing + uniform(rng, ranges.crossing_deg) * (1.0 if chance(rng, 0.5) else -1.0)
     laid = dict(enumerate(cables))
     for group, mean in zip(groups, bearings, strict=True):
-        middle, common = place_near_middle(edge_m, rng), 0.5 * np.array(cables[group[0]].bends_per_m)
+        middle, common = place_near_middle(edge_m, rng), 0.5 * gentle(cables[group[0]], 10.0)
         aside = np.zeros(len(group))
         for k in range(1, len(group)):
             pair = cables[group[k - 1]].diameter_m + cables[group[k]].diameter_m
