@@ -34,7 +34,7 @@ WIDE = Ranges(
         bend_per_m=(-10.0, 10.0),
         loop_share=0.08,
         coil_share=0.06,
-        # Aligned pictures, half of all, have knots alone, and some pictures too few cables: about 10 % are tangled.
+        # Aligned pictures, half of all, have knots alone, and some pictures too few cables: about 11 % are tangled.
         tangle=TangleRanges(
             heap_share=0.06, knot_share=0.05, threaded_share=0.04, crossed_bundles_share=0.04, peg_share=0.04
         ),
