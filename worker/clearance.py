@@ -24,9 +24,10 @@ def find_room_fault(geometry: SettledGeometry) -> str | None:
 
 
 def settled_top_m(geometry: SettledGeometry) -> float:
-    """Compute the height of the highest place of cables, strands, ties, sticks and small parts, in metres."""
+    """Compute the height of the highest place of cables, strands, ties, sticks, pegs and small parts, in metres."""
     tops = [piece.top_m for piece in geometry.pieces]
     tops += [float(axis[:, 2].max()) + stick.diameter_m / 2 for stick, axis in geometry.sticks]
+    tops += [peg.height_m for peg, _ in geometry.pegs]
     if geometry.scene.floor is not None:
         tops += [part_extent(part)[1] for part in geometry.parts]
     return max(tops, default=0.0)

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from farm.scene.clutter import Part, Stick
+from farm.scene.clutter import Part, Peg, Stick
 from farm.scene.picture_size import PictureSize
 from farm.scene.scene import Scene
 from farm.spec.rendering import CableDetail
@@ -46,7 +46,7 @@ class SettledGeometry:
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
         """The cables in the pieces that are rendered and labelled; see `worker.cable.pieces.pieces_of`."""
-        return tuple(pieces_of(self.scene, self.curves, self.shapes.sticks_m))
+        return tuple(pieces_of(self.scene, self.curves, self.shapes.sticks_m, self.shapes.pegs_m))
 
     @cached_property
     def sticks(self) -> tuple[tuple[Stick, Points], ...]:
@@ -57,10 +57,16 @@ class SettledGeometry:
         return tuple(zip(self.scene.sticks[: len(self.shapes.sticks_m)], self.shapes.sticks_m, strict=True))
 
     @cached_property
+    def pegs(self) -> tuple[tuple[Peg, Points], ...]:
+        """The pegs, each with the nodes (N, 3) of its axis in metres; none from a simulator without pegs."""
+        return tuple(zip(self.scene.pegs[: len(self.shapes.pegs_m)], self.shapes.pegs_m, strict=True))
+
+    @cached_property
     def parts(self) -> tuple[Part, ...]:
-        """The drawn small parts that have room between the settled cables and sticks."""
+        """The drawn small parts that have room between the settled cables, sticks and pegs."""
         diameters_m = [cable.diameter_m for cable in self.scene.cables] + [stick.diameter_m for stick, _ in self.sticks]
-        lines = [*self.curves, *(axis for _, axis in self.sticks)]
+        diameters_m += [peg.diameter_m for peg, _ in self.pegs]
+        lines = [*self.curves, *(axis for _, axis in self.sticks), *(axis for _, axis in self.pegs)]
         return parts_that_fit(self.scene.parts, lines, np.array(diameters_m) / 2, self.view.steepest_slope)
 
     @cached_property

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from farm.model import Metres, Model, Rgb, Share, Vector3
+from farm.scene.knot import Knot
 
 
 class CableMaterial(Model):
@@ -167,17 +168,24 @@ class CableEnd(Model):
 
 
 class Cable(Model):
-    """One cable before the fall: a curve that is level, or rises evenly by `rise_m` from end to end.
+    """One cable before the fall: a curve that is level, rises evenly by `rise_m`, or has `heights_m` along it.
+
+    A curve that is not level keeps to the plan of the level one and to its middle; what it climbs, its ends fall short.
 
     Attributes:
         diameter_m: diameter in metres; of a bundle, that of the circle around its strands.
         length_m: length along the cable, in metres.
         x_m: x of the cable's middle, in metres.
         y_m: y of the cable's middle, in metres.
-        start_height_m: height of the underside of the cable's beginning above the floor, in metres.
+        start_height_m: height of the underside of the cable's beginning above the floor, in metres; of a cable with
+            `heights_m` or a knot, that of its lowest place.
         rotation_deg: mean bearing of the cable, in degrees from the x axis.
         bends_per_m: natural curvature at equally spaced points from end to end, in 1/m; all 0 is straight.
         rise_m: height of the cable's end above its beginning, in metres, so that loops and coils lie on themselves.
+        heights_m: heights above `start_height_m` at equally spaced points along the level curve from end to end, in
+            metres, in place of `rise_m`; they weave a tangle. None is an even rise.
+        knot: knot in the cable, which decides its start in place of `bends_per_m`, `rise_m` and `heights_m`; None is a
+            cable without a knot.
         youngs_modulus_pa: bending stiffness over the second moment of area of a full round section, in pascals.
         density_kg_m3: mass over the volume of a full round section, in kg/m3.
         material: look of the cable; that of a bundle holds its strands.
@@ -192,6 +200,8 @@ class Cable(Model):
     rotation_deg: float
     bends_per_m: Annotated[tuple[float, ...], Field(min_length=2)]
     rise_m: float = 0.0
+    heights_m: tuple[Annotated[float, Field(ge=0)], ...] = ()
+    knot: Knot | None = None
     youngs_modulus_pa: Annotated[float, Field(gt=0)]
     density_kg_m3: Annotated[float, Field(gt=0)]
     material: Look

@@ -43,6 +43,17 @@ class Stick(Model):
     pattern_seed: Seed
 
 
+class Peg(Model):
+    """A fixed, upright round post, round which cables run. It stands on the floor, and nothing moves it."""
+
+    x_m: float
+    y_m: float
+    diameter_m: Metres
+    height_m: Metres
+    colour: Rgb
+    pattern_seed: Seed
+
+
 class SheetKind(StrEnum):
     """The kind of a flat object on the floor, too thin for its thickness to show."""
 

@@ -12,7 +12,7 @@ from farm.model import Model
 from farm.scene.backdrop import HdriWorld, Plate
 from farm.scene.cable import Cable
 from farm.scene.camera import Camera, Development
-from farm.scene.clutter import Part, Sheet, Stick
+from farm.scene.clutter import Part, Peg, Sheet, Stick
 from farm.scene.floor import Floor
 from farm.scene.light import GreyWorld, Lamp
 from farm.scene.physics import Friction, Wind
@@ -23,7 +23,7 @@ class Scene(Model):
 
     Attributes:
         attempt: number of the attempt, from 0; each samples another scene.
-        cables: the cables, the lowest start first; none in a picture of the background alone.
+        cables: the cables, the lowest start first unless they are tangled; none in a picture of the background alone.
         vertex_mass: mass of each vertex of the cloth, in Blender's units; the rod solver does not take it.
         friction: coefficients of friction.
         wind: wind while the cables fall.
@@ -33,6 +33,7 @@ class Scene(Model):
         hdri_world: HDRI that lights the scene, if there are no lamps.
         plate: photograph behind the cables; None shows the floor or the HDRI.
         sticks: long objects, which start below the cables and fall with them.
+        pegs: fixed upright posts on the floor.
         sheets: flat objects on the floor, the lowest first.
         parts: small objects on the floor.
         camera: camera and lens.
@@ -51,6 +52,7 @@ class Scene(Model):
     hdri_world: HdriWorld | None
     plate: Plate | None = None
     sticks: tuple[Stick, ...] = ()
+    pegs: tuple[Peg, ...] = ()
     sheets: tuple[Sheet, ...] = ()
     parts: tuple[Part, ...] = ()
     camera: Camera

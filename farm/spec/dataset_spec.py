@@ -75,6 +75,12 @@ class DatasetSpec(Model):
                 f"ranges.cable.count {most} is above the {_MOST_CLOTH_CABLES} cables that simulator 'cloth' brings to "
                 "rest; ask for 'rod', or for fewer"
             )
+        share = self.ranges.placement.tangle.share
+        if self.simulator is Simulator.CLOTH and share > 0:
+            raise ValueError(
+                f"ranges.placement.tangle asks for tangles in {share:g} of the pictures, and simulator 'cloth' can't "
+                "hold a tangle; ask for 'rod', or leave its shares at 0"
+            )
         return self
 
     @model_validator(mode="after")

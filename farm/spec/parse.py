@@ -14,6 +14,7 @@ from farm.spec.category import Category
 from farm.spec.dataset_spec import DEFAULT_STYLE, DatasetSpec
 from farm.spec.make_header import Inputs
 from farm.spec.quotas import split_total
+from farm.spec.simulation import Simulator
 from farm.spec.styles import RANGES_OF, Style, merge_ranges
 from farm.spec.workable import check_workable
 
@@ -127,7 +128,8 @@ def _resolve_ranges(data: Mapping[str, object]) -> dict[str, object]:
         raise SpecError(f"style: expected one of {', '.join(Style)}, not {style!r}")
     if not isinstance(overrides, Mapping):
         raise SpecError(f"ranges: expected a table, not {overrides!r}")
-    return {**data, "style": style, "ranges": merge_ranges(Style(style), overrides)}
+    simulator = Simulator.CLOTH if data.get("simulator") == Simulator.CLOTH else Simulator.ROD
+    return {**data, "style": style, "ranges": merge_ranges(Style(style), overrides, simulator)}
 
 
 def parse_spec(data: Mapping[str, object], *, source: str) -> DatasetSpec:

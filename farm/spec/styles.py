@@ -12,6 +12,8 @@ from farm.spec.ranges.clutter import ClutterRanges
 from farm.spec.ranges.floor import FloorRanges, WearRanges
 from farm.spec.ranges.light import StudioRanges
 from farm.spec.ranges.placement import PlacementRanges
+from farm.spec.ranges.tangle import TangleRanges
+from farm.spec.simulation import Simulator
 
 
 class Style(StrEnum):
@@ -32,6 +34,10 @@ WIDE = Ranges(
         bend_per_m=(-10.0, 10.0),
         loop_share=0.08,
         coil_share=0.06,
+        # Aligned pictures, half of all, have knots alone, and some pictures too few cables: about 11 % are tangled.
+        tangle=TangleRanges(
+            heap_share=0.06, knot_share=0.05, threaded_share=0.04, crossed_bundles_share=0.04, peg_share=0.04
+        ),
     ),
     cable=CableRanges(
         # A stub, a small ring or a corner that a cable cuts off shows less; one cable of 6 px across the picture, more.
@@ -75,14 +81,24 @@ RANGES_OF: Mapping[Style, Ranges] = MappingProxyType({Style.PUBLISHED: Ranges(),
 """Every range of each style."""
 
 
-def merge_ranges(style: Style, overrides: Mapping[str, object]) -> dict[str, object]:
+_UNTANGLED = {f"{kind}_share": 0.0 for kind in ("heap", "knot", "threaded", "crossed_bundles", "peg")}
+"""Shares of a style without tangles."""
+
+
+def merge_ranges(
+    style: Style, overrides: Mapping[str, object], simulator: Simulator = Simulator.ROD
+) -> dict[str, object]:
     """Override some ranges of a style; return all as plain values, of which none is validated yet.
 
     Args:
         style: style whose ranges hold where none is given.
         overrides: tables of ranges, nested as in `Ranges`.
+        simulator: simulator of the fall. Cloth holds no tangle, so with it a style has none.
     """
-    return merge_tables(RANGES_OF[style].model_dump(mode="json"), overrides)
+    base: Mapping[str, object] = RANGES_OF[style].model_dump(mode="json")
+    if simulator is Simulator.CLOTH:
+        base = merge_tables(base, {"placement": {"tangle": _UNTANGLED}})
+    return merge_tables(base, overrides)
 
 
 def merge_tables(base: Mapping[str, object], overrides: Mapping[str, object]) -> dict[str, object]:

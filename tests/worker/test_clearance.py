@@ -1,10 +1,12 @@
 """Room for the camera and the lamps above settled cables. No simulator runs."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from farm.scene.camera import NEAR_CLIP_M, Camera
-from farm.scene.clutter import Part, PartKind, StickKind
+from farm.scene.clutter import Part, PartKind, Peg, StickKind
 from farm.scene.light import AreaLamp, Lamp, PointLamp, StudioLamp
 from farm.scene.picture_size import PictureSize
 from farm.scene.scene import Scene
@@ -78,7 +80,7 @@ def test_a_wide_aperture_lowers_the_opening_of_a_tilted_camera() -> None:
     assert view.lowest_opening_m(0.005, 0.0) - view.lowest_opening_m(0.005, 0.01) == pytest.approx(0.005)
 
 
-def test_sticks_and_parts_count_as_cables_do() -> None:
+def test_sticks_pegs_and_parts_count_as_cables_do() -> None:
     """The highest place is that of whatever lies highest."""
     fallen = shapes(rod())
     assert settled_top_m(settled(SCENE, fallen)) == pytest.approx(2 * RADIUS, rel=0.02)
@@ -90,6 +92,9 @@ def test_sticks_and_parts_count_as_cables_do() -> None:
         }
     )
     assert settled_top_m(settled(SCENE.model_copy(update={"sticks": (STICK,)}), with_stick)) == pytest.approx(0.02)
+    peg = Peg(x_m=0.0, y_m=0.0, diameter_m=0.01, height_m=0.03, colour=(9, 9, 9), pattern_seed=0)
+    with_peg = replace(fallen, pegs_m=(np.array([[0, 0, -0.005], [0, 0, 0.03]]),), peg_radii_m=np.array([0.005]))
+    assert settled_top_m(settled(SCENE.model_copy(update={"pegs": (peg,)}), with_peg)) == pytest.approx(0.03)
     with_part = settled(SCENE.model_copy(update={"parts": (PART,)}), fallen)
     assert settled_top_m(with_part) > 4 * RADIUS
 

@@ -1,4 +1,4 @@
-"""Clutter in the open template's picture: sheets, sticks and parts. The next picture removes them first."""
+"""Clutter in the open template's picture: sheets, sticks, pegs and parts. The next picture removes them first."""
 
 from typing import Any
 
@@ -9,10 +9,11 @@ from blend import names
 from blend.mesh import MeshArrays, add_mesh, starts_of
 from blend.nodes import add_node, link
 from farm.model import Rgb
-from farm.scene.clutter import Part, Sheet, Stick
+from farm.scene.clutter import Part, Peg, Sheet, Stick
 from worker.blender.image_cache import ImageCache
 from worker.blender.remove import remove_blocks
 from worker.clutter.parts import part_solid
+from worker.clutter.peg import peg_solid
 from worker.clutter.print import Print
 from worker.clutter.sheet import print_sheet, sheet_corners
 from worker.clutter.solid import Finish, Solid
@@ -47,6 +48,8 @@ def add_clutter(geometry: SettledGeometry, image_cache: ImageCache) -> None:
         _add_sheet(f"{PREFIX}.sheet.{number}", sheet, LOWEST_SHEET_M + number * SHEET_STEP_M, image_cache)
     for number, (stick, nodes) in enumerate(geometry.sticks):
         _add_stick(f"{PREFIX}.stick.{number}", stick, nodes)
+    for number, (peg, _) in enumerate(geometry.pegs):
+        _add_peg(f"{PREFIX}.peg.{number}", peg)
     for number, part in enumerate(geometry.parts):
         _add_part(f"{PREFIX}.part.{number}", part)
 
@@ -57,6 +60,11 @@ def _add_stick(name: str, stick: Stick, nodes: Points) -> None:
     placed = solid.turned(axes).moved(origin)
     # Grain runs along the stick, so it is looked up in the stick's own coordinates.
     _add_solid(name, placed, solid, finishes, stick.pattern_seed)
+
+
+def _add_peg(name: str, peg: Peg) -> None:
+    solid, finishes = peg_solid(peg)
+    _add_solid(name, solid.moved((peg.x_m, peg.y_m, 0.0)), solid, finishes, peg.pattern_seed)
 
 
 def _add_part(name: str, part: Part) -> None:

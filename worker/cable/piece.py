@@ -45,7 +45,7 @@ class Tubular:
 
     Attributes:
         instance: instance number of the cable or strand to which it belongs, from 1, or `OCCLUDER`.
-        curve: (N, 3) metres, centreline of the tube, finely sampled and nowhere vertical.
+        curve: (N, 3) metres, centreline of the tube, finely sampled; that of a cable is nowhere vertical.
         radius_m: radius of the tube, or (N,), radius at each point, in metres.
         start_m: place along the cable at which the curve starts, in metres.
         end_m: place along the cable at which the curve ends, in metres.

@@ -65,29 +65,33 @@ class _Strand:
     cut_m: tuple[float, float]
 
 
-def pieces_of(scene: Scene, curves: Sequence[Points], sticks_m: Sequence[Points]) -> list[Piece]:
+def pieces_of(
+    scene: Scene, curves: Sequence[Points], sticks_m: Sequence[Points], pegs_m: Sequence[Points] = ()
+) -> list[Piece]:
     """Take a settled scene's cables to pieces.
 
     Args:
         scene: sampled scene.
         curves: centreline of each settled cable, (N, 3) metres, finely sampled.
         sticks_m: nodes of each settled stick's axis, (N, 3) metres; none if the simulator has no sticks.
+        pegs_m: nodes of each peg's axis, (N, 3) metres; none if the simulator has no pegs.
 
     Returns:
         The pieces. Instances are numbered as `farm.dataset.instances.number_instances` does; ties are occluders. The
-        fall does not know of ties: a tie that would cut another cable or a stick is moved along its bundle, or left out
-        if there is no room.
+        fall does not know of ties: a tie that would cut another cable, a stick or a peg is moved along its bundle, or
+        left out if there is no room.
     """
     sticks = [
         (_dense(axis), stick.diameter_m / 2)
         for stick, axis in zip(scene.sticks[: len(sticks_m)], sticks_m, strict=True)
     ]
+    pegs = [(_dense(axis), peg.diameter_m / 2) for peg, axis in zip(scene.pegs[: len(pegs_m)], pegs_m, strict=True)]
     pieces: list[Piece] = []
     instance = 1
     for number, (cable, curve) in enumerate(zip(scene.cables, curves, strict=True)):
         if isinstance(cable.material, Bundle):
             others = [(curves[k], scene.cables[k].diameter_m / 2) for k in range(len(curves)) if k != number]
-            pieces += _bundle(cable, cable.material, curve, [*others, *sticks], instance)
+            pieces += _bundle(cable, cable.material, curve, [*others, *sticks, *pegs], instance)
             instance += len(cable.material.strands)
         else:
             strand = _Strand(instance, curve, cable.diameter_m / 2, cable.material, (0.0, 0.0))

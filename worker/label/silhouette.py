@@ -15,6 +15,10 @@ _BAND_PIXELS = 2**18
 """Most pixels of a band of rows, whose quads are cut into scanlines at once; it bounds the memory."""
 
 
+_UPRIGHT = 1e-6
+"""Sine of the angle to the vertical below which a tube, a peg, is upright: its corners may then begin anywhere."""
+
+
 @dataclass(frozen=True, slots=True)
 class Silhouettes:
     """Cables as seen, in convex quads, the farthest first: a later one hides an earlier one.
@@ -106,11 +110,13 @@ def _silhouette(
     """
     along = tangents(curve)
     across = np.cross(along, [0.0, 0.0, 1.0])
+    upright = np.linalg.norm(across, axis=1) < _UPRIGHT
+    across[upright] = np.cross(along[upright], [1.0, 0.0, 0.0])
     across /= np.linalg.norm(across, axis=1, keepdims=True)
     up = np.cross(across, along)
     to_camera = view.eye_m - curve
     x, y = np.einsum("ij,ij->i", to_camera, across), np.einsum("ij,ij->i", to_camera, up)
-    toward, half = np.arctan2(y, x), np.arccos(np.minimum(radius_m / np.hypot(x, y), 1.0))
+    toward, half = np.arctan2(y, x), np.arccos(np.minimum(radius_m / np.maximum(np.hypot(x, y), 1e-12), 1.0))
     step = 2 * np.pi / sides
     corner_radius = np.broadcast_to(2 * radius_m / (1 + np.cos(np.pi / sides)), len(curve))[:, None]
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from farm.model import Rgb, Vector2
-from farm.scene.clutter import Part, PartKind, Sheet, SheetKind, Stick, StickKind
+from farm.scene.clutter import Part, PartKind, Peg, Sheet, SheetKind, Stick, StickKind
 from farm.spec.ranges.clutter import ClutterRanges
 from farm.spec.ranges.placement import SPACING_DIAMETERS
 from worker.sample.values import chance, level, log_uniform, pattern_seed, rgb, uniform
@@ -66,6 +66,15 @@ def sample_sticks(ranges: ClutterRanges, seen_m: Vector2, rng: np.random.Generat
         )
         start += SPACING_DIAMETERS * diameter
     return tuple(sticks)
+
+
+def is_clear_of_peg(stick: Stick, peg: Peg) -> bool:
+    """Whether a stick starts clear of a peg by a quarter of its own diameter; one that does not is left out."""
+    turn = np.radians(stick.rotation_deg)
+    x, y = peg.x_m - stick.x_m, peg.y_m - stick.y_m
+    along = float(np.clip(np.cos(turn) * x + np.sin(turn) * y, -stick.length_m / 2, stick.length_m / 2))
+    away = np.hypot(x - along * np.cos(turn), y - along * np.sin(turn))
+    return bool(away > peg.diameter_m / 2 + 0.75 * stick.diameter_m)
 
 
 def sample_sheets(ranges: ClutterRanges, seen_m: Vector2, rng: np.random.Generator) -> tuple[Sheet, ...]:

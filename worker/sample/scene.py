@@ -12,10 +12,11 @@ from farm.spec.ranges.cable import CableRanges
 from worker.sample.backdrop import sample_plate, sample_world
 from worker.sample.cable import sample_cables, sample_substances
 from worker.sample.camera import sample_camera, sample_development
-from worker.sample.clutter import sample_parts, sample_sheets, sample_sticks
+from worker.sample.clutter import is_clear_of_peg, sample_parts, sample_sheets, sample_sticks
 from worker.sample.floor import sample_floor
 from worker.sample.light import NO_LAMPS, sample_lamps
 from worker.sample.seeds import Stage, generator
+from worker.sample.tangle import Tangled, sample_kind, tangle
 from worker.sample.values import chance, level, uniform
 from worker.sample.wind import sample_wind
 
@@ -54,19 +55,24 @@ def sample_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
     lighting = sample_lamps(ranges.lamp, ranges.studio, streams(Stage.LIGHT)) if is_lamp else NO_LAMPS
     floor = sample_floor(ranges.floor, header, streams(Stage.FLOOR), streams(Stage.WEAR)) if is_floor else None
     above = max((stick.start_height_m + 1.5 * stick.diameter_m for stick in sticks), default=0.0)
-    return Scene(
-        attempt=attempt,
-        cables=()
-        if is_background
-        else sample_cables(
+    lowest_m = max(ranges.placement.drop_height_m, above)
+    tangled = Tangled(())
+    if not is_background:
+        cables = sample_cables(
             ranges,
             traits.disposition,
             substances,
             camera,
             streams,
             length_m=ranges.cable.length_m if is_floor else ranges.cable.far_length_m or ranges.cable.length_m,
-            lowest_m=max(ranges.placement.drop_height_m, above),
-        ),
+            lowest_m=lowest_m,
+        )
+        tangle_rng = streams(Stage.TANGLE)
+        kind = sample_kind(ranges.placement.tangle, traits, tangle_rng)
+        tangled = tangle(kind, ranges.placement.tangle, cables, camera, min(seen_m), tangle_rng, lowest_m=lowest_m)
+    return Scene(
+        attempt=attempt,
+        cables=tangled.cables,
         vertex_mass=vertex_mass,
         friction=friction,
         wind=sample_wind(ranges.wind, streams(Stage.WIND)),
@@ -75,7 +81,8 @@ def sample_scene(header: DatasetHeader, job: Job, attempt: int) -> Scene:
         grey_world=lighting.grey_world,
         hdri_world=None if lighting.lamps else sample_world(header, traits.background, streams(Stage.WORLD)),
         plate=None if is_floor else sample_plate(header, streams(Stage.PLATE)),
-        sticks=sticks,
+        sticks=tuple(stick for stick in sticks if all(is_clear_of_peg(stick, peg) for peg in tangled.pegs)),
+        pegs=tangled.pegs,
         sheets=sample_sheets(ranges.clutter, seen_m, clutter_rng) if cluttered else (),
         parts=sample_parts(ranges.clutter, seen_m, clutter_rng) if cluttered else (),
         camera=camera,

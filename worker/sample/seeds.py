@@ -30,6 +30,7 @@ class Stage(IntEnum):
     LOOK = 12
     PLATE = 13
     BACKGROUND = 14
+    TANGLE = 15
 
 
 def seed_sequence(

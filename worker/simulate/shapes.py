@@ -6,7 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from farm.scene.cable import Cable
 from worker.curves import Points
+
+FINE_STEPS = 16
+"""Steps in which a curve that is not level is integrated between two nodes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +31,8 @@ class CableShapes:
         rested: whether the fall ended because all rested, and not because its time was over.
         passages: number of times that cables or sticks went through each other and stayed so, as the simulator watched
             it; None if it does not watch.
+        pegs_m: for each peg (N, 3) metres, nodes of the axis from below the floor to the top.
+        peg_radii_m: (pegs,) metres, radius of each peg.
     """
 
     nodes_m: tuple[Points, ...]
@@ -40,6 +46,8 @@ class CableShapes:
     stick_radii_m: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
     rested: bool = True
     passages: int | None = None
+    pegs_m: tuple[Points, ...] = ()
+    peg_radii_m: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
 
 
 NOTHING_FELL = CableShapes(
@@ -76,3 +84,59 @@ def bent_rod(length_m: float, bends_per_m: tuple[float, ...], nodes: int) -> NDA
     rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
     level: NDArray[np.float64] = (curve - curve[len(curve) // 2]) @ rotation.T
     return level
+
+
+def start_nodes(cable: Cable, count: int) -> Points:
+    """Lay a cable without a knot as it starts, on segments whose lengths are equal and add up to the cable's length.
+
+    A cable that is not level keeps to the plan of the level one, about the middle, so what crosses above and below each
+    other in the plan does so in space.
+
+    Args:
+        cable: the cable.
+        count: number of nodes, 2 or more.
+
+    Returns:
+        (count, 3) metres, nodes of the centreline.
+    """
+    if cable.rise_m == 0.0 and not cable.heights_m:
+        level = bent_rod(cable.length_m, cable.bends_per_m, count)
+        height = np.zeros(count)
+    else:
+        level, height = _risen(cable, count)
+    turn = np.radians(cable.rotation_deg)
+    cosine, sine = np.cos(turn), np.sin(turn)
+    nodes = np.empty((count, 3))
+    nodes[:, 0] = cable.x_m + cosine * level[:, 0] - sine * level[:, 1]
+    nodes[:, 1] = cable.y_m + sine * level[:, 0] + cosine * level[:, 1]
+    nodes[:, 2] = cable.diameter_m / 2 + cable.start_height_m + height
+    return nodes
+
+
+def height_at(cable: Cable, along_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Compute the height (N,) of a cable above its `start_height_m` at places (N,) along its level curve, in metres."""
+    if cable.heights_m:
+        knots = np.linspace(0.0, cable.length_m, len(cable.heights_m))
+        smooth: NDArray[np.float64] = CubicSpline(knots, cable.heights_m, bc_type="natural")(along_m)
+        return smooth
+    # Its length along the slope is the cable's, so that the even rise from end to end is `rise_m`.
+    slope = cable.rise_m / np.sqrt(cable.length_m**2 - cable.rise_m**2)
+    even: NDArray[np.float64] = cable.rise_m / 2 + slope * (along_m - cable.length_m / 2)
+    return even
+
+
+def _risen(cable: Cable, count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Lay a curve that is not level: its plan (count, 2) and the heights (count,) of its nodes."""
+    fine = 2 * FINE_STEPS * (count - 1)
+    along = np.linspace(0.0, cable.length_m, fine + 1)
+    plan = bent_rod(cable.length_m, cable.bends_per_m, fine + 1)
+    rises = np.diff(height_at(cable, along))
+    arc = np.concatenate([[0.0], np.cumsum(np.hypot(cable.length_m / fine, rises))])
+    step, middle = cable.length_m / (count - 1), count // 2
+    places = np.interp(arc[fine // 2] + step * (np.arange(count) - (count - 1) / 2), arc, along)
+    height = height_at(cable, places)
+    points = np.stack([np.interp(places, along, plan[:, axis]) for axis in range(2)], axis=1)
+    edges = np.diff(points, axis=0)
+    edges *= (np.sqrt(step**2 - np.diff(height) ** 2) / np.linalg.norm(edges, axis=1))[:, None]
+    level = np.concatenate([np.zeros((1, 2)), np.cumsum(edges, axis=0)])
+    return level + points[middle] - level[middle], height

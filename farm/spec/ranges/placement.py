@@ -5,6 +5,7 @@ from typing import Annotated
 from pydantic import Field
 
 from farm.model import Model
+from farm.spec.ranges.tangle import TangleRanges
 from farm.spec.ranges.types import (
     BendRange,
     Fraction,
@@ -67,6 +68,7 @@ class PlacementRanges(Model):
         loop_radius_m: radius of a loop, in metres, sampled log-uniformly.
         coil_share: share of the cables that are coiled all along.
         coil_radius_m: radius of a coil, in metres, sampled log-uniformly.
+        tangle: ranges of tangles.
     """
 
     free_x_m: LengthRange = (-0.025, 0.025)
@@ -83,3 +85,4 @@ class PlacementRanges(Model):
     loop_radius_m: PositiveRange = (0.012, 0.04)
     coil_share: Fraction = 0.0
     coil_radius_m: PositiveRange = (0.015, 0.05)
+    tangle: TangleRanges = TangleRanges()

@@ -59,9 +59,14 @@ def test_a_category_fixes_floor_lamp_and_hdri(category: Category) -> None:
 
 @pytest.mark.parametrize("category", Category)
 def test_a_picture_without_cables_is_as_it_would_be_with_them(category: Category) -> None:
-    """Floor, clutter, light, camera and all else are drawn from streams that the missing cables do not move."""
+    """Floor, clutter, light, camera and all else are drawn from streams that the missing cables do not move.
+
+    A peg is there for the cables that run round it, and takes the place of sticks.
+    """
     for index in range(10):
         with_cables = make_scene(category, index, style="wide")
+        if with_cables.pegs:
+            continue
         without = make_scene(category, index, style="wide", ranges={"cable": {"background_share": 1.0}})
         assert without.cables == ()
         assert without == with_cables.model_copy(update={"cables": ()})
@@ -166,8 +171,13 @@ def test_close_pictures_without_a_lamp_share_one_hdri() -> None:
 def test_the_shape_of_the_picture_decides_only_where_clutter_lies(
     category: Category, resolution: str, across: float, along: float
 ) -> None:
-    """Cables, camera, floor and light are those of the square picture; clutter lies in what the picture shows."""
-    cluttered = {"clutter": {"share": 1.0}}
+    """Cables, camera, floor and light are those of the square picture; clutter lies in what the picture shows.
+
+    So do tangles, of which these pictures have none.
+    """
+    kinds = ("heap", "knot", "threaded", "crossed_bundles", "peg")
+    tangle = {f"{kind}_share": 0.0 for kind in kinds}
+    cluttered = {"clutter": {"share": 1.0}, "placement": {"tangle": tangle}}
     clutter = {"sticks", "sheets", "parts"}
     for index in range(10):
         square = make_scene(category, index, style="wide", ranges=cluttered, resolution=512)

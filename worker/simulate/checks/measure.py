@@ -97,27 +97,31 @@ def measure(shapes: CableShapes) -> SettleFigures:
 
     A simulator that watches for passages tells how many there were. Then a crossing whose order is not that of the
     start heights only tells that a cable has slipped round another's end, or has come to lie across one that it did not
-    cross before. For any other simulator such a crossing counts as a passage unless it is close to an end: cables start
-    at stacked heights, and lie in that order wherever they have crossed all the time. It can't tell whether a cable
+    cross before, or that the cables were woven at the start. For any other simulator such a crossing counts as a
+    passage unless it is close to an end: its cables start at stacked heights, and lie in that order wherever they have crossed all the time. It can't tell whether a cable
     went through itself: nothing says which strand was to be on top.
 
     Sticks count as cables do where rods cut, carry or cross each other or the floor; lengths, speeds and air are the
-    cables' own.
+    cables' own. Pegs count where they cut into cables or carry them.
 
     Args:
         shapes: settled cables whose places and speeds are all finite.
     """
-    spans = cut((*shapes.nodes_m, *shapes.sticks_m))
-    radii = np.concatenate([shapes.radii_m, shapes.stick_radii_m])
+    spans = cut((*shapes.nodes_m, *shapes.sticks_m, *shapes.pegs_m))
+    radii = np.concatenate([shapes.radii_m, shapes.stick_radii_m, shapes.peg_radii_m])
+    fallen = len(radii) - len(shapes.pegs_m)
     near = spans.near_in_plan(search_reach_m(radii))
     contacts = find_contacts(spans, near, radii)
     crossings = find_crossings(spans, near)
-    flipped = crossings.flipped(shapes.start_order)
+    # A peg stands upright, so that nothing crosses it in plan view.
+    ordered = np.maximum(crossings.one, crossings.other) < fallen
+    flipped = crossings.flipped((*shapes.start_order, *range(fallen, len(radii)))) & ordered
     # No cable slips round the end of a stick, which lies below it from the start.
     near_end = crossings.near_end(radii) & (np.maximum(crossings.one, crossings.other) < len(shapes.radii_m))
     slips = flipped if shapes.passages is not None else flipped & near_end
     passages = shapes.passages if shapes.passages is not None else int(np.count_nonzero(flipped & ~near_end))
-    floor_depth = np.maximum(1 - spans.samples_m[:, 2] / radii[spans.cable_of_sample], 0)
+    above_floor = spans.cable_of_sample < fallen
+    floor_depth = np.maximum(1 - (spans.samples_m[:, 2] / radii[spans.cable_of_sample])[above_floor], 0)
     gaps = (np.minimum(spans.lowest_m - radii, contacts.clearance_m) / radii)[: len(shapes.radii_m)]
     speeds = np.concatenate(shapes.speeds_m_s) * 1000
     return SettleFigures(
@@ -130,7 +134,7 @@ def measure(shapes: CableShapes) -> SettleFigures:
         floor_penetration_max=float(floor_depth.max()),
         pass_throughs=passages,
         end_slips=int(np.count_nonzero(slips)),
-        floor_pass_throughs=int(np.count_nonzero(spans.lowest_m < 0)),
+        floor_pass_throughs=int(np.count_nonzero(spans.lowest_m[:fallen] < 0)),
         self_crossings=int(np.count_nonzero(crossings.own)),
         speed_rms_mm_s=float(np.sqrt(np.mean(speeds**2))),
         speed_max_mm_s=float(speeds.max()),

@@ -19,7 +19,7 @@ from worker.simulate.cloth.material import SEGMENT_UNITS, STRIP_WIDTH, StripMate
 from worker.simulate.cloth.scale import RADIUS_UNITS, FallScale
 from worker.simulate.cloth.stage import modifier, read_vertices, set_frames, temporary_scene
 from worker.simulate.cloth.strip import centreline, zigzag, zigzag_faces
-from worker.simulate.shapes import CableShapes, bent_rod
+from worker.simulate.shapes import CableShapes, start_nodes
 
 FLOOR_SINK = 0.0115
 """Depth in units to which a loaded strip sinks into the floor's collision layer, measured at crossings of two cables: a
@@ -86,14 +86,7 @@ def _length(path: Points) -> float:
 def start_line(cable: Cable, scale: FallScale, segment: float) -> Points:
     """Make the line (N, 3) as which a cable starts, in the fall's units, in segments of about the length `segment`."""
     segments = max(8, round(cable.length_m / (segment * scale.unit_m)))
-    level = bent_rod(cable.length_m, cable.bends_per_m, segments + 1)
-    turn = np.radians(cable.rotation_deg)
-    cosine, sine = np.cos(turn), np.sin(turn)
-    path = np.empty((len(level), 3))
-    path[:, 0] = cable.x_m + cosine * level[:, 0] - sine * level[:, 1]
-    path[:, 1] = cable.y_m + sine * level[:, 0] + cosine * level[:, 1]
-    path[:, 2] = cable.diameter_m / 2 + cable.start_height_m + np.linspace(0.0, cable.rise_m, len(level))
-    return path / scale.unit_m
+    return start_nodes(cable, segments + 1) / scale.unit_m
 
 
 def _join(strips: list[Points]) -> _Strips:

@@ -6,13 +6,14 @@ import numpy as np
 
 from farm.errors import SceneError
 from farm.scene.cable import Cable
-from farm.scene.clutter import Stick, StickKind
+from farm.scene.clutter import Peg, Stick, StickKind
 from farm.scene.physics import GRAVITY_M_S2, Wind
 from farm.scene.scene import Scene
 from farm.spec.simulation import RodFall
+from worker.simulate.rod.knots import tie
 from worker.simulate.rod.model import Array, Breeze, Rod, Surroundings
 from worker.simulate.rod.simulation import DivergedError, RodSimulation, TooManyStepsError
-from worker.simulate.shapes import CableShapes, bent_rod
+from worker.simulate.shapes import CableShapes, height_at, start_nodes
 
 INTERNAL_DAMPING_S = 0.01
 """Time constant of the cables' internal damping, in seconds: stranded cables hardly swing more than once."""
@@ -70,7 +71,8 @@ def drop_cables(scene: Scene, fall: RodFall) -> CableShapes:
     Raises:
         SceneError: if the solver diverges, or makes more steps than any sound fall takes.
     """
-    simulation = RodSimulation(rods_of(scene, fall), surroundings_of(scene), steps_per_s=fall.steps_per_s)
+    rods = rods_of(scene, fall)
+    simulation = RodSimulation(rods, surroundings_of(scene), steps_per_s=fall.steps_per_s)
     try:
         rested = simulation.settle(
             rms_m_s=REST_RMS_M_S,
@@ -84,22 +86,25 @@ def drop_cables(scene: Scene, fall: RodFall) -> CableShapes:
     except TooManyStepsError as error:
         raise SceneError(f"the rod solver gave up {error} of the fall: the cables move too fast for it") from error
     cables = range(len(scene.cables))
+    sticks = range(len(cables), len(cables) + len(scene.sticks))
+    pegs = range(sticks.stop, len(rods))
     heights = [cable.start_height_m for cable in scene.cables]
     heights += [stick.start_height_m for stick in scene.sticks]
     return CableShapes(
         nodes_m=tuple(simulation.nodes_m(k) for k in cables),
         radii_m=np.array([cable.diameter_m / 2 for cable in scene.cables]),
-        # A cable that rises evenly is that much longer than its plan; its edges all rise alike.
-        lengths_m=np.array([np.hypot(cable.length_m, cable.rise_m) for cable in scene.cables]),
+        lengths_m=np.array([cable.length_m for cable in scene.cables]),
         speeds_m_s=tuple(np.linalg.norm(simulation.drift_m_s(k), axis=1) for k in cables),
         start_order=tuple(int(k) for k in np.argsort(heights, kind="stable")),
         fall_s=simulation.time_s,
         steps=simulation.steps,
-        sticks_m=tuple(simulation.nodes_m(len(cables) + k) for k in range(len(scene.sticks))),
+        sticks_m=tuple(simulation.nodes_m(k) for k in sticks),
         stick_radii_m=np.array([stick.diameter_m / 2 for stick in scene.sticks], dtype=np.float64),
         rested=rested,
         # No step in which rods would pass through each other is made.
         passages=0,
+        pegs_m=tuple(simulation.nodes_m(k) for k in pegs),
+        peg_radii_m=np.array([peg.diameter_m / 2 for peg in scene.pegs], dtype=np.float64),
     )
 
 
@@ -109,16 +114,21 @@ def most_steps(simulation: RodSimulation, fall: RodFall) -> int:
 
 
 def rods_of(scene: Scene, fall: RodFall) -> list[Rod]:
-    """Make the rods of a scene at the start: its cables, without stress, and after them its sticks."""
-    rods = [_rod(cable, fall.segment_radii) for cable in scene.cables]
-    rods += [_stiff_rod(stick, fall.segment_radii) for stick in scene.sticks]
+    """Make the rods of a scene at the start: its cables, after them its sticks, and after these its pegs.
+
+    Cables are without stress, but for what weaves them up and down or pulls a knot.
+    """
+    cables = [_rod(cable, fall.segment_radii) for cable in scene.cables]
+    sticks = [_stiff_rod(stick, fall.segment_radii) for stick in scene.sticks]
+    rods = cables + sticks
     least = LIGHTEST_SHARE * max(rod.mass_per_length_kg_m for rod in rods)
-    return [replace(rod, inertia=max(least / rod.mass_per_length_kg_m, 1.0)) for rod in rods]
+    falling = [replace(rod, inertia=max(least / rod.mass_per_length_kg_m, 1.0)) for rod in rods]
+    return falling + [_fixed_rod(peg) for peg in scene.pegs]
 
 
 def surroundings_of(scene: Scene) -> Surroundings:
     """Make the floor, friction and wind of a scene; a wind of speed 0 becomes still air without drag."""
-    starts = [cable.start_height_m + cable.rise_m for cable in scene.cables]
+    starts = [cable.start_height_m + float(_rises_m(cable).max()) for cable in scene.cables]
     highest = max(starts or [stick.start_height_m for stick in scene.sticks])
     landing_s = float(np.sqrt(2 * highest / GRAVITY_M_S2))
     return Surroundings(
@@ -128,6 +138,11 @@ def surroundings_of(scene: Scene) -> Surroundings:
         resistance=RESISTANCE,
         breeze=_breeze(scene.wind, landing_s=landing_s) if scene.wind.speed_m_s > 0 else None,
     )
+
+
+def _rises_m(cable: Cable) -> Array:
+    """Compute the heights (N,) of a cable above its start, at places along it, in metres."""
+    return height_at(cable, np.linspace(0.0, cable.length_m, max(2, 2 * len(cable.heights_m))))
 
 
 def segment_m(radius_m: float, youngs_modulus_pa: float, density_kg_m3: float, segment_radii: float) -> float:
@@ -147,22 +162,40 @@ def segment_m(radius_m: float, youngs_modulus_pa: float, density_kg_m3: float, s
 
 
 def _rod(cable: Cable, segment_radii: float) -> Rod:
+    if cable.knot is not None:
+        return _placed(tie(cable, segment_radii), cable)
     radius = cable.diameter_m / 2
     length = segment_m(radius, cable.youngs_modulus_pa, cable.density_kg_m3, segment_radii)
     segments = int(np.clip(round(cable.length_m / length), 8, 2000))
-    level = bent_rod(cable.length_m, cable.bends_per_m, segments + 1)
-    turn = np.radians(cable.rotation_deg)
-    cosine, sine = np.cos(turn), np.sin(turn)
-    nodes = np.empty((len(level), 3))
-    nodes[:, 0] = cable.x_m + cosine * level[:, 0] - sine * level[:, 1]
-    nodes[:, 1] = cable.y_m + sine * level[:, 0] + cosine * level[:, 1]
-    nodes[:, 2] = radius + cable.start_height_m + np.linspace(0.0, cable.rise_m, len(level))
+    nodes = start_nodes(cable, segments + 1)
     return Rod(
         nodes_m=nodes,
         radius_m=radius,
         youngs_modulus_pa=cable.youngs_modulus_pa,
         density_kg_m3=cable.density_kg_m3,
         natural_curvature_per_m=curvature_at_rest(nodes),
+    )
+
+
+def _placed(knotted: Rod, cable: Cable) -> Rod:
+    """Turn, shift and lift a knotted rod, which is tied about the origin, to its cable's place."""
+    turn = np.radians(cable.rotation_deg)
+    cosine, sine = np.cos(turn), np.sin(turn)
+    rotation = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    return replace(knotted, nodes_m=knotted.nodes_m @ rotation + [cable.x_m, cable.y_m, cable.start_height_m])
+
+
+def _fixed_rod(peg: Peg) -> Rod:
+    """Make an upright rod of a peg, which reaches below the floor so that its rounded end is out of the way."""
+    radius = peg.diameter_m / 2
+    height = np.linspace(-radius, peg.height_m, max(4, round((peg.height_m + radius) / (2 * radius)) + 1))
+    nodes = np.stack([np.full_like(height, peg.x_m), np.full_like(height, peg.y_m), height], axis=1)
+    return Rod(
+        nodes_m=nodes,
+        radius_m=radius,
+        youngs_modulus_pa=STICK_YOUNGS_MODULUS_PA,
+        density_kg_m3=STICK_DENSITY_KG_M3[StickKind.ROD],
+        pinned=np.ones(len(nodes), np.bool_),
     )
 
 
@@ -184,10 +217,11 @@ def _stiff_rod(stick: Stick, segment_radii: float) -> Rod:
 def curvature_at_rest(nodes: Array) -> Array:
     """Compute the natural curvature (N,), in 1/m, with which nodes (N, 3) at equal distances are free of stress."""
     edges = np.diff(nodes[:, :2], axis=0)
+    length = np.hypot(np.linalg.norm(edges[0]), nodes[1, 2] - nodes[0, 2])
     cross = edges[:-1, 0] * edges[1:, 1] - edges[:-1, 1] * edges[1:, 0]
     dot = np.einsum("ij,ij->i", edges[:-1], edges[1:])
     curvature = np.zeros(len(nodes))
-    curvature[1:-1] = cross / dot / np.linalg.norm(edges[0])
+    curvature[1:-1] = cross / dot / length
     return curvature
 
 

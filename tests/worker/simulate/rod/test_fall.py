@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from farm.errors import SceneError
-from farm.scene.clutter import StickKind
+from farm.scene.clutter import Peg, StickKind
+from farm.scene.knot import Knot, KnotKind
 from farm.scene.scene import Scene
 from farm.spec.simulation import RodFall
 from tests.worker.clutter.things import make_stick
@@ -12,7 +13,16 @@ from tests.worker.scenes import make_scene
 from worker.simulate.checks.accept import find_fault
 from worker.simulate.checks.measure import measure
 from worker.simulate.rod import fall
-from worker.simulate.rod.fall import FINEST_RADII, drop_cables, most_steps, rods_of, segment_m, surroundings_of
+from worker.simulate.rod.fall import (
+    FINEST_RADII,
+    curvature_at_rest,
+    drop_cables,
+    most_steps,
+    rods_of,
+    segment_m,
+    surroundings_of,
+)
+from worker.simulate.rod.model import Rod
 from worker.simulate.rod.simulation import RodSimulation
 
 RADIUS_M = 0.0015
@@ -106,15 +116,90 @@ def coiled() -> Scene:
     )
 
 
-def test_the_length_error_of_a_coil_is_its_strain() -> None:
-    """A coil that rises is longer than its plan, by the rise; the fall strains it by a millionth at most."""
+def test_a_coil_that_rises_is_as_long_as_its_cable() -> None:
+    """It is laid at its length, and the fall strains it by a millionth at most."""
     scene, settings = coiled(), RodFall()
     (cable,), (start,) = scene.cables, rods_of(scene, settings)
     laid_m = float(np.linalg.norm(np.diff(start.nodes_m, axis=0), axis=1).sum())
-    assert laid_m / cable.length_m - 1 == pytest.approx(0.00178, rel=0.01)
+    assert laid_m == pytest.approx(cable.length_m, rel=1e-12)
     shapes = drop_cables(scene, settings)
-    assert shapes.lengths_m == pytest.approx([laid_m], rel=1e-12)
+    assert shapes.lengths_m.tolist() == [cable.length_m]
     assert measure(shapes).length_error < 1e-6
+
+
+def test_the_natural_curvature_of_a_sloped_circle_is_that_of_its_plan() -> None:
+    """With the plan's turn t a segment it is tan(t) / l with the length l along the slope; see `Rod`."""
+    turn, count, step = 0.1, 41, 0.004
+    angle, plan = turn * np.arange(count), 0.9 * step
+    edges = plan * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    rise = np.sqrt(step**2 - plan**2) * np.arange(count + 1)
+    nodes = np.column_stack([np.concatenate([np.zeros((1, 2)), np.cumsum(edges, axis=0)]), rise])
+    assert curvature_at_rest(nodes)[1:-1] == pytest.approx(np.full(count - 1, np.tan(turn) / step))
+
+
+def with_peg() -> Scene:
+    """A cable that starts beside a peg on either side of another one, and falls past it."""
+    scene = over_a_stick()
+    peg = Peg(x_m=0.0, y_m=0.008, diameter_m=0.01, height_m=0.03, colour=(9, 9, 9), pattern_seed=0)
+    cable = scene.cables[0].model_copy(update={"rotation_deg": 0.0, "y_m": 0.0})
+    return scene.model_copy(update={"cables": (cable,), "sticks": (), "pegs": (peg,)})
+
+
+def test_a_peg_is_an_upright_rod_that_nothing_moves() -> None:
+    """Its nodes are after those of cables and sticks, from below the floor to its top, and stay where they are."""
+    scene = with_peg()
+    peg = rods_of(scene, RodFall())[-1]
+    assert peg.pinned is not None
+    assert peg.pinned.all()
+    assert peg.nodes_m[:, :2] == pytest.approx(np.tile([0.0, 0.008], (len(peg.nodes_m), 1)))
+    assert (peg.nodes_m[0, 2], peg.nodes_m[-1, 2]) == pytest.approx((-0.005, 0.03))
+    shapes = drop_cables(scene, RodFall())
+    assert shapes.pegs_m[0].tolist() == peg.nodes_m.tolist()
+    assert find_fault(measure(shapes)) is None
+
+
+def test_the_wind_does_not_blow_a_cable_through_a_peg() -> None:
+    """A cable that a strong wind drives against a peg stays on its side, and touches it to 2 % of its radius."""
+    scene = with_peg()
+    wind = scene.wind.model_copy(update={"speed_m_s": 8.0, "bearing_deg": 270.0, "tilt_deg": 90.0, "gusts": ()})
+    shapes = drop_cables(scene.model_copy(update={"wind": wind}), RodFall())
+    radius, away = shapes.radii_m[0], np.linalg.norm(shapes.nodes_m[0][:, :2] - [0.0, 0.008], axis=1).min()
+    assert away == pytest.approx(0.005 + radius, abs=0.02 * radius)
+    assert shapes.nodes_m[0][np.abs(shapes.nodes_m[0][:, 0]) < 0.004, 1].max() < 0.008
+
+
+def woven() -> Scene:
+    """Two cables that cross twice, over and under."""
+    scene = over_a_stick()
+    low, high = scene.cables
+    heights = (0.0, 0.0, 0.0, 2 * low.diameter_m, 0.0, 0.0, 0.0)
+    low = low.model_copy(update={"rotation_deg": 0.0, "start_height_m": 0.001, "heights_m": heights})
+    high = high.model_copy(
+        update={"rotation_deg": 90.0, "x_m": 0.0, "start_height_m": 0.001, "heights_m": (0.0, 0.0, 0.0)}
+    )
+    return scene.model_copy(update={"cables": (low, high), "sticks": ()})
+
+
+
+def test_a_knotted_rod_is_turned_shifted_and_lifted_to_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The rod that is tied along x about the origin comes to lie along the cable's bearing at its place and height."""
+    knot = Knot(kind=KnotKind.OVERHAND, along=0.5, loop_radius_m=0.02, mirrored=False, set_share=0.5)
+    cable = (
+        over_a_stick()
+        .cables[0]
+        .model_copy(update={"knot": knot, "x_m": 0.1, "y_m": 0.2, "rotation_deg": 90.0, "start_height_m": 0.05})
+    )
+    along = np.linspace(-0.2, 0.2, 41)
+    tied = Rod(
+        nodes_m=np.stack([along, np.zeros(41), np.full(41, cable.diameter_m / 2)], axis=1),
+        radius_m=cable.diameter_m / 2,
+        youngs_modulus_pa=1e7,
+        density_kg_m3=1500.0,
+    )
+    monkeypatch.setattr(fall, "tie", lambda *_: tied)
+    (rod,) = rods_of(over_a_stick().model_copy(update={"cables": (cable,), "sticks": ()}), RodFall())
+    height = 0.05 + cable.diameter_m / 2
+    assert rod.nodes_m[[0, -1]] == pytest.approx(np.array([[0.1, 0.0, height], [0.1, 0.4, height]]))
 
 
 def test_a_fall_says_whether_it_came_to_rest() -> None:
