@@ -66,7 +66,7 @@ y, and a figure-eight knot after a reflection in its middle."""
 TABLE_LOOP_RADII = 10.0
 """Loop radius of the knots in `HALVES`, in radii of the cable."""
 
-LOOSE_SHARE = 1.05
+LOOSE_SHARE = 1.1
 """Size of the loose knot over that of the pulled one: the rod's surfaces do not touch yet."""
 
 _FINE_STEPS = 16
