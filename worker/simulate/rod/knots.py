@@ -40,22 +40,23 @@ PULLED_DAMPING_S = 0.01
 STEPS_PER_S = 1000.0
 """Time steps per second of the pull."""
 
-TAIL_LOOPS = 3.0
+TAIL_LOOPS = 1.5
 """Length of each tail at the start of the pull, in loop radii, beyond the curve of `loose_knot`. A tail's bend dies
 down over 1.4 loop radii."""
 
-CHECK_STEPS = 25
+CHECK_STEPS = 20
 """Time steps from one check whether the knot rests to the next."""
 
-REST_SHARE = 0.01
-"""Movement of one end against the other between two checks, in loop radii, up to which the knot rests. The knot takes
-up about eight loop radii of cable."""
+WINDOW_CHECKS = 4
+"""Checks in a row whose mean is compared with that of as many before them: contacts without friction chatter for ever,
+by up to half a radius, and a knot on its way may pause for three checks."""
 
-REST_RADII = 0.08
-"""The least such movement that counts, in radii: tight knots on coarse segments do not rest more quietly."""
+REST_SHARE = 0.02
+"""Movement of one end against the other from mean to mean, in loop radii, up to which the knot rests. The knot takes up
+about eight loop radii of cable."""
 
-QUIET_CHECKS = 4
-"""Checks in a row that must find the knot at rest: on its way it may pause for three."""
+REST_RADII = 0.15
+"""The least such movement that counts, in radii of the cable."""
 
 MOST_CHECKS = 60
 """Checks after which a knot that does not rest is given up."""
@@ -133,17 +134,18 @@ def pull_knot(kind: KnotKind, loop_radii: float, segment_radii: float) -> Array:
         SceneError: if the knot does not come to rest, or passes through itself.
     """
     simulation = pulled_rod(kind, loop_radii, segment_radii)
-    chord, quiet, still = np.inf, 0, max(REST_SHARE * loop_radii, REST_RADII)
+    still, chords = max(REST_SHARE * loop_radii, REST_RADII), []
     for _ in range(MOST_CHECKS):
         try:
             simulation.advance(CHECK_STEPS)
         except DivergedError as error:
             raise SceneError(f"the rod solver diverged {error} of the pull of a knot") from error
         nodes: Array = simulation.nodes_m(0) / PULLED_RADIUS_M
-        before, chord = chord, float(np.linalg.norm(nodes[-1] - nodes[0]))
-        quiet = quiet + 1 if abs(chord - before) <= still else 0
-        if quiet == QUIET_CHECKS:
-            break
+        chords.append(float(np.linalg.norm(nodes[-1] - nodes[0])))
+        if len(chords) >= 2 * WINDOW_CHECKS:
+            before, now = np.reshape(chords[-2 * WINDOW_CHECKS :], (2, WINDOW_CHECKS)).mean(axis=1)
+            if abs(now - before) <= still:
+                break
     else:
         raise SceneError(f"after {simulation.steps} time steps a pulled {kind} knot does not rest")
     if determinant(smooth(nodes, _SAMPLES)) != DETERMINANTS[kind]:

@@ -31,8 +31,8 @@ def test_a_loop_bends_most_where_it_leaves_the_braid(asked: float) -> None:
 def test_friction_holds_a_knot_that_tightens_or_opens(friction: float) -> None:
     """T R^2 / B = 1/2 +- mu sigma / e, sigma = 0.492, with mu < e / 4.
 
-    The first neglected terms are that of h / R in bending, which counts once, and that of e in friction, about mu sigma,
-    which counts twice.
+    The first neglected terms are that of h / R in bending, which counts once, and that of e in friction, about
+    mu sigma, which counts twice.
     """
     knot = pulled(20.0, friction)
     assert knot.pull == pytest.approx(knot.pull_in_theory, abs=1 / knot.loop + abs(friction))
