@@ -7,8 +7,9 @@ import numpy as np
 
 from benchmarks.stress.scenes import MIN_LENGTH_RADII, SEGMENT_RADII, Case, Start
 from farm.scene.physics import GRAVITY_M_S2
-from worker.simulate.rod.fall import INTERNAL_DAMPING_S, RESISTANCE, curvature_at_rest, segment_m
+from worker.simulate.rod.fall import INTERNAL_DAMPING_S, RESISTANCE, curvature_at_rest
 from worker.simulate.rod.model import Array, Breeze, Rod, Surroundings
+from worker.simulate.rod.segments import segment_m
 from worker.simulate.shapes import bent_rod
 
 SPACING_RADII = 3.0

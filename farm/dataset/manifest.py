@@ -51,8 +51,8 @@ class SettleFigures(Model):
         cable_penetration_max: deepest single place.
         floor_penetration: depth of a cable in the floor over its radius; the 99.9th percentile of all places.
         floor_penetration_max: deepest single place.
-        pass_throughs: passages of cables through each other that the simulator saw; of one that does not watch, crossings
-            of two cables, away from all ends, whose order flipped between start and rest.
+        pass_throughs: passages of cables through each other that the simulator saw; of one that does not watch,
+            crossings of two cables, away from all ends, whose order flipped between start and rest.
         end_slips: crossings of two cables whose order flipped without a passage, as one slipped round an end of the
             other.
         floor_pass_throughs: cables whose centreline is anywhere below the floor.

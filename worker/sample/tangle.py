@@ -24,8 +24,9 @@ TRIES = 4
 HIGHEST_PEG = 0.4
 """Greatest height of a peg, as a share of the camera's; the checks ask for less than 0.9 of where its view begins."""
 
-_KNOT_ROOM_RADII = 20.0
-"""Least length of a cable with a knot, in radii of the knot's loop: twice what a figure of eight takes up."""
+_KNOT_ROOM_RADII = 23.0
+"""Least length of a cable with a knot, in radii of the knot's loop. A figure of eight takes up to 9.5 on either side of
+its middle, which lies at least 0.42 of the length from the nearer end."""
 
 _KNOT_REACH = 0.2
 """Largest distance of a knot from the picture's middle along each axis, as a share of its shorter edge."""

@@ -96,10 +96,10 @@ def measure(shapes: CableShapes) -> SettleFigures:
     Penetration, air and crossings are those of the smooth centrelines that are rendered, with the true radii.
 
     A simulator that watches for passages tells how many there were. Then a crossing whose order is not that of the
-    start heights only tells that a cable has slipped round another's end, or has come to lie across one that it did not
-    cross before, or that the cables were woven at the start. For any other simulator such a crossing counts as a
-    passage unless it is close to an end: its cables start at stacked heights, and lie in that order wherever they have crossed all the time. It can't tell whether a cable
-    went through itself: nothing says which strand was to be on top.
+    start heights only tells that a cable has slipped round another's end, has come to lie across one that it did not
+    cross before, or was woven at the start. For any other simulator such a crossing counts as a passage unless it is
+    close to an end: its cables start at stacked heights, and lie in that order wherever they have crossed all the
+    time. It can't tell whether a cable went through itself: nothing says which strand was to be on top.
 
     Sticks count as cables do where rods cut, carry or cross each other or the floor; lengths, speeds and air are the
     cables' own. Pegs count where they cut into cables or carry them.

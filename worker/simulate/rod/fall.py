@@ -12,6 +12,7 @@ from farm.scene.scene import Scene
 from farm.spec.simulation import RodFall
 from worker.simulate.rod.knots import tie
 from worker.simulate.rod.model import Array, Breeze, Rod, Surroundings
+from worker.simulate.rod.segments import segment_m
 from worker.simulate.rod.simulation import DivergedError, RodSimulation, TooManyStepsError
 from worker.simulate.shapes import CableShapes, height_at, start_nodes
 
@@ -21,9 +22,6 @@ INTERNAL_DAMPING_S = 0.01
 RESISTANCE = 0.01
 """Dry resistance of a rod that touches something, as a share of its weight: about that of rubber rolling on a hard
 floor."""
-
-FINEST_RADII = 2.0
-"""Length of the shortest segments, in radii."""
 
 REST_RMS_M_S = 0.5e-3
 """Root mean square speed below which the cables rest, in m/s: half of what gate 4 allows."""
@@ -143,22 +141,6 @@ def surroundings_of(scene: Scene) -> Surroundings:
 def _rises_m(cable: Cable) -> Array:
     """Compute the heights (N,) of a cable above its start, at places along it, in metres."""
     return height_at(cable, np.linspace(0.0, cable.length_m, max(2, 2 * len(cable.heights_m))))
-
-
-def segment_m(radius_m: float, youngs_modulus_pa: float, density_kg_m3: float, segment_radii: float) -> float:
-    """Choose the length of a rod's segments, in metres.
-
-    It is `segment_radii` radii, or half the length over which the rod bends under its weight, (EI / rho g A)^(1/3), if
-    that is less. That length is below eight radii only for rods much softer than any cable.
-
-    Args:
-        radius_m: radius of the rod, in metres.
-        youngs_modulus_pa: Young's modulus, in pascals.
-        density_kg_m3: density, in kg/m3.
-        segment_radii: length of the segments of most rods, in radii.
-    """
-    bending_m = (youngs_modulus_pa * radius_m**2 / (4 * density_kg_m3 * GRAVITY_M_S2)) ** (1 / 3)
-    return float(min(segment_radii * radius_m, max(bending_m / 2, FINEST_RADII * radius_m)))
 
 
 def _rod(cable: Cable, segment_radii: float) -> Rod:

@@ -188,8 +188,8 @@ class RodSimulation:
         Args:
             rms_m_s: root mean square speed of the nodes up to which the rods rest, in m/s.
             fastest_m_s: speed of the fastest node up to which the rods rest, in m/s.
-            quiet_s: time over which the speeds are means, in seconds: within it no node moves farther, at any step, than
-                at these speeds. Within single steps, contacts chatter.
+            quiet_s: time over which the speeds are means, in seconds: until its end no node is ever farther from its
+                place than these speeds would take it. Within single steps, contacts chatter.
             max_time_s: time since the start at which to stop in any case, in seconds.
             max_steps: number of steps that may be made, halved ones included.
 

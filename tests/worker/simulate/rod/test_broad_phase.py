@@ -17,8 +17,8 @@ from worker.simulate.rod.broad_phase import (
     no_candidates,
     still_hold,
 )
-from worker.simulate.rod.model import Array
 from worker.simulate.rod.curves import find_bends, find_bulge
+from worker.simulate.rod.model import Array
 from worker.simulate.rod.narrow_phase import APPROACH_SHARE, NEARBY_SHARE, SPARE_SHARE, closest, find_reach
 from worker.simulate.shapes import bent_rod
 

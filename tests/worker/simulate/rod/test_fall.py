@@ -14,15 +14,14 @@ from worker.simulate.checks.accept import find_fault
 from worker.simulate.checks.measure import measure
 from worker.simulate.rod import fall
 from worker.simulate.rod.fall import (
-    FINEST_RADII,
     curvature_at_rest,
     drop_cables,
     most_steps,
     rods_of,
-    segment_m,
     surroundings_of,
 )
 from worker.simulate.rod.model import Rod
+from worker.simulate.rod.segments import FINEST_RADII, segment_m
 from worker.simulate.rod.simulation import RodSimulation
 
 RADIUS_M = 0.0015
@@ -166,19 +165,6 @@ def test_the_wind_does_not_blow_a_cable_through_a_peg() -> None:
     radius, away = shapes.radii_m[0], np.linalg.norm(shapes.nodes_m[0][:, :2] - [0.0, 0.008], axis=1).min()
     assert away == pytest.approx(0.005 + radius, abs=0.02 * radius)
     assert shapes.nodes_m[0][np.abs(shapes.nodes_m[0][:, 0]) < 0.004, 1].max() < 0.008
-
-
-def woven() -> Scene:
-    """Two cables that cross twice, over and under."""
-    scene = over_a_stick()
-    low, high = scene.cables
-    heights = (0.0, 0.0, 0.0, 2 * low.diameter_m, 0.0, 0.0, 0.0)
-    low = low.model_copy(update={"rotation_deg": 0.0, "start_height_m": 0.001, "heights_m": heights})
-    high = high.model_copy(
-        update={"rotation_deg": 90.0, "x_m": 0.0, "start_height_m": 0.001, "heights_m": (0.0, 0.0, 0.0)}
-    )
-    return scene.model_copy(update={"cables": (low, high), "sticks": ()})
-
 
 
 def test_a_knotted_rod_is_turned_shifted_and_lifted_to_its_place(monkeypatch: pytest.MonkeyPatch) -> None:
