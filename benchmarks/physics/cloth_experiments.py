@@ -252,4 +252,9 @@ def _slenderness(droop: float) -> float:
     low, high = LEAST_SLENDERNESS, MOST_SLENDERNESS
     if not droop_ratio(low) < droop < droop_ratio(high):
         return low if 0 <= droop <= droop_ratio(low) else high
-    return float(np.exp(brentq(lambda x: droop_ratio(float(np.exp(x))) - droop, np.log(low), np.log(high), xtol=1e-4)))
+
+    def excess(log_slenderness: float) -> float:
+        # The exponential of a bound's logarithm may lie beyond it by a rounding error.
+        return droop_ratio(float(np.clip(np.exp(log_slenderness), low, high))) - droop
+
+    return float(np.exp(brentq(excess, np.log(low), np.log(high), xtol=1e-4)))

@@ -26,7 +26,17 @@ class Kind:
     overrides: Mapping[str, object] = field(default_factory=lambda: MappingProxyType({}))
 
 
-KINDS = (Kind("wide", 3000), Kind("published", 0, style="published"))
+TANGLES = ("heap", "knot", "threaded", "crossed_bundles", "peg")
+"""The kinds of tangle, as `farm.spec.ranges.tangle.TangleRanges` names their shares."""
+
+
+def _tangled(name: str) -> Kind:
+    """A kind whose scenes all have one kind of tangle, where their category can have it."""
+    shares = {f"{each}_share": float(each == name) for each in TANGLES}
+    return Kind(name, 204, overrides={"ranges": {"placement": {"tangle": shares}}})
+
+
+KINDS = (Kind("wide", 1980), *(_tangled(name) for name in TANGLES), Kind("published", 0, style="published"))
 """Every kind of drawn scenes: a row in the tables, and more rows by what the scenes hold."""
 
 

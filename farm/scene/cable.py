@@ -183,7 +183,7 @@ class Cable(Model):
         bends_per_m: natural curvature at equally spaced points from end to end, in 1/m; all 0 is straight.
         rise_m: height of the cable's end above its beginning, in metres, so that loops and coils lie on themselves.
         heights_m: heights above `start_height_m` at equally spaced points along the level curve from end to end, in
-            metres, in place of `rise_m`; they weave a tangle. None is an even rise.
+            metres, in place of `rise_m`, two or more; they weave a tangle. Empty is an even rise.
         knot: knot in the cable, which decides its start in place of `bends_per_m`, `rise_m` and `heights_m`; None is a
             cable without a knot.
         youngs_modulus_pa: bending stiffness over the second moment of area of a full round section, in pascals.

@@ -152,7 +152,7 @@ def _knotted(
     cable = cables[chosen]
     others = [each for k, each in enumerate(cables) if k != chosen]
     top = max((each.start_height_m + each.rise_m + SPACING_DIAMETERS * each.diameter_m for each in others), default=0.0)
-    along, bearing = float(rng.uniform(0.42, 0.58)), float(rng.uniform(0.0, 360.0))
+    along = float(rng.uniform(0.42, 0.58))
     place = rng.uniform(-_KNOT_REACH, _KNOT_REACH, 2) * edge_m
     knot = Knot(
         kind=KnotKind.FIGURE_EIGHT if chance(rng, ranges.figure_eight_share) else KnotKind.OVERHAND,
@@ -162,13 +162,12 @@ def _knotted(
         set_share=uniform(rng, ranges.knot_set_share),
     )
     # The knot takes up length on both sides alike, so it lies as far from the chord's middle as along the cable.
-    x, y = place - turned(np.array([(along - 0.5) * cable.length_m, 0.0]), bearing)
+    x, y = place - turned(np.array([(along - 0.5) * cable.length_m, 0.0]), cable.rotation_deg)
     tied = {
         "knot": knot.model_copy(update={"loop_radius_m": min(knot.loop_radius_m, _most_m(cable, edge_m))}),
         "start_height_m": max(cable.start_height_m, top),
         "x_m": float(x),
         "y_m": float(y),
-        "rotation_deg": bearing,
         "rise_m": 0.0,
     }
     return (*others, cable.model_copy(update=tied))

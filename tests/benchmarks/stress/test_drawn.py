@@ -7,7 +7,7 @@ import pytest
 from benchmarks.physics.gates import StressFault
 from benchmarks.stress import drawn
 from benchmarks.stress.drawn import header_of, play_drawn, reach_m
-from benchmarks.stress.kinds import KINDS, Draw, Kind, draw_named, draws_of
+from benchmarks.stress.kinds import KINDS, TANGLES, Draw, Kind, draw_named, draws_of
 from benchmarks.stress.options import StressPlan
 from farm.errors import MessageError, SceneError
 from farm.spec.category import Category
@@ -18,11 +18,12 @@ from worker.simulate.rod.simulation import DivergedError, TooManyStepsError
 
 
 def test_there_are_as_many_scenes_of_each_category() -> None:
-    """The plan's 3,000 scenes of `wide` are 500 of each category, all different."""
-    draws = [draw for draw in StressPlan().draws() if draw.kind == "wide"]
+    """The plan's 3,000 scenes are 500 of each category, all different: two thirds of `wide`, the others tangles."""
+    draws = StressPlan().draws()
     counts = Counter(Job.from_id(draw.job).category for draw in draws)
     assert counts == dict.fromkeys(Category, 500)
     assert len(set(draws)) == 3000
+    assert Counter(draw.kind for draw in draws) == {"wide": 1980, **dict.fromkeys(TANGLES, 204)}
 
 
 def test_a_kind_without_a_number_is_played_only_where_it_is_named() -> None:

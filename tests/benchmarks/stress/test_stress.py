@@ -179,12 +179,12 @@ def test_a_run_that_is_cut_off_is_not_blamed_for_unrest() -> None:
 @pytest.mark.slow
 def test_a_real_stress_test_agrees_with_its_replays(tmp_path: Path) -> None:
     """Six scenes in two processes give the same results as each one played alone."""
-    code = main(["stress", "--out", str(tmp_path), "--runs", "6", "--drawn", "0", "--seed", "2"])
+    code = main(["stress", "--out", str(tmp_path), "--runs", "6", "--drawn", "0", "--seed", "2", "--most-steps", "100"])
     written = json.loads((tmp_path / "stress.json").read_text())["extremes"]
     assert [each["case"]["number"] for each in written] == list(range(6))
     assert code == int(any(each["fault"] not in {None, "not at rest"} for each in written))
     for case, each in zip(draw_cases(6, 2), written, strict=True):
-        alone = play(case)
+        alone = play(case, most_steps=100)
         assert (alone.fault and alone.fault.value, alone.steps) == (each["fault"], each["steps"])
         assert (alone.figures.model_dump() if alone.figures else None) == each["figures"]
     assert replay_command(draw_cases(6, 2)[0], tmp_path).endswith("--seed 2 --runs 6 --only 0")

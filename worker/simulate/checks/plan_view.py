@@ -26,14 +26,12 @@ class PlanCrossings:
         other: the cable of the other; the same where a cable crosses itself.
         rise_m: height of the other strand above the one.
         from_end_m: arc length from the crossing to the nearest end of either strand's cable.
-        sign: sign of the crossing, 1 or -1: which way the upper strand turns to the lower one.
     """
 
     one: Indices
     other: Indices
     rise_m: NDArray[np.float64]
     from_end_m: NDArray[np.float64]
-    sign: Indices
 
     @property
     def own(self) -> NDArray[np.bool_]:
@@ -92,7 +90,6 @@ def find_crossings(spans: Spans, near: tuple[Indices, Indices]) -> PlanCrossings
         one=spans.cable_of_sample[i],
         other=spans.cable_of_sample[j],
         rise_m=rise,
-        sign=np.where((cross[met] > 0) == (rise > 0), 1, -1),
         from_end_m=np.minimum(_from_end(spans, i, t[met]), _from_end(spans, j, u[met])),
     )
 

@@ -10,6 +10,9 @@ from worker.simulate.rod.model import Array, Rod
 
 Integers = NDArray[np.int64]
 
+LEAST_NODES = 4
+"""Least number of a rod's nodes: a contact acts on four at either side."""
+
 
 class Bodies(NamedTuple):
     """The properties of the rods, which do not change.
@@ -100,8 +103,14 @@ class Scratch(NamedTuple):
 
 
 def flatten(rods: Sequence[Rod]) -> tuple[Bodies, Motion]:
-    """Put rods into flat arrays, at rest in their starting places."""
+    """Put rods into flat arrays, at rest in their starting places.
+
+    Raises:
+        ValueError: if a rod has fewer nodes than `LEAST_NODES`.
+    """
     counts = [len(rod.nodes_m) for rod in rods]
+    if min(counts) < LEAST_NODES:
+        raise ValueError(f"a rod has {min(counts)} nodes; it needs {LEAST_NODES}")
     nodes = int(np.sum(counts))
     length = np.array([rod.segment_length_m for rod in rods])
     masses, curvatures, pinned, pulls = [], [], [], []

@@ -130,7 +130,10 @@ def _unit_response(bodies: Bodies, factors: Array, rod: int, node: int, column: 
 
 @compiled
 def _reach(bodies: Bodies, factors: Array, reach: Integers, coupling: Array) -> None:
-    """Find `reach`, beyond which the response to a push on a rod's middle is negligible, and `coupling`, in place."""
+    """Find `reach`, beyond which the response to a push is negligible, and `coupling`, in place.
+
+    A push on the rod's middle tells, unless even the ends answer it: then all nodes count.
+    """
     for rod in range(len(bodies.length)):
         first, end = bodies.first[rod], bodies.first[rod + 1]
         middle = (first + end) // 2
@@ -139,7 +142,9 @@ def _reach(bodies: Bodies, factors: Array, reach: Integers, coupling: Array) -> 
         column = np.zeros(end - first)
         _unit_response(bodies, factors, rod, middle, column)
         # Many pushes on a stiff rod add up, so the sum of the responses that are left out must be small.
-        coupling[rod] = np.abs(column).sum() / abs(column[middle - first])
+        own = abs(column[middle - first])
+        # A rod that is pinned all along answers no push.
+        coupling[rod] = np.abs(column).sum() / own if own > 0.0 else 0.0
         left_out = NEGLIGIBLE_RESPONSE * np.abs(column).sum()
         far = end - first - 1
         while far > 2:
@@ -150,7 +155,8 @@ def _reach(bodies: Bodies, factors: Array, reach: Integers, coupling: Array) -> 
                 break
             far -= 1
         # Where even the ends respond to a push on the middle, one end responds to a push on the other.
-        reach[rod] = far if far < min(middle - first, end - 1 - middle) else end - first - 1
+        is_short = far >= min(middle - first, end - 1 - middle)
+        reach[rod] = end - first - 1 if own > 0.0 and is_short else far
 
 
 @compiled

@@ -119,7 +119,7 @@ def _weigh(weights: Array, side: int, n: int, i: int, t: float, first: int, end:
     weights[side, n, k] = 1 - t
     weights[side, n, k + 1] = t
     bulge = -0.5 * t * (1 - t)
-    # An end segment has one parabola, which is the whole curve there.
+    # An end segment has one parabola, which counts whole: the curve is about as bent there as beside.
     before = 0.0 if i == first else 1.0 if i + 2 == end else 1 - t
     after = 1.0 - before
     if before > 0.0:

@@ -17,7 +17,10 @@ four diameters' radius, each step leaves a tenth of the error or less."""
 
 ALONG = 0.02
 """Determinant of the distance's second derivatives, over the product of its diagonal, below which two curves run along
-each other, within 8 degrees if they are straight: the closest places are then looked for at the segments' ends."""
+each other, within 8 degrees if they are straight: the closest places are then looked for at the segments' ends, too."""
+
+SINGULAR = 1e-4
+"""Such a determinant below which Newton's method does not tell where along the curves they are closest."""
 
 
 @compiled
@@ -93,6 +96,7 @@ def closest_on_curves(x: Array, bends: Array, i: int, j: int, s: float, t: float
     Returns:
         The two places on the curves, as shares of the segments, 0 to 1.
     """
+    along = False
     for _ in range(REFINEMENTS):
         # Half the squared distance has the gradient (rs, -rt) and the second derivatives (a, -b; -b, e).
         a = e = b = rs = rt = 0.0
@@ -105,8 +109,10 @@ def closest_on_curves(x: Array, bends: Array, i: int, j: int, s: float, t: float
             rs += away * p
             rt += away * q
         determinant = a * e - b * b
-        if a <= 0.0 or e <= 0.0 or determinant < ALONG * a * e:
-            return _closest_at_ends(x, bends, i, j, s, t)
+        along = along or determinant < ALONG * a * e
+        if a <= 0.0 or e <= 0.0 or determinant < SINGULAR * a * e:
+            along = True
+            break
         ds, dt = (b * rt - e * rs) / determinant, (a * rt - b * rs) / determinant
         # A place at a segment's end stays there, and the other one follows.
         if s + ds < 0.0 or s + ds > 1.0:
@@ -118,7 +124,7 @@ def closest_on_curves(x: Array, bends: Array, i: int, j: int, s: float, t: float
         s, t = s + ds, t + dt
         if abs(ds) + abs(dt) < 1e-3:
             break
-    return s, t
+    return _closest_at_ends(x, bends, i, j, s, t) if along else (s, t)
 
 
 @compiled

@@ -37,7 +37,7 @@ LIGHTEST_SHARE = 1 / 16
 """Least inertia of a rod's length over that of the heaviest rod in the scene. A rod that weighs less moves as if it had
 that much: impulses between rods of very different mass are found slowly. Where rods rest, inertia plays no part."""
 
-MOST_STEPS_OVER_PLAN = 2.0
+MOST_STEPS_OVER_PLAN = 4.0
 """Most time steps of a fall, as a multiple of those that `max_time_s` has without halvings. Cables at rest need none of
 the headroom: of 540 falls of both styles, the one with the most made 1.005 times that number, as it never rested."""
 

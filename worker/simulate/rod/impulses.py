@@ -104,7 +104,7 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - in nested tuples every access w
         carried = _carried_side(contacts, n, floor_impulse, nz)
         hard = compliance[n]
         if carried >= 0:
-            hard = max(hard - contacts.softness[carried, n] * nz * nz, contacts.softness[1 - carried, n])
+            hard = max(hard - contacts.softness[carried, n] * nz * nz, min(hard, contacts.softness[1 - carried, n]))
         apart = ux * nx + uy * ny + uz * nz
         # Less force between the rods unloads the floor; once that is free, both sides give way.
         spare = (apart - least) / hard
@@ -175,9 +175,10 @@ def _lean(floor_impulse: Array, weights: Array, base: int, z: float, side: int) 
         return 0.0
     taken = 0.0
     for k in range(4):
-        part = min(weights[k] * z, floor_impulse[2, base + k])
-        floor_impulse[2, base + k] -= part
-        taken += part
+        if floor_impulse[2, base + k] > 0.0:
+            part = min(weights[k] * z, floor_impulse[2, base + k])
+            floor_impulse[2, base + k] -= part
+            taken += part
     return taken
 
 
@@ -312,17 +313,23 @@ def work_of_depenetration(motion: Motion, touch: Touch, rise: Array) -> float:
 
 @compiled
 def find_touched(bodies: Bodies, motion: Motion, touch: Touch) -> None:
-    """Note in `motion` which rods the floor or another rod has pushed in this step."""
+    """Note in `motion` which rods the floor or another rod has pushed in this step, and which have landed.
+
+    A rod lands on the floor, on a pinned rod, or on a rod that has landed. One that touches itself goes on falling.
+    """
     motion.touched[:] = False
     for i in touch.floor:
         if motion.floor_impulse[2, i] > 0.0:
-            motion.touched[bodies.owner[i]] = True
+            motion.touched[bodies.owner[i]] = motion.landed[bodies.owner[i]] = True
     for n in range(touch.pairs):
         push = touch.impulse[touch.contacts.pair[n]]
         if push[0] != 0.0 or push[1] != 0.0 or push[2] != 0.0:
-            motion.touched[bodies.owner[touch.contacts.base[0, n]]] = True
-            motion.touched[bodies.owner[touch.contacts.base[1, n]]] = True
-    motion.landed[:] |= motion.touched
+            i, j = touch.contacts.base[0, n], touch.contacts.base[1, n]
+            one, other = bodies.owner[i], bodies.owner[j]
+            if one != other:
+                motion.touched[one] = motion.touched[other] = True
+                if motion.landed[one] or motion.landed[other] or bodies.pinned[i] or bodies.pinned[j]:
+                    motion.landed[one] = motion.landed[other] = True
 
 
 @compiled

@@ -1,7 +1,8 @@
 """Finds the candidate pairs that are near enough in a step to be contacts.
 
 A node's reach in a step is the distance around it within which contact must be looked for: two segments that are near
-in this step are no farther apart than the sum of their nodes' reaches.
+in this step are no farther apart than the sum of their nodes' reaches. Spheres rule out most pairs, then chords; where
+chords are near, the distance of the curves decides.
 """
 
 import numpy as np

@@ -2,7 +2,8 @@
 
 Every node moves along a straight line in a step. Two segments' centrelines pass through each other if their four ends
 come to lie in one plane, which is a cubic equation in time, while the segments cross (Provot 1997, "Collision and
-self-collision handling in cloth model dedicated to design garments"). If they pass twice they are back on their sides.
+self-collision handling in cloth model dedicated to design garments"). Whether the volume that the four ends span has
+changed its sign tells, as steps are so short that it changes once.
 """
 
 import numpy as np

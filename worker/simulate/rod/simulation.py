@@ -139,6 +139,8 @@ class RodSimulation:
         """Set the velocities of a rod's nodes, (N, 3) m/s; pinned nodes stay at rest."""
         part = self._part(rod)
         self._motion.v[:, part] = np.where(self._bodies.pinned[part], 0.0, velocities_m_s.T)
+        self._motion.anchor[:] = self._motion.x
+        self._tally.quiet[0] = 0.0
 
     def energy(self) -> Energy:
         """Compute the present energy; rods keep their lengths, so stretching has none."""

@@ -2,8 +2,11 @@
 
 The impulses of contacts and the tensions that keep the lengths depend on each other. They are found in turn: sweeps
 over the contacts change impulses, then the places and tensions of each rod that the sweeps have changed are found
-exactly, until a sweep finds nothing more to do. Impulses and tensions only take energy, so a step that gains energy has
-not found them: it is made again from no impulses, then as two steps of half the time.
+exactly, until a sweep finds nothing more to do, or nothing moves any more.
+
+A step has a sound end if lengths are kept, rods are not pushed far into each other or through each other, and no energy
+is gained, as impulses and tensions only take it. A step without one goes on from the impulses it has, then starts again
+from none, then is made as two steps of half the time. At the finest time step the rods stop in their places.
 """
 
 import numpy as np
@@ -80,10 +83,12 @@ def make_step(
         Whether the step was made; if not, nothing has moved, and impulses and tensions are 0.
     """
     scratch.start[:] = motion.x
-    spare = 0.5 * bodies.mass.sum() * SPEED_SPARE_M_S**2
+    spare = 0.5 * bodies.mass[~bodies.pinned].sum() * SPEED_SPARE_M_S**2
     may_miss = MISS_RADII * bodies.radius.min() / operator.step
     sound = False
     for attempt in range(3):
+        if attempt == 1 and finest:
+            continue
         rounds = MAX_ROUNDS if attempt == 0 else MORE_ROUNDS
         kept = _take_turns(bodies, operator, motion, world, touch, scratch, tally, rounds)
         gained = _energy_gained(bodies, operator, motion.v, scratch)
@@ -97,7 +102,7 @@ def make_step(
         tally.counts[MISSES] += missed > may_miss
         tally.counts[PASSES] += passed > 0
         tally.counts[RETRIES] += 1
-        if attempt > 0:
+        if attempt > 0 or finest:
             motion.x[:] = scratch.start
             motion.tension[:] = 0.0
             motion.floor_impulse[:] = 0.0

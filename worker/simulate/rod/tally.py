@@ -32,7 +32,7 @@ class Tally(NamedTuple):
     Attributes:
         counts: (12,) numbers of time steps; sweeps over contacts; turns of sweeps and lengths; iterations of the
             lengths; lists of candidates; contacts, summed over steps; rods that did not keep their lengths in a step;
-            steps that were tried again from no impulses; steps that stopped all rods, as no sound end was found; and
+            attempts at steps that had no sound end; steps that stopped all rods, as no sound end was found; and
             tried ends of steps that gained energy, left rods too deep within each other, or let them pass through each
             other.
         time: (1,) time since the start, s.

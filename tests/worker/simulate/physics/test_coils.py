@@ -15,7 +15,6 @@ from worker.simulate.rod.fall import (
     REST_S,
     curvature_at_rest,
 )
-from worker.simulate.rod.lengths import BALANCE_TOLERANCE_M_S
 from worker.simulate.rod.model import Array, Rod, Surroundings
 from worker.simulate.rod.simulation import RodSimulation
 from worker.simulate.shapes import bent_rod
@@ -113,14 +112,12 @@ def mean_lift_n(simulation: RodSimulation, coil: Rod, duration_s: float) -> tupl
 def test_the_floor_carries_the_weight_of_a_coil_that_lies_on_itself(radii: float, turns: float, modulus: float) -> None:
     """The floor's force is m g + dp/dt: turns that press on each other add nothing to it.
 
-    Newton's method leaves a node's momentum out of balance by up to 2e-6 m/s times its mass in each step.
+    It holds to a tenth of the dry resistance that falls have, and which is switched off here.
     """
     simulation, coil = lying_on_itself(radii * RADIUS_M, turns, modulus, resistance=0.0)
     weight_n = float(masses_kg(coil).sum()) * GRAVITY_M_S2
-    steps, start_s = simulation.steps, simulation.time_s
     lift_n, change_n = mean_lift_n(simulation, coil, 0.1)
-    steps_per_s = (simulation.steps - steps) / (simulation.time_s - start_s)
-    assert lift_n == pytest.approx(weight_n + change_n, rel=BALANCE_TOLERANCE_M_S * steps_per_s / GRAVITY_M_S2)
+    assert lift_n == pytest.approx(weight_n + change_n, abs=0.1 * RESISTANCE * weight_n)
 
 
 @COILS

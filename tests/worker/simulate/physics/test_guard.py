@@ -108,14 +108,14 @@ def test_wrong_impulses_to_start_from_do_not_throw_rods(size_n_s: float) -> None
 
 
 def test_a_step_that_is_made_again_is_counted() -> None:
-    """The step is repeated once, from no impulses, which finds a sound end, so no rod is stopped."""
+    """The step is tried again, at last as two halves, which finds a sound end, so no rod is stopped."""
     simulation = RodSimulation(pile(1, 1e8), Surroundings(damping_s=0.01), steps_per_s=1000)
     simulation.advance(60)
     before, impulse = simulation.counts, simulation._candidates.impulse
     impulse[:] = np.random.default_rng(0).normal(0, 1.0, impulse.shape)
     simulation.advance(1)
     after = simulation.counts
-    assert after["retries"] == before["retries"] + 1
+    assert after["retries"] > before["retries"]
     assert after["stops"] == before["stops"] == 0
     assert after["steps"] == before["steps"] + 1
 

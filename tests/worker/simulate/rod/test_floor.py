@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from tests.worker.simulate.physics.rods import RADIUS_M, line, rod
+from worker.curves import smooth
 from worker.simulate.rod.arrays import flatten
 from worker.simulate.rod.contact import SLOP_RADII, UNDOING_S
 from worker.simulate.rod.curves import find_bends
