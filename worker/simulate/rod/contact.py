@@ -56,7 +56,6 @@ class Contacts(NamedTuple):
         normal: (n, 3) unit vector from the second side to the first.
         approach: (n,) least relative speed of the first side along the normal, m/s.
         compliance: (n,) relative velocity per impulse, 1/kg.
-        softness: (2, n) velocity per impulse of each side alone, 1/kg.
         low: (2, n) number of the first node that responds to an impulse.
         width: (2, n) number of nodes that respond.
         column: (2, n, max) velocity per impulse of these nodes, 1/kg.
@@ -70,7 +69,6 @@ class Contacts(NamedTuple):
     normal: Array
     approach: Array
     compliance: Array
-    softness: Array
     low: Integers
     width: Integers
     column: Array
@@ -89,7 +87,6 @@ def room_for_contacts(pairs: int, operator: Operator) -> Contacts:
         np.empty((pairs, 3)),
         np.empty(pairs),
         np.empty(pairs),
-        np.empty((2, pairs)),
         np.empty((2, pairs), np.int64),
         np.empty((2, pairs), np.int64),
         np.empty((2, pairs, widest)),
@@ -243,10 +240,9 @@ def gather_contacts(
                 min(first[rod + 1], middle + 4 + operator.reach[rod]),
             )
             contacts.low[side, count], contacts.width[side, count] = low, high - low
-            contacts.softness[side, count] = _respond(
+            compliance += _respond(
                 operator.response, operator.reach[rod], weights, side, count, middle, (low, high), contacts.column
             )
-            compliance += contacts.softness[side, count]
         if owner[base[0, count]] == owner[base[1, count]]:
             compliance -= 2 * _crosstalk(base, weights, count, contacts.low, contacts.width, contacts.column)
         if compliance > 0.0:

@@ -29,10 +29,6 @@ SMALL_SHARE = 0.05
 """Share of the change below which sweeps end, up to which they do not pass a change on either."""
 
 
-CARRIED_WEIGHT = 0.2
-"""Weight of a contact's node from which the floor must push it up, so that the floor counts as carrying that side."""
-
-
 class Touch(NamedTuple):
     """The contacts of this step, between rods and with the floor.
 
@@ -58,7 +54,6 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - in nested tuples every access w
     contacts: Contacts,
     pairs: int,
     impulses: Array,
-    floor_impulse: Array,
     friction: float,
     sweep: int,
     small: float,
@@ -73,7 +68,6 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - in nested tuples every access w
         contacts: contacts of this step, at the beginning of their arrays.
         pairs: number of contacts.
         impulses: (candidates, 3) impulse of each pair that may touch, N s, changed in place.
-        floor_impulse: (3, nodes) impulses of the floor, N s, changed in place where the floor carries a side.
         friction: Coulomb's coefficient.
         sweep: number of the sweep in this step; every second sweep goes backwards.
         small: change of velocity, m/s, summed over a rod, up to which a change is not made.
@@ -100,86 +94,26 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - in nested tuples every access w
         pair = contacts.pair[n]
         nx, ny, nz, least = normal[n, 0], normal[n, 1], normal[n, 2], contacts.approach[n]
         px, py, pz = impulses[pair, 0], impulses[pair, 1], impulses[pair, 2]
-        # The side that the floor carries does not give way upright, so the contact is as stiff as the other side.
-        carried = _carried_side(contacts, n, floor_impulse, nz)
-        hard = compliance[n]
-        if carried >= 0:
-            hard = max(hard - contacts.softness[carried, n] * nz * nz, min(hard, contacts.softness[1 - carried, n]))
-        apart = ux * nx + uy * ny + uz * nz
-        # Less force between the rods unloads the floor; once that is free, both sides give way.
-        spare = (apart - least) / hard
-        if carried >= 0 and spare > 0.0:
-            held = _floor_force(contacts, n, carried, floor_impulse)
-            if spare > held:
-                spare = held + (apart - least - hard * held) / compliance[n]
-        push_apart = spare - apart / compliance[n]
         wx, wy, wz = on_cone(
-            px - ux / compliance[n] - push_apart * nx,
-            py - uy / compliance[n] - push_apart * ny,
-            pz - uz / compliance[n] - push_apart * nz,
+            px - (ux - least * nx) / compliance[n],
+            py - (uy - least * ny) / compliance[n],
+            pz - (uz - least * nz) / compliance[n],
             nx,
             ny,
             nz,
             friction,
         )
         dx, dy, dz = wx - px, wy - py, wz - pz
-        moved = max(abs(dx), abs(dy), abs(dz)) * hard * max(coupling[owner[i]], coupling[owner[j]])
+        moved = max(abs(dx), abs(dy), abs(dz)) * compliance[n] * max(coupling[owner[i]], coupling[owner[j]])
         if moved > small:
             impulses[pair, 0], impulses[pair, 1], impulses[pair, 2] = wx, wy, wz
             low, width, column = contacts.low, contacts.width, contacts.column
-            up = _lean(floor_impulse, weights[carried, n], base[carried, n], dz if carried == 0 else -dz, carried)
-            push(column[0, n], 0, low[0, n], width[0, n], dx, dy, dz - (up if carried == 0 else 0.0), v)
-            push(column[1, n], 0, low[1, n], width[1, n], -dx, -dy, -dz - (up if carried == 1 else 0.0), v)
+            push(column[0, n], 0, low[0, n], width[0, n], dx, dy, dz, v)
+            push(column[1, n], 0, low[1, n], width[1, n], -dx, -dy, -dz, v)
             stir(stirred, low[0, n], width[0, n], sweep)
             stir(stirred, low[1, n], width[1, n], sweep)
             worst = max(worst, moved)
     return worst
-
-
-@compiled
-def _carried_side(contacts: Contacts, n: int, floor_impulse: Array, nz: float) -> int:
-    """Find the side of contact n that lies below the other one on the floor: 0 or 1, or -1 if neither does."""
-    lower = 1 if nz > 0.0 else 0
-    base = contacts.base[lower, n]
-    for k in range(4):
-        if contacts.weights[lower, n, k] > CARRIED_WEIGHT and floor_impulse[2, base + k] <= 0.0:
-            return -1
-    return lower
-
-
-@compiled
-def _floor_force(contacts: Contacts, n: int, side: int, floor_impulse: Array) -> float:
-    """Compute the impulse, N s, with which the floor holds the nodes of a side of contact n."""
-    total = 0.0
-    for k in range(4):
-        if contacts.weights[side, n, k] > CARRIED_WEIGHT:
-            total += floor_impulse[2, contacts.base[side, n] + k]
-    return total
-
-
-@compiled
-def _lean(floor_impulse: Array, weights: Array, base: int, z: float, side: int) -> float:
-    """Let the floor take an upright impulse on a side of a contact, as far as it pushes.
-
-    Args:
-        floor_impulse: (3, nodes) impulses of the floor, N s, changed in place.
-        weights: (4,) weights of the side's nodes.
-        base: number of the first of these nodes.
-        z: upward impulse on the side, N s.
-        side: the side that the floor carries; none if negative.
-
-    Returns:
-        The part of the impulse that the floor has taken, N s.
-    """
-    if side < 0:
-        return 0.0
-    taken = 0.0
-    for k in range(4):
-        if floor_impulse[2, base + k] > 0.0:
-            part = min(weights[k] * z, floor_impulse[2, base + k])
-            floor_impulse[2, base + k] -= part
-            taken += part
-    return taken
 
 
 @compiled
@@ -269,7 +203,6 @@ def correct(
             touch.contacts,
             touch.pairs,
             touch.impulse,
-            motion.floor_impulse,
             world.friction_rods,
             done,
             small,
