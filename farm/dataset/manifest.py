@@ -53,8 +53,8 @@ class SettleFigures(Model):
         floor_penetration_max: deepest single place.
         pass_throughs: passages of cables through each other that the simulator saw; of one that does not watch,
             crossings of two cables, away from all ends, whose order flipped between start and rest.
-        end_slips: crossings of two cables whose order flipped without a passage, as one slipped round an end of the
-            other.
+        end_slips: crossings of two cables that lie the other way round than their start heights without a passage: one
+            slipped round an end, came to lie across one that it had left, or was woven at the start.
         floor_pass_throughs: cables whose centreline is anywhere below the floor.
         self_crossings: places where a cable crosses itself, seen from above.
         speed_rms_mm_s: root mean square speed of the nodes at the end, in true time.
