@@ -1,9 +1,9 @@
 """A cable before its fall: its start, its material and its look."""
 
 from enum import StrEnum
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from farm.model import Metres, Model, Rgb, Share, Vector3
 from farm.scene.knot import Knot
@@ -206,3 +206,11 @@ class Cable(Model):
     density_kg_m3: Annotated[float, Field(gt=0)]
     material: Look
     ends: tuple[CableEnd, CableEnd] = (CableEnd(), CableEnd())
+
+    @model_validator(mode="after")
+    def _can_be_laid(self) -> Self:
+        if len(self.heights_m) == 1:
+            raise ValueError("heights_m must have two heights or more, or none")
+        if abs(self.rise_m) >= self.length_m:
+            raise ValueError(f"rise_m must be below the length of {self.length_m:g} m")
+        return self

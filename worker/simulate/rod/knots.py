@@ -176,7 +176,7 @@ def pulled_rod(kind: KnotKind, loop_radii: float, segment_radii: float, friction
 
 
 def _cut(nodes: Array, before: int, after: int) -> tuple[Array, NDArray[np.bool_]]:
-    """Cut a pulled cable, or go straight on, so that it has so many segments before and after its middle node.
+    """Cut a pulled cable, or go straight on, so that it has given numbers of segments before and after its middle node.
 
     Returns:
         (before + after + 1, 3) nodes, and which of them belong to the knot.

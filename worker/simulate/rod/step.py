@@ -52,7 +52,7 @@ SLACK = 50.0
 MISS_RADII = 0.1
 """Largest depth, in the smallest radius, to which a step may push a rod into another, as its impulses are not exact."""
 
-SPEED_SPARE_M_S = 1.5e-3
+SPEED_SPARE_M_S = 1e-3
 """Speed, in m/s, of all rods together whose energy a step may gain, as sweeps end before the impulses are exact."""
 
 
