@@ -123,7 +123,7 @@ def reach_m(scene: Scene) -> float:
     The highest cable falls from H, and the wind carries it along; all of that speed may turn sideways, and friction on
     the floor brakes it. A cable may also roll out to its full length. The sum is doubled.
     """
-    highest = max(cable.start_height_m + cable.rise_m for cable in scene.cables)
+    highest = max(cable.start_height_m + max(cable.rise_m, *cable.heights_m, 0.0) for cable in scene.cables)
     places = [np.hypot(each.x_m, each.y_m) + each.length_m for each in scene.cables]
     places += [np.hypot(each.x_m, each.y_m) + each.length_m for each in scene.sticks]
     speed = np.sqrt(2 * GRAVITY_M_S2 * highest) + scene.wind.speed_m_s

@@ -29,6 +29,12 @@ class Holding(Enum):
     """A bundle of strands, which falls as one cable."""
     STICK = "stick"
     """A pen, a pipe or another stick."""
+    KNOT = "knot"
+    """A cable with a knot."""
+    WOVEN = "woven"
+    """A cable that starts over and under others: a heap, a threaded loop, or crossed groups."""
+    PEG = "peg"
+    """A cable round a peg."""
     THIN_ON_THICK = "thin over thick"
     """A cable that starts above a rod more than `WIDER` times as thick."""
     THICK_ON_THIN = "thick over thin"
@@ -59,10 +65,16 @@ def _single(scene: Scene) -> Iterator[Holding]:
     for cable in scene.cables:
         if isinstance(cable.material, Bundle):
             yield Holding.BUNDLE
-        if len(cable.bends_per_m) == FINE_KNOTS:
+        if cable.knot is not None:
+            yield Holding.KNOT
+        elif cable.heights_m:
+            yield Holding.WOVEN
+        elif len(cable.bends_per_m) == FINE_KNOTS:
             yield Holding.COIL if _is_even(cable) else Holding.LOOP
     if scene.sticks:
         yield Holding.STICK
+    if scene.pegs:
+        yield Holding.PEG
 
 
 def _is_even(cable: Cable) -> bool:

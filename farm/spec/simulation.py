@@ -52,7 +52,7 @@ class RodFall(Model):
     """
 
     steps_per_s: Annotated[int, Field(ge=100, le=100_000)] = 1000
-    segment_radii: Annotated[float, Field(ge=1, le=20)] = 4.0
+    segment_radii: Annotated[float, Field(ge=1, le=20)] = 6.0
     max_time_s: Annotated[float, Field(gt=0, le=60)] = 4.0
 
 

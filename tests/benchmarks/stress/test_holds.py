@@ -6,11 +6,15 @@ import pytest
 
 from benchmarks.stress.holds import Holding, held_by
 from farm.scene.cable import Cable, CableMaterial
+from farm.scene.clutter import Peg
+from farm.scene.knot import Knot, KnotKind
 from farm.scene.scene import Scene
 from tests.worker.scenes import make_scene, make_stick
 from worker.sample.cable_curve import FINE_KNOTS
 
 GENTLE = (2.0, -1.0, 0.5, 1.0, -2.0, 0.0, 1.0)
+KNOT = Knot(kind=KnotKind.OVERHAND, along=0.5, loop_radius_m=0.02, mirrored=False, set_share=0.5)
+PEG = Peg(x_m=0.0, y_m=0.008, diameter_m=0.01, height_m=0.03, colour=(9, 9, 9), pattern_seed=0)
 EVEN = tuple(40.0 + k % 3 for k in range(FINE_KNOTS))
 BUMP = tuple(60.0 if 12 < k < 20 else 1.0 for k in range(FINE_KNOTS))
 
@@ -52,6 +56,9 @@ def scene(*cables: Cable, **keys: object) -> Scene:
         (lambda: scene(cable(bends_per_m=EVEN)), (Holding.COIL,)),
         (lambda: scene(cable(bends_per_m=BUMP)), (Holding.LOOP,)),
         (lambda: scene(cable(), sticks=(make_stick(diameter_m=0.003),)), (Holding.STICK,)),
+        (lambda: scene(cable(knot=KNOT)), (Holding.KNOT,)),
+        (lambda: scene(cable(heights_m=(0.0, 0.004, 0.0))), (Holding.WOVEN,)),
+        (lambda: scene(cable(), pegs=(PEG,)), (Holding.PEG,)),
         (lambda: scene(cable(0.01, diameter_m=0.0041), cable(0.02)), (Holding.THIN_ON_THICK,)),
         (lambda: scene(cable(0.02, diameter_m=0.0041), cable(0.01)), (Holding.THICK_ON_THIN,)),
         (

@@ -14,6 +14,10 @@ LEAST_NODES = 4
 """Least number of a rod's nodes: a contact acts on four at either side."""
 
 
+BY_NO_IMPULSE = -1.0
+"""Compliance of a contact that no sweep has needed yet: most near pairs never push."""
+
+
 class Bodies(NamedTuple):
     """The properties of the rods, which do not change.
 
@@ -72,6 +76,7 @@ class Scratch(NamedTuple):
         load: (3, nodes) that momentum with the impulses of contacts, N s.
         v: (3, nodes) velocities at the end of the step, m/s.
         last: (3, nodes) those velocities before the present turn, m/s.
+        before: (3, nodes) velocities at the start of the step, m/s.
         start: (3, nodes) places of the nodes at the start of the step, m.
         bends: (3, nodes) second derivatives of the curves at the nodes, m; see `worker.simulate.rod.curves`.
         bulge: (nodes,) largest distance of the curve from its chords, m; see `worker.simulate.rod.curves`.
@@ -90,6 +95,7 @@ class Scratch(NamedTuple):
     load: Array
     v: Array
     last: Array
+    before: Array
     start: Array
     bends: Array
     bulge: Array
@@ -100,6 +106,39 @@ class Scratch(NamedTuple):
     near_floor: Integers
     held: NDArray[np.int8]
     system: Array
+
+
+class Contacts(NamedTuple):
+    """The contacts of one step, at the beginning of arrays with room for n. Each contact has two sides, a segment each.
+
+    Attributes:
+        pair: (n,) number of the contact's candidate pair.
+        segment: (2, n) number of each side's first node.
+        at: (2, n) place on each segment that is closest to the other one, as a share of its length, 0 to 1.
+        base: (2, n) number of the first of the four nodes on which each side acts.
+        weights: (2, n, 4) weights of these nodes.
+        normal: (n, 3) unit vector from the second side to the first.
+        approach: (n,) least relative speed of the first side along the normal, m/s; -inf if the contact never pushes.
+        compliance: (n,) relative velocity per impulse, 1/kg; BY_NO_IMPULSE until a sweep needs it and what follows; 0
+            if the contact never pushes.
+        own: (2, n) velocity per impulse of each side, 1/kg.
+        low: (2, n) number of the first node that responds to an impulse.
+        width: (2, n) number of nodes that respond.
+        column: (2, n, max) velocity per impulse of these nodes, 1/kg.
+    """
+
+    pair: Integers
+    segment: Integers
+    at: Array
+    base: Integers
+    weights: Array
+    normal: Array
+    approach: Array
+    compliance: Array
+    own: Array
+    low: Integers
+    width: Integers
+    column: Array
 
 
 def flatten(rods: Sequence[Rod]) -> tuple[Bodies, Motion]:

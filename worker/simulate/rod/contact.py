@@ -13,14 +13,14 @@ that nothing tunnels. A pair remembers its sides, and a curve on the wrong side 
 each other have no sides yet: the first of them counts as the lower one at every crossing.
 """
 
-from typing import NamedTuple
-
 import numpy as np
+from numpy.typing import NDArray
 
-from worker.simulate.rod.arrays import Bodies, Integers, Motion, Scratch
+from worker.simulate.rod.arrays import BY_NO_IMPULSE, Bodies, Contacts, Integers, Motion, Scratch
 from worker.simulate.rod.bending import Operator
 from worker.simulate.rod.broad_phase import Candidates
 from worker.simulate.rod.compiled import compiled
+from worker.simulate.rod.duplicates import find_pushing
 from worker.simulate.rod.model import Array
 from worker.simulate.rod.narrow_phase import find_near
 
@@ -37,41 +37,8 @@ the direction between their axes may not lead out."""
 TURN_SHARE = 0.5
 """Cosine of the largest angle between the direction between the axes of such rods and the direction remembered."""
 
-STRETCH = 8
-"""Number of consecutive nodes in a stretch. Sweeps note for a whole stretch whether its velocities have changed."""
-
 SLOP_RADII = 0.002
 """Penetration that is not undone, in the smaller radius: lifting a rod out would give it energy."""
-
-
-class Contacts(NamedTuple):
-    """The contacts of one step, at the beginning of arrays with room for n. Each contact has two sides, a segment each.
-
-    Attributes:
-        pair: (n,) number of the contact's candidate pair.
-        segment: (2, n) number of each side's first node.
-        at: (2, n) place on each segment that is closest to the other one, as a share of its length, 0 to 1.
-        base: (2, n) number of the first of the four nodes on which each side acts.
-        weights: (2, n, 4) weights of these nodes.
-        normal: (n, 3) unit vector from the second side to the first.
-        approach: (n,) least relative speed of the first side along the normal, m/s.
-        compliance: (n,) relative velocity per impulse, 1/kg.
-        low: (2, n) number of the first node that responds to an impulse.
-        width: (2, n) number of nodes that respond.
-        column: (2, n, max) velocity per impulse of these nodes, 1/kg.
-    """
-
-    pair: Integers
-    segment: Integers
-    at: Array
-    base: Integers
-    weights: Array
-    normal: Array
-    approach: Array
-    compliance: Array
-    low: Integers
-    width: Integers
-    column: Array
 
 
 @compiled
@@ -87,6 +54,7 @@ def room_for_contacts(pairs: int, operator: Operator) -> Contacts:
         np.empty((pairs, 3)),
         np.empty(pairs),
         np.empty(pairs),
+        np.empty((2, pairs)),
         np.empty((2, pairs), np.int64),
         np.empty((2, pairs), np.int64),
         np.empty((2, pairs, widest)),
@@ -131,54 +99,6 @@ def _weigh(weights: Array, side: int, n: int, i: int, t: float, first: int, end:
 
 
 @compiled
-def _respond(
-    response: Array, reach: int, weights: Array, side: int, n: int, base: int, span: tuple[int, int], column: Array
-) -> float:
-    """Fill in the column of one side of a contact.
-
-    Args:
-        response: (nodes, width) response of the operator, 1/kg.
-        reach: number of nodes on either side beyond which the response is negligible.
-        weights: (2, n, 4) weights of the contacts' nodes.
-        side: side of the contact, 0 or 1.
-        n: number of the contact.
-        base: number of the first of the contact's four nodes on this side.
-        span: numbers of the first node that responds, and of the one after the last.
-        column: (2, n, max) array whose entry [side, n] gets the velocities per impulse, 1/kg.
-
-    Returns:
-        The velocity per impulse of the contact's point on this side, 1/kg.
-    """
-    centre = (response.shape[1] - 1) // 2
-    low, high = span
-    for j in range(high - low):
-        column[side, n, j] = 0.0
-    for k in range(4):
-        node, weight = base + k, weights[side, n, k]
-        if weight != 0.0:
-            for j in range(max(low, node - reach), min(high, node + reach + 1)):
-                column[side, n, j - low] += weight * response[node, j - node + centre]
-    total = 0.0
-    for k in range(4):
-        total += weights[side, n, k] * column[side, n, base + k - low]
-    return total
-
-
-@compiled
-def _crosstalk(base: Integers, weights: Array, n: int, low: Integers, width: Integers, column: Array) -> float:
-    """Compute the velocity that an impulse on the second side of contact n gives to its first side, 1/kg.
-
-    Both sides are of one rod. The arguments are the parts of `Contacts`.
-    """
-    total = 0.0
-    for k in range(4):
-        j = base[0, n] + k - low[1, n]
-        if 0 <= j < width[1, n]:
-            total += weights[0, n, k] * column[1, n, j]
-    return total
-
-
-@compiled
 def gather_contacts(
     bodies: Bodies,
     operator: Operator,
@@ -219,6 +139,8 @@ def gather_contacts(
         at,
         normal,
     )
+    pushing = np.empty(near, np.int64)
+    find_pushing(candidates.one, candidates.other, pairs, near, at, normal, impulse, pushing)
     count = 0
     for n in range(near):
         pair = pairs[n]
@@ -232,25 +154,24 @@ def gather_contacts(
         normal[count] = normal[n]
         distance = _turn(normal, count, remembered, pair, one + other)
         _forget_pull(impulse, pair, normal, count)
-        compliance = 0.0
-        for side in range(2):
-            rod, middle = owner[base[side, count]], base[side, count]
-            low, high = (
-                max(first[rod], middle - operator.reach[rod]),
-                min(first[rod + 1], middle + 4 + operator.reach[rod]),
-            )
-            contacts.low[side, count], contacts.width[side, count] = low, high - low
-            compliance += _respond(
-                operator.response, operator.reach[rod], weights, side, count, middle, (low, high), contacts.column
-            )
-        if owner[base[0, count]] == owner[base[1, count]]:
-            compliance -= 2 * _crosstalk(base, weights, count, contacts.low, contacts.width, contacts.column)
-        if compliance > 0.0:
+        if _can_answer(bodies.pinned, base, count):
             pairs[count] = pair
-            contacts.compliance[count] = compliance
-            contacts.approach[count] = allowed_approach(distance - one - other, operator.step, min(one, other))
+            contacts.compliance[count], contacts.approach[count] = 0.0, -np.inf
+            if pushing[n] == n:
+                contacts.compliance[count] = BY_NO_IMPULSE
+                contacts.approach[count] = allowed_approach(distance - one - other, operator.step, min(one, other))
             count += 1
     return count
+
+
+@compiled
+def _can_answer(pinned: NDArray[np.bool_], base: Integers, n: int) -> bool:
+    """Whether a node of contact n's four at either side, from `base[side, n]` on, is not pinned."""
+    for side in range(2):
+        for k in range(4):
+            if not pinned[base[side, n] + k]:
+                return True
+    return False
 
 
 @compiled
@@ -331,43 +252,3 @@ def on_cone(
     rubbing, most = np.sqrt(tx * tx + ty * ty + tz * tz), friction * along
     share = most / rubbing if rubbing > most else 1.0
     return along * nx + share * tx, along * ny + share * ty, along * nz + share * tz
-
-
-@compiled
-def push(column: Array, begin: int, low: int, width: int, x: float, y: float, z: float, v: Array) -> None:
-    """Add the velocities that an impulse causes.
-
-    Args:
-        column: velocities per impulse, 1/kg.
-        begin: number of the first entry of `column` that counts.
-        low: number of the first node that responds.
-        width: number of nodes that respond.
-        x: x of the impulse, N s.
-        y: y of the impulse, N s.
-        z: z of the impulse, N s.
-        v: (3, nodes) velocities, m/s, changed in place.
-    """
-    for j in range(width):
-        share = column[begin + j]
-        v[0, low + j] += x * share
-        v[1, low + j] += y * share
-        v[2, low + j] += z * share
-
-
-@compiled
-def stir(stirred: Integers, low: int, width: int, sweep: int) -> None:
-    """Note for stretches of nodes that a sweep has changed the velocities of `width` nodes from node `low` on."""
-    for stretch in range(low // STRETCH, (low + width - 1) // STRETCH + 1):
-        stirred[stretch] = sweep
-
-
-@compiled
-def is_calm(stirred: Integers, low: int, high: int, sweep: int) -> bool:
-    """Whether neither this sweep nor the one before it has changed the stretches of nodes `low` and `high`."""
-    return bool(stirred[low // STRETCH] < sweep - 1 and stirred[high // STRETCH] < sweep - 1)
-
-
-@compiled
-def was_stirred(stirred: Integers, first: int, end: int, sweep: int) -> bool:
-    """Whether a sweep after `sweep` has changed a stretch of the nodes from `first` to before `end`."""
-    return bool(stirred[first // STRETCH : (end - 1) // STRETCH + 1].max() > sweep)

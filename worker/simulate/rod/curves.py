@@ -5,6 +5,8 @@ continuous at the second node from either end ("not-a-knot", de Boor 1978, "A Pr
 is the curve of `worker.curves.smooth`. Its second derivatives at the nodes, here called bends, say all of it.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from worker.simulate.rod.arrays import Bodies
@@ -15,12 +17,28 @@ REFINEMENTS = 4
 """Steps of Newton's method from the closest places of two chords to those of their curves. In the tightest coils, of
 four diameters' radius, each step leaves a tenth of the error or less."""
 
+ENOUGH = 1e-2
+"""Change of the places in a step of Newton's method, in segments, after which they are exact enough: a tenth of it or
+less is left."""
+
 ALONG = 0.02
 """Determinant of the distance's second derivatives, over the product of its diagonal, below which two curves run along
 each other, within 8 degrees if they are straight: the closest places are then looked for at the segments' ends, too."""
 
 SINGULAR = 1e-4
 """Such a determinant below which Newton's method does not tell where along the curves they are closest."""
+
+Vector = tuple[float, float, float]
+"""Coordinates x, y and z."""
+
+
+class Polynomial(NamedTuple):
+    """The curve of a segment, a + b t + c t^2 + d t^3 at the share t of it, in m."""
+
+    a: Vector
+    b: Vector
+    c: Vector
+    d: Vector
 
 
 @compiled
@@ -74,14 +92,6 @@ def point(x: Array, bends: Array, c: int, i: int, t: float) -> float:
 
 
 @compiled
-def _slope(x: Array, bends: Array, c: int, i: int, t: float) -> float:
-    """Compute a coordinate of a curve's first derivative by the share of the segment, m."""
-    return float(
-        x[c, i + 1] - x[c, i] - ((2 - 6 * t + 3 * t * t) * bends[c, i] + (1 - 3 * t * t) * bends[c, i + 1]) / 6
-    )
-
-
-@compiled
 def closest_on_curves(x: Array, bends: Array, i: int, j: int, s: float, t: float) -> tuple[float, float]:
     """Find the closest places of two segments' curves, by Newton's method from those of the chords.
 
@@ -96,18 +106,22 @@ def closest_on_curves(x: Array, bends: Array, i: int, j: int, s: float, t: float
     Returns:
         The two places on the curves, as shares of the segments, 0 to 1.
     """
+    one, other = _polynomial(x, bends, i), _polynomial(x, bends, j)
     along = False
     for _ in range(REFINEMENTS):
         # Half the squared distance has the gradient (rs, -rt) and the second derivatives (a, -b; -b, e).
-        a = e = b = rs = rt = 0.0
-        for c in range(3):
-            away = point(x, bends, c, i, s) - point(x, bends, c, j, t)
-            p, q = _slope(x, bends, c, i, s), _slope(x, bends, c, j, t)
-            a += p * p + away * ((1 - s) * bends[c, i] + s * bends[c, i + 1])
-            e += q * q - away * ((1 - t) * bends[c, j] + t * bends[c, j + 1])
-            b += p * q
-            rs += away * p
-            rt += away * q
+        px, py, pz = _at(one, s)
+        qx, qy, qz = _at(other, t)
+        ax, ay, az = px - qx, py - qy, pz - qz
+        px, py, pz = _slope(one, s)
+        qx, qy, qz = _slope(other, t)
+        kx, ky, kz = _bend(one, s)
+        lx, ly, lz = _bend(other, t)
+        a = px * px + py * py + pz * pz + ax * kx + ay * ky + az * kz
+        e = qx * qx + qy * qy + qz * qz - ax * lx - ay * ly - az * lz
+        b = px * qx + py * qy + pz * qz
+        rs = ax * px + ay * py + az * pz
+        rt = ax * qx + ay * qy + az * qz
         determinant = a * e - b * b
         along = along or determinant < ALONG * a * e
         if a <= 0.0 or e <= 0.0 or determinant < SINGULAR * a * e:
@@ -122,47 +136,93 @@ def closest_on_curves(x: Array, bends: Array, i: int, j: int, s: float, t: float
             dt = min(max(dt, -t), 1.0 - t)
             ds = min(max((b * dt - rs) / a, -s), 1.0 - s)
         s, t = s + ds, t + dt
-        if abs(ds) + abs(dt) < 1e-3:
+        if abs(ds) + abs(dt) < ENOUGH:
             break
-    return _closest_at_ends(x, bends, i, j, s, t) if along else (s, t)
+    return _closest_at_ends(one, other, s, t) if along else (s, t)
 
 
 @compiled
-def _closest_at_ends(x: Array, bends: Array, i: int, j: int, s: float, t: float) -> tuple[float, float]:
+def _polynomial(x: Array, bends: Array, i: int) -> Polynomial:
+    """Find the coefficients of a segment's curve, in m, from those of its bends at either end."""
+    x2, y2, z2 = 0.5 * bends[0, i], 0.5 * bends[1, i], 0.5 * bends[2, i]
+    x3, y3, z3 = (
+        (bends[0, i + 1] - bends[0, i]) / 6,
+        (bends[1, i + 1] - bends[1, i]) / 6,
+        (bends[2, i + 1] - bends[2, i]) / 6,
+    )
+    return Polynomial(
+        (x[0, i], x[1, i], x[2, i]),
+        (x[0, i + 1] - x[0, i] - x2 - x3, x[1, i + 1] - x[1, i] - y2 - y3, x[2, i + 1] - x[2, i] - z2 - z3),
+        (x2, y2, z2),
+        (x3, y3, z3),
+    )
+
+
+@compiled
+def _at(curve: Polynomial, t: float) -> Vector:
+    a, b, c, d = curve
+    return (
+        a[0] + t * (b[0] + t * (c[0] + t * d[0])),
+        a[1] + t * (b[1] + t * (c[1] + t * d[1])),
+        a[2] + t * (b[2] + t * (c[2] + t * d[2])),
+    )
+
+
+@compiled
+def _slope(curve: Polynomial, t: float) -> Vector:
+    """Compute a curve's first derivative by the share of the segment, m."""
+    _, b, c, d = curve
+    return (
+        b[0] + t * (2 * c[0] + t * 3 * d[0]),
+        b[1] + t * (2 * c[1] + t * 3 * d[1]),
+        b[2] + t * (2 * c[2] + t * 3 * d[2]),
+    )
+
+
+@compiled
+def _bend(curve: Polynomial, t: float) -> Vector:
+    """Compute a curve's second derivative by the share of the segment, m."""
+    _, _, c, d = curve
+    return 2 * c[0] + 6 * t * d[0], 2 * c[1] + 6 * t * d[1], 2 * c[2] + 6 * t * d[2]
+
+
+@compiled
+def _closest_at_ends(one: Polynomial, other: Polynomial, s: float, t: float) -> tuple[float, float]:
     """Find the closest of two places and of each segment's ends with its closest place on the other segment's curve."""
-    best_s, best_t, least = s, t, _squared(x, bends, i, j, s, t)
+    best_s, best_t, least = s, t, _squared(one, other, s, t)
     for end in (0.0, 1.0):
-        place = _closest_to_point(x, bends, i, end, j, t)
-        squared = _squared(x, bends, i, j, end, place)
+        place = _closest_to_point(_at(one, end), other, t)
+        squared = _squared(one, other, end, place)
         if squared < least:
             best_s, best_t, least = end, place, squared
-        place = _closest_to_point(x, bends, j, end, i, s)
-        squared = _squared(x, bends, i, j, place, end)
+        place = _closest_to_point(_at(other, end), one, s)
+        squared = _squared(one, other, place, end)
         if squared < least:
             best_s, best_t, least = place, end, squared
     return best_s, best_t
 
 
 @compiled
-def _closest_to_point(x: Array, bends: Array, i: int, s: float, j: int, t: float) -> float:
-    """Find the place on segment j's curve, from a guess t, that is closest to share s of segment i's curve."""
+def _closest_to_point(place: Vector, curve: Polynomial, t: float) -> float:
+    """Find the share of a segment, from a guess t, at which its curve is closest to a place."""
     for _ in range(REFINEMENTS):
-        slope = bend = 0.0
-        for c in range(3):
-            away = point(x, bends, c, i, s) - point(x, bends, c, j, t)
-            q = _slope(x, bends, c, j, t)
-            slope += away * q
-            bend += q * q - away * ((1 - t) * bends[c, j] + t * bends[c, j + 1])
+        x, y, z = _at(curve, t)
+        ax, ay, az = place[0] - x, place[1] - y, place[2] - z
+        qx, qy, qz = _slope(curve, t)
+        kx, ky, kz = _bend(curve, t)
+        bend = qx * qx + qy * qy + qz * qz - ax * kx - ay * ky - az * kz
         if bend <= 0.0:
             break
-        t = min(max(t + slope / bend, 0.0), 1.0)
+        before = t
+        t = min(max(t + (ax * qx + ay * qy + az * qz) / bend, 0.0), 1.0)
+        if abs(t - before) < ENOUGH:
+            break
     return t
 
 
 @compiled
-def _squared(x: Array, bends: Array, i: int, j: int, s: float, t: float) -> float:
-    """Compute the squared distance of share s of segment i's curve from share t of segment j's, m^2."""
-    total = 0.0
-    for c in range(3):
-        total += (point(x, bends, c, i, s) - point(x, bends, c, j, t)) ** 2
-    return total
+def _squared(one: Polynomial, other: Polynomial, s: float, t: float) -> float:
+    """Compute the squared distance of share s of one curve from share t of the other, m^2."""
+    px, py, pz = _at(one, s)
+    qx, qy, qz = _at(other, t)
+    return (px - qx) ** 2 + (py - qy) ** 2 + (pz - qz) ** 2

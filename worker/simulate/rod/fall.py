@@ -12,7 +12,7 @@ from farm.scene.scene import Scene
 from farm.spec.simulation import RodFall
 from worker.simulate.rod.knots import tie
 from worker.simulate.rod.model import Array, Breeze, Rod, Surroundings
-from worker.simulate.rod.segments import segment_m
+from worker.simulate.rod.segments import FINEST_RADII, MOST_TURN_RAD, largest_turn_rad, segment_m
 from worker.simulate.rod.simulation import DivergedError, RodSimulation, TooManyStepsError
 from worker.simulate.shapes import CableShapes, height_at, start_nodes
 
@@ -148,8 +148,10 @@ def _rod(cable: Cable, segment_radii: float) -> Rod:
         return _placed(tie(cable, segment_radii), cable)
     radius = cable.diameter_m / 2
     length = segment_m(radius, cable.youngs_modulus_pa, cable.density_kg_m3, segment_radii)
-    segments = int(np.clip(round(cable.length_m / length), 8, 2000))
-    nodes = start_nodes(cable, segments + 1)
+    nodes = start_nodes(cable, _segments(cable, length) + 1)
+    turn = largest_turn_rad(nodes)
+    if turn > MOST_TURN_RAD:
+        nodes = start_nodes(cable, _segments(cable, max(length * MOST_TURN_RAD / turn, FINEST_RADII * radius)) + 1)
     return Rod(
         nodes_m=nodes,
         radius_m=radius,
@@ -157,6 +159,11 @@ def _rod(cable: Cable, segment_radii: float) -> Rod:
         density_kg_m3=cable.density_kg_m3,
         natural_curvature_per_m=curvature_at_rest(nodes),
     )
+
+
+def _segments(cable: Cable, length_m: float) -> int:
+    """Count the segments of about a length, in metres, that make up a cable."""
+    return int(np.clip(round(cable.length_m / length_m), 8, 2000))
 
 
 def _placed(knotted: Rod, cable: Cable) -> Rod:

@@ -3,10 +3,12 @@
 from worker.simulate.rod.arrays import Bodies, Integers, Motion, Scratch
 from worker.simulate.rod.bending import Operator
 from worker.simulate.rod.compiled import compiled
-from worker.simulate.rod.contact import allowed_approach, is_calm, on_cone, push, stir
+from worker.simulate.rod.contact import allowed_approach, on_cone
 from worker.simulate.rod.curves import point
 from worker.simulate.rod.lengths import AT_REST, FREE, IN_HEIGHT
 from worker.simulate.rod.model import Array
+from worker.simulate.rod.response import push
+from worker.simulate.rod.stirring import is_calm, stir
 
 NEAR_FLOOR_RADII = 0.25
 """Gap to the floor, in radii, beyond twice a node's vertical path in a step, above which the floor does not act on the

@@ -7,6 +7,14 @@ from worker.simulate.rod.compiled import compiled
 from worker.simulate.rod.model import Array
 from worker.simulate.rod.world import World, air_velocity
 
+LEAST_ALIGNED = 0.1
+"""Share of its natural bend about one axis below which a rod's axis of natural curvature fades: it then has no clear
+direction."""
+
+UPRIGHT = 1e-3
+"""Share of that bend that counts as about the vertical whatever the rod's shape: a straight rod would not know where to
+bend. It turns a coil less than its weight does."""
+
 AIR_DENSITY_KG_M3 = 1.2
 """Density of air at 20 degrees Celsius and sea level, in kg/m3."""
 
@@ -36,28 +44,67 @@ def _add_gravity(bodies: Bodies, motion: Motion, gravity: Array, force: Array) -
 
 
 @compiled
+def natural_axis(bodies: Bodies, x: Array, rod: int) -> tuple[float, float, float, float]:
+    """Find the axis about which a rod is curved by nature.
+
+    Rods carry no material frame. The natural curvature k acts about one axis for the whole rod, the one about which the
+    rod is bent as its nature asks: along B = sum(k e1 x e2), with the two edges at each node. It turns with the rod, so
+    a coil may tip over. While B is less than `LEAST_ALIGNED` of what it is in the natural shape, the axis is shorter
+    than 1.
+
+    Returns:
+        The axis (x, y, z), and the energy of the natural curvature over -EI / l^2, m.
+    """
+    bx = by = bz = natural = 0.0
+    for i in range(bodies.first[rod] + 1, bodies.first[rod + 1] - 1):
+        k = bodies.curvature[i]
+        if k != 0.0:
+            px, py, pz = x[0, i] - x[0, i - 1], x[1, i] - x[1, i - 1], x[2, i] - x[2, i - 1]
+            qx, qy, qz = x[0, i + 1] - x[0, i], x[1, i + 1] - x[1, i], x[2, i + 1] - x[2, i]
+            bx += k * (py * qz - pz * qy)
+            by += k * (pz * qx - px * qz)
+            bz += k * (px * qy - py * qx)
+            natural += k * k
+    natural *= bodies.length[rod] ** 3
+    bz += UPRIGHT * natural
+    size, least = np.sqrt(bx * bx + by * by + bz * bz), LEAST_ALIGNED * natural
+    if natural == 0.0:
+        return 0.0, 0.0, 0.0, 0.0
+    if size < least:
+        return bx / least, by / least, bz / least, 0.5 * (size * size / least + least)
+    return bx / size, by / size, bz / size, size
+
+
+@compiled
 def _add_elastic(bodies: Bodies, motion: Motion, rod: int, force: Array) -> None:
     """Add the forces of a rod's bending about its natural shape to `force` (3, nodes), N."""
     first, end, length = bodies.first[rod], bodies.first[rod + 1], bodies.length[rod]
     x = motion.x
     stiff = bodies.stiffness[rod] / length**3
+    ax, ay, az, _ = natural_axis(bodies, x, rod)
     for i in range(first + 1, end - 1):
         for c in range(3):
             bend = stiff * (x[c, i - 1] - 2 * x[c, i] + x[c, i + 1])
             force[c, i - 1] -= bend
             force[c, i] += 2 * bend
             force[c, i + 1] -= bend
-        # The energy of natural curvature k about z is -EI k / l^2 (e1 x e2)_z with the two edges at the node.
+        # The energy of natural curvature k about the axis a is -EI k / l^2 (e1 x e2) . a.
         turn = bodies.stiffness[rod] * bodies.curvature[i] / length**2
         if turn != 0.0:
-            e1x, e1y = x[0, i] - x[0, i - 1], x[1, i] - x[1, i - 1]
-            e2x, e2y = x[0, i + 1] - x[0, i], x[1, i + 1] - x[1, i]
-            force[0, i - 1] -= turn * e2y
-            force[1, i - 1] += turn * e2x
-            force[0, i + 1] -= turn * e1y
-            force[1, i + 1] += turn * e1x
-            force[0, i] += turn * (e1y + e2y)
-            force[1, i] -= turn * (e1x + e2x)
+            px, py, pz = x[0, i] - x[0, i - 1], x[1, i] - x[1, i - 1], x[2, i] - x[2, i - 1]
+            qx, qy, qz = x[0, i + 1] - x[0, i], x[1, i + 1] - x[1, i], x[2, i + 1] - x[2, i]
+            # By e1 the energy changes with e2 x a, by e2 with a x e1.
+            fx, fy, fz = turn * (qy * az - qz * ay), turn * (qz * ax - qx * az), turn * (qx * ay - qy * ax)
+            gx, gy, gz = turn * (ay * pz - az * py), turn * (az * px - ax * pz), turn * (ax * py - ay * px)
+            force[0, i - 1] -= fx
+            force[1, i - 1] -= fy
+            force[2, i - 1] -= fz
+            force[0, i] += fx - gx
+            force[1, i] += fy - gy
+            force[2, i] += fz - gz
+            force[0, i + 1] += gx
+            force[1, i + 1] += gy
+            force[2, i + 1] += gz
 
 
 @compiled
@@ -113,12 +160,20 @@ def _damped(drag: float, step: float, mass: float) -> float:
 
 
 @compiled
-def _resist(bodies: Bodies, motion: Motion, slower: float, momentum: Array) -> None:
-    """Slow the nodes of rods that touch something by `slower`, m/s, or stop them, in `momentum` (3, nodes), N s."""
+def resisted(bodies: Bodies, motion: Motion, world: World, step: float, rod: int) -> float:
+    """Compute the speed, m/s, that dry resistance takes from a rod in a step: 0 if nothing touches the rod."""
+    if not motion.touched[rod]:
+        return 0.0
+    return world.resistance * step * _load_share(bodies, motion, rod)
+
+
+@compiled
+def _resist(bodies: Bodies, motion: Motion, world: World, step: float, momentum: Array) -> None:
+    """Slow the nodes of rods that touch something, or stop them, in `momentum` (3, nodes), N s."""
     for rod in range(len(bodies.length)):
-        if not motion.touched[rod]:
+        most = resisted(bodies, motion, world, step, rod)
+        if most == 0.0:
             continue
-        most = slower * _load_share(bodies, motion, rod)
         for i in range(bodies.first[rod], bodies.first[rod + 1]):
             speed = np.sqrt(motion.v[0, i] ** 2 + motion.v[1, i] ** 2 + motion.v[2, i] ** 2)
             if speed > 0.0:
@@ -150,5 +205,4 @@ def momentum_to_be(bodies: Bodies, motion: Motion, world: World, step: float, ti
     for c in range(3):
         for i in range(len(bodies.mass)):
             momentum[c, i] = bodies.mass[i] * motion.v[c, i] + step * force[c, i]
-    if world.resistance > 0.0:
-        _resist(bodies, motion, world.resistance * step, momentum)
+    _resist(bodies, motion, world, step, momentum)

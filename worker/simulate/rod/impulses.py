@@ -1,14 +1,16 @@
 """Finds the impulses of all contacts of a step, by projected Gauss-Seidel iteration in fixed order."""
 
-from typing import NamedTuple
-
-from worker.simulate.rod.arrays import Bodies, Integers, Motion, Scratch
+from worker.simulate.rod.arrays import BY_NO_IMPULSE, Bodies, Contacts, Integers, Motion, Scratch
 from worker.simulate.rod.bending import Operator, solve
 from worker.simulate.rod.compiled import compiled
-from worker.simulate.rod.contact import Contacts, is_calm, on_cone, push, stir
+from worker.simulate.rod.contact import on_cone
 from worker.simulate.rod.floor import sweep_floor
 from worker.simulate.rod.forces import add_tension
 from worker.simulate.rod.model import Array
+from worker.simulate.rod.pressing import press_through
+from worker.simulate.rod.response import fill_columns, push
+from worker.simulate.rod.stirring import is_calm, stir
+from worker.simulate.rod.touch import Touch
 from worker.simulate.rod.world import World
 
 MAX_SWEEPS = 8
@@ -29,28 +31,10 @@ SMALL_SHARE = 0.05
 """Share of the change below which sweeps end, up to which they do not pass a change on either."""
 
 
-class Touch(NamedTuple):
-    """The contacts of this step, between rods and with the floor.
-
-    Loops take its parts as arguments: compiled code would count references at every access to a nested tuple.
-
-    Attributes:
-        contacts: contacts between rods, at the beginning of their arrays.
-        pairs: number of contacts between rods.
-        impulse: (candidates, 3) impulse of each pair that may touch, N s.
-        floor: numbers of the nodes that the floor may touch.
-    """
-
-    contacts: Contacts
-    pairs: int
-    impulse: Array
-    floor: Integers
-
-
 @compiled
 def _sweep_contacts(  # noqa: PLR0913, PLR0917 - in nested tuples every access would count references
-    owner: Integers,
-    coupling: Array,
+    bodies: Bodies,
+    operator: Operator,
     contacts: Contacts,
     pairs: int,
     impulses: Array,
@@ -63,9 +47,9 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - in nested tuples every access w
     """Give each contact between rods the impulse that it needs, contact after contact.
 
     Args:
-        owner: (nodes,) number of each node's rod.
-        coupling: (rods,) sum of all nodes' changes of velocity; see `worker.simulate.rod.bending.Operator`.
-        contacts: contacts of this step, at the beginning of their arrays.
+        bodies: the rods.
+        operator: operator of this time step.
+        contacts: contacts of this step, at the beginning of their arrays; those that push get their columns.
         pairs: number of contacts.
         impulses: (candidates, 3) impulse of each pair that may touch, N s, changed in place.
         friction: Coulomb's coefficient.
@@ -79,6 +63,8 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - in nested tuples every access w
         The largest change of velocity, m/s, summed over a rod.
     """
     base, weights, normal, compliance = contacts.base, contacts.weights, contacts.normal, contacts.compliance
+    low, width, column = contacts.low, contacts.width, contacts.column
+    owner, coupling = bodies.owner, operator.coupling
     worst = 0.0
     for step in range(pairs):
         n = pairs - 1 - step if sweep % 2 == 1 else step
@@ -94,6 +80,13 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - in nested tuples every access w
         pair = contacts.pair[n]
         nx, ny, nz, least = normal[n, 0], normal[n, 1], normal[n, 2], contacts.approach[n]
         px, py, pz = impulses[pair, 0], impulses[pair, 1], impulses[pair, 2]
+        pushes = px != 0.0 or py != 0.0 or pz != 0.0
+        if not pushes and ux * nx + uy * ny + uz * nz >= least:
+            continue
+        if compliance[n] == BY_NO_IMPULSE:
+            fill_columns(bodies, operator, contacts, n)
+        if compliance[n] == 0.0:
+            continue
         wx, wy, wz = on_cone(
             px - (ux - least * nx) / compliance[n],
             py - (uy - least * ny) / compliance[n],
@@ -107,7 +100,6 @@ def _sweep_contacts(  # noqa: PLR0913, PLR0917 - in nested tuples every access w
         moved = max(abs(dx), abs(dy), abs(dz)) * compliance[n] * max(coupling[owner[i]], coupling[owner[j]])
         if moved > small:
             impulses[pair, 0], impulses[pair, 1], impulses[pair, 2] = wx, wy, wz
-            low, width, column = contacts.low, contacts.width, contacts.column
             push(column[0, n], 0, low[0, n], width[0, n], dx, dy, dz, v)
             push(column[1, n], 0, low[1, n], width[1, n], -dx, -dy, -dz, v)
             stir(stirred, low[0, n], width[0, n], sweep)
@@ -196,33 +188,7 @@ def correct(
     scratch.owed[:] = 0.0
     while done < last:
         done += 1
-        small = max(SMALL_CHANGE_M_S, SMALL_SHARE * tolerance)
-        between = _sweep_contacts(
-            bodies.owner,
-            operator.coupling,
-            touch.contacts,
-            touch.pairs,
-            touch.impulse,
-            world.friction_rods,
-            done,
-            small,
-            scratch.stirred,
-            scratch.v,
-        )
-        below = sweep_floor(
-            bodies,
-            operator,
-            motion.floor_impulse,
-            scratch.rise,
-            touch.floor,
-            world.friction_floor,
-            done,
-            small,
-            scratch.owed,
-            scratch.stirred,
-            scratch.v,
-        )
-        worst = max(between, below)
+        worst = _sweep(bodies, operator, motion, world, touch, scratch, done, tolerance)
         if tolerance == 0.0:
             tolerance = max(TOLERANCE_M_S, ENOUGH * worst)
         if worst < tolerance:
@@ -231,57 +197,55 @@ def correct(
 
 
 @compiled
-def work_of_depenetration(motion: Motion, touch: Touch, rise: Array) -> float:
-    """Bound the work, J, by which the impulses of a step push apart rods and floor that have cut into each other."""
-    contacts, total = touch.contacts, 0.0
-    for n in range(touch.pairs):
-        if contacts.approach[n] > 0.0:
-            normal, impulse = contacts.normal[n], touch.impulse[contacts.pair[n]]
-            along = impulse[0] * normal[0] + impulse[1] * normal[1] + impulse[2] * normal[2]
-            total += contacts.approach[n] * along
-    for i in touch.floor:
-        total += max(rise[i], 0.0) * motion.floor_impulse[2, i]
-    return total
-
-
-@compiled
-def find_touched(bodies: Bodies, motion: Motion, touch: Touch) -> None:
-    """Note in `motion` which rods the floor or another rod has pushed in this step, and which have landed.
-
-    A rod lands on the floor, on a pinned rod, or on a rod that has landed. One that touches itself goes on falling.
-    """
-    motion.touched[:] = False
-    for i in touch.floor:
-        if motion.floor_impulse[2, i] > 0.0:
-            motion.touched[bodies.owner[i]] = motion.landed[bodies.owner[i]] = True
-    for n in range(touch.pairs):
-        push = touch.impulse[touch.contacts.pair[n]]
-        if push[0] != 0.0 or push[1] != 0.0 or push[2] != 0.0:
-            i, j = touch.contacts.base[0, n], touch.contacts.base[1, n]
-            one, other = bodies.owner[i], bodies.owner[j]
-            if one != other:
-                motion.touched[one] = motion.touched[other] = True
-                if motion.landed[one] or motion.landed[other] or bodies.pinned[i] or bodies.pinned[j]:
-                    motion.landed[one] = motion.landed[other] = True
-
-
-@compiled
-def worst_miss(contacts: Contacts, pairs: int, v: Array) -> float:
-    """Compute the largest excess of an approach over what its contact allows, m/s, 0 or more.
-
-    Args:
-        contacts: contacts between rods, at the beginning of their arrays.
-        pairs: number of contacts.
-        v: (3, nodes) velocities, m/s.
-    """
-    base, weights, normal = contacts.base, contacts.weights, contacts.normal
-    worst = 0.0
-    for n in range(pairs):
-        i, j = base[0, n], base[1, n]
-        along = 0.0
-        for k in range(4):
-            a, b = weights[0, n, k], weights[1, n, k]
-            for c in range(3):
-                along += normal[n, c] * (a * v[c, i + k] - b * v[c, j + k])
-        worst = max(worst, contacts.approach[n] - along)
-    return worst
+def _sweep(
+    bodies: Bodies,
+    operator: Operator,
+    motion: Motion,
+    world: World,
+    touch: Touch,
+    scratch: Scratch,
+    sweep: int,
+    tolerance: float,
+) -> float:
+    """Sweep once over all contacts; return the largest change of velocity, m/s, summed over a rod."""
+    small = max(SMALL_CHANGE_M_S, SMALL_SHARE * tolerance)
+    through = press_through(
+        bodies,
+        operator,
+        touch.contacts,
+        touch.pairs,
+        touch.impulse,
+        motion.floor_impulse,
+        scratch.rise,
+        world.friction_floor,
+        sweep,
+        small,
+        scratch.stirred,
+        scratch.v,
+    )
+    between = _sweep_contacts(
+        bodies,
+        operator,
+        touch.contacts,
+        touch.pairs,
+        touch.impulse,
+        world.friction_rods,
+        sweep,
+        small,
+        scratch.stirred,
+        scratch.v,
+    )
+    below = sweep_floor(
+        bodies,
+        operator,
+        motion.floor_impulse,
+        scratch.rise,
+        touch.floor,
+        world.friction_floor,
+        sweep,
+        small,
+        scratch.owed,
+        scratch.stirred,
+        scratch.v,
+    )
+    return max(through, between, below)

@@ -5,21 +5,25 @@ from typing import NamedTuple
 
 import numpy as np
 
-from worker.simulate.rod.arrays import Bodies, Motion, Scratch
+from worker.simulate.rod.arrays import Bodies, Contacts, Motion, Scratch
 from worker.simulate.rod.bending import Operator
 from worker.simulate.rod.broad_phase import Candidates, find_candidates, middle_of, still_hold
 from worker.simulate.rod.compiled import compiled
-from worker.simulate.rod.contact import STRETCH, Contacts, gather_contacts, room_for_contacts
+from worker.simulate.rod.contact import gather_contacts, room_for_contacts
 from worker.simulate.rod.curves import find_bends, find_bulge
 from worker.simulate.rod.floor import find_near_floor
 from worker.simulate.rod.forces import momentum_to_be
-from worker.simulate.rod.impulses import Touch
 from worker.simulate.rod.lengths import AT_REST, FREE, keep_lengths, room_for_system
 from worker.simulate.rod.model import Array
 from worker.simulate.rod.narrow_phase import find_reach
-from worker.simulate.rod.step import make_step
+from worker.simulate.rod.step import largest_change, make_step
+from worker.simulate.rod.stirring import STRETCH
 from worker.simulate.rod.tally import CONTACTS, LISTS, STEPS, Tally
+from worker.simulate.rod.touch import Touch, ease
 from worker.simulate.rod.world import World
+
+CALM_STEPS = 4
+"""Number of steps with little change of velocity, before a time step longer than planned is tried."""
 
 WARY_STEPS = 16
 """Number of steps after one without a sound end, before a larger time step is tried again."""
@@ -48,6 +52,10 @@ class Bounds(NamedTuple):
         most_move: largest movement of a node in a step while others may be in its way, m; inf if the time step can't be
             made smaller.
         few_move: movement below which the time step may be larger, m; negative if it can't be made larger.
+        most_jolt: distance by which the change of any node's velocity may bend its way in a step, m: the step errs by
+            half of it. inf for a step that is no longer than planned.
+        few_jolt: distance below which, for some steps, the time step may be longer than planned once all rods have
+            landed, m; inf if the longer one is no longer than planned.
         finest: whether the time step can't be made smaller.
     """
 
@@ -58,6 +66,8 @@ class Bounds(NamedTuple):
     horizon: float
     most_move: float
     few_move: float
+    most_jolt: float
+    few_jolt: float
     finest: bool
 
 
@@ -103,16 +113,24 @@ def march(
             tally.counts[LISTS] += 1
             if len(contacts.pair) < len(candidates.one) + 1:
                 contacts = room_for_contacts(len(candidates.one) + 1, operator)
-        if move > bounds.most_move and len(candidates.one) > 0:
+        if (move > bounds.most_move and len(candidates.one) > 0) or tally.jolt[0] > bounds.most_jolt:
+            tally.jolt[0], tally.calm[0] = 0.0, 0
             return Outcome.TOO_FAST.value, candidates
-        if move < bounds.few_move and tally.wary[0] <= 0:
+        is_calm = np.isinf(bounds.few_jolt) or tally.calm[0] >= CALM_STEPS
+        if move < bounds.few_move and tally.wary[0] <= 0 and is_calm:
+            tally.jolt[0], tally.calm[0] = 0.0, 0
             return Outcome.SLOW_ENOUGH.value, candidates
         momentum_to_be(bodies, motion, world, step, tally.time[0] + step, scratch.momentum)
-        touch = _find_touch(bodies, operator, motion, world, candidates, contacts, near, scratch)
+        scratch.before[:] = motion.v
+        touch = _find_touch(bodies, operator, motion, world, candidates, contacts, near, scratch, -tally.gained[0])
         if not make_step(bodies, operator, motion, world, touch, scratch, tally, bounds.finest):
             tally.wary[0] = WARY_STEPS
+            tally.jolt[0], tally.calm[0] = 0.0, 0
             return Outcome.UNSOUND.value, candidates
         _count(tally, step, touch.pairs)
+        tally.jolt[0] = step * largest_change(scratch.before, motion.v)
+        is_calm = tally.jolt[0] < bounds.few_jolt and _has_landed(bodies, motion)
+        tally.calm[0] = tally.calm[0] + 1 if is_calm else 0
         rms, farthest = _distances(motion.x, motion.anchor)
         if not np.isfinite(rms):
             return Outcome.DIVERGED.value, candidates
@@ -147,6 +165,7 @@ def room_for_step(nodes: int) -> Scratch:
         load=np.empty((3, nodes)),
         v=np.empty((3, nodes)),
         last=np.empty((3, nodes)),
+        before=np.empty((3, nodes)),
         start=np.empty((3, nodes)),
         bends=np.zeros((3, nodes)),
         bulge=np.empty(nodes),
@@ -161,7 +180,7 @@ def room_for_step(nodes: int) -> Scratch:
 
 
 @compiled
-def _find_touch(
+def _find_touch(  # noqa: PLR0913, PLR0917 - the whole state, and what the last step lost
     bodies: Bodies,
     operator: Operator,
     motion: Motion,
@@ -170,6 +189,7 @@ def _find_touch(
     contacts: Contacts,
     near: float,
     scratch: Scratch,
+    lost: float,
 ) -> Touch:
     count = gather_contacts(bodies, operator, motion, candidates, scratch, near, contacts)
     touching = 0
@@ -177,7 +197,9 @@ def _find_touch(
         touching = find_near_floor(
             bodies, motion, scratch.bends, operator.step, world.friction_floor, scratch.near_floor, scratch.rise
         )
-    return Touch(contacts, count, candidates.impulse, scratch.near_floor[:touching])
+    touch = Touch(contacts, count, candidates.impulse, scratch.near_floor[:touching])
+    ease(bodies, motion, touch, scratch.rise, lost)
+    return touch
 
 
 @compiled
@@ -195,6 +217,15 @@ def _is_landing(bodies: Bodies, motion: Motion, horizon: float) -> bool:
         if motion.x[2, i] - bodies.radius[bodies.owner[i]] + horizon * motion.v[2, i] < 0.0:
             return True
     return False
+
+
+@compiled
+def _has_landed(bodies: Bodies, motion: Motion) -> bool:
+    """Whether every rod has landed, or is held in its place."""
+    for rod in range(len(bodies.length)):
+        if not motion.landed[rod] and not bodies.pinned[bodies.first[rod]]:
+            return False
+    return True
 
 
 @compiled

@@ -8,8 +8,8 @@ changed its sign tells, as steps are so short that it changes once.
 
 import numpy as np
 
+from worker.simulate.rod.arrays import Contacts
 from worker.simulate.rod.compiled import compiled
-from worker.simulate.rod.contact import Contacts
 from worker.simulate.rod.model import Array
 from worker.simulate.rod.narrow_phase import closest
 

@@ -8,6 +8,7 @@ import numpy as np
 from worker.simulate.rod.arrays import Bodies, flatten
 from worker.simulate.rod.bending import Operator, operator_for
 from worker.simulate.rod.broad_phase import no_candidates
+from worker.simulate.rod.forces import natural_axis
 from worker.simulate.rod.march import Bounds, Outcome, march, prestress
 from worker.simulate.rod.model import Array, Rod, Surroundings
 from worker.simulate.rod.tally import COUNT_NAMES, STEPS, new_tally
@@ -15,6 +16,14 @@ from worker.simulate.rod.world import world_of
 
 MAX_HALVINGS = 8
 """Largest number of times that the time step is halved."""
+
+MAX_DOUBLINGS = 1
+"""Largest number of times that the planned time step is doubled, while rods settle slowly. In longer steps sweeps need
+more turns than there are fewer steps."""
+
+JOLT_RADII = 0.05
+"""Largest distance, in the smallest radius, by which the change of a node's velocity may bend its way in a step that is
+longer than planned. Implicit Euler errs by half of it: a fortieth of the radius."""
 
 MOVE_RADII = 1.0
 """Largest relative movement of nodes in a step, in the smallest radius; faster nodes get a smaller time step."""
@@ -64,7 +73,8 @@ class RodSimulation:
     """A fall of rods.
 
     Attributes:
-        step_s: time step, in seconds; it is halved while rods move too far in one, or while it has no sound end.
+        step_s: planned time step, in seconds. It is halved while rods move too far in one, or while it has no sound
+            end, and doubled while landed rods settle without haste.
     """
 
     def __init__(self, rods: Sequence[Rod], surroundings: Surroundings, *, steps_per_s: float) -> None:
@@ -80,7 +90,8 @@ class RodSimulation:
         self._damping = surroundings.damping_s
         self._world = world_of(surroundings)
         self._operators: dict[int, Operator] = {}
-        self._least_halvings = self._halvings = _halvings_for_curvature(self._bodies, self.step_s, self._damping)
+        self._coarsest = _halvings_for_curvature(self._bodies, self.step_s, self._damping)
+        self._least_halvings = self._halvings = max(self._coarsest, 0)
         self._tally = new_tally()
         prestress(self._bodies, self._operator(), self._motion, self._world)
         self._candidates = no_candidates(len(self._bodies.mass))
@@ -147,11 +158,9 @@ class RodSimulation:
         bodies, x, v = self._bodies, self._motion.x, self._motion.v
         bending = 0.0
         for rod, (length, stiffness) in enumerate(zip(bodies.length, bodies.stiffness, strict=True)):
-            nodes, curvature = x[:, self._part(rod)], bodies.curvature[self._part(rod)][1:-1]
-            edges = np.diff(nodes, axis=1)
-            turn = edges[0, :-1] * edges[1, 1:] - edges[1, :-1] * edges[0, 1:]
+            edges = np.diff(x[:, self._part(rod)], axis=1)
             bending += stiffness / (2 * length**3) * float(np.sum(np.diff(edges, axis=1) ** 2))
-            bending -= stiffness / length**2 * float(np.sum(curvature * turn))
+            bending -= stiffness / length**2 * natural_axis(bodies, x, rod)[3]
         return Energy(
             kinetic=0.5 * float(np.sum(bodies.mass * v**2)),
             gravitational=-float(np.sum(self._weighing_kg() * (self._world.gravity @ x))),
@@ -175,7 +184,7 @@ class RodSimulation:
         Raises:
             DivergedError: if the state is no longer finite.
         """
-        self._march(steps, NEVER_RESTS, np.inf)
+        self._march(steps, NEVER_RESTS, np.inf, self._least_halvings)
 
     @property
     def coarsest_steps_per_s(self) -> float:
@@ -202,15 +211,17 @@ class RodSimulation:
             DivergedError: if the state is no longer finite.
             TooManyStepsError: if the steps are made before the rods rest and before the time is over.
         """
-        outcome = self._march(max_steps, (rms_m_s * quiet_s, fastest_m_s * quiet_s, quiet_s), max_time_s)
+        rest = (rms_m_s * quiet_s, fastest_m_s * quiet_s, quiet_s)
+        outcome = self._march(max_steps, rest, max_time_s, self._coarsest)
         if outcome is not Outcome.RESTED and self.time_s < max_time_s:
             raise TooManyStepsError(f"after {max_steps} time steps, at {self.time_s:.4g} s")
         return outcome is Outcome.RESTED
 
-    def _march(self, steps: int, rest: tuple[float, float, float], max_time_s: float) -> Outcome:
+    def _march(self, steps: int, rest: tuple[float, float, float], max_time_s: float, coarsest: int) -> Outcome:
         end = self.steps + steps
+        self._change_step(max(self._halvings, coarsest))
         while self.steps < end and self.time_s < max_time_s:
-            bounds = self._bounds(end - self.steps, rest, max_time_s)
+            bounds = self._bounds(end - self.steps, rest, max_time_s, coarsest)
             code, self._candidates = march(
                 self._bodies, self._operator(), self._motion, self._world, self._candidates, self._tally, bounds
             )
@@ -227,10 +238,11 @@ class RodSimulation:
                     pass
         return Outcome.STEPS_DONE
 
-    def _bounds(self, steps: int, rest: tuple[float, float, float], max_time_s: float) -> Bounds:
+    def _bounds(self, steps: int, rest: tuple[float, float, float], max_time_s: float, coarsest: int) -> Bounds:
         left = (max_time_s - self.time_s) / self._operator().step
-        finest, coarsest = self._halvings >= MAX_HALVINGS, self._halvings <= self._least_halvings
-        move = MOVE_RADII * float(self._bodies.radius.min())
+        finest, planned = self._halvings >= MAX_HALVINGS, self._least_halvings
+        smallest = float(self._bodies.radius.min())
+        move, jolt = MOVE_RADII * smallest, JOLT_RADII * smallest
         return Bounds(
             steps=min(steps, int(np.ceil(left))) if np.isfinite(left) else steps,
             rest_rms=rest[0],
@@ -238,7 +250,9 @@ class RodSimulation:
             rest_s=rest[2],
             horizon=2 * self.step_s,
             most_move=np.inf if finest else move,
-            few_move=-1.0 if coarsest else move / WELL_BELOW,
+            few_move=-1.0 if self._halvings <= coarsest else move / WELL_BELOW,
+            most_jolt=jolt if self._halvings < planned else np.inf,
+            few_jolt=jolt / WELL_BELOW**2 if self._halvings <= planned else np.inf,
             finest=finest,
         )
 
@@ -250,7 +264,7 @@ class RodSimulation:
 
     def _operator(self) -> Operator:
         if self._halvings not in self._operators:
-            step = self.step_s / 2**self._halvings
+            step = self.step_s * 2.0**-self._halvings
             self._operators[self._halvings] = operator_for(self._bodies, step, self._damping)
         return self._operators[self._halvings]
 
@@ -259,7 +273,7 @@ class RodSimulation:
 
 
 def _halvings_for_curvature(bodies: Bodies, step_s: float, damping_s: float) -> int:
-    """Count the halvings of the time step that make the explicit pull towards the natural shape stable.
+    """Count the halvings of the time step, negative for doublings, with which the pull to the natural shape is stable.
 
     A wave of number q is pulled by h^2 EI k q^3, against the implicit part rho A + h (h + tau) EI q^4. The ratio is
     largest at q = 3^(1/4) / a, where it is 0.57 k a h / (h + tau). Here a = (h (h + tau) EI / rho A)^(1/4) is the
@@ -269,8 +283,8 @@ def _halvings_for_curvature(bodies: Bodies, step_s: float, damping_s: float) -> 
         [np.abs(bodies.curvature[a:b]).max() for a, b in zip(bodies.first[:-1], bodies.first[1:], strict=True)]
     )
     mass_per_length = bodies.mass[bodies.first[:-1] + 1] / bodies.length
-    for halvings in range(MAX_HALVINGS):
-        h = step_s / 2**halvings
+    for halvings in range(-MAX_DOUBLINGS, MAX_HALVINGS):
+        h = step_s * 2.0**-halvings
         response_length = (bodies.stiffness * h * (h + damping_s) / mass_per_length) ** 0.25
         if np.max(0.57 * h / (h + damping_s) * owner_curvature * response_length) <= MAX_EXPLICIT_SHARE:
             return halvings

@@ -10,25 +10,20 @@ from none, then is made as two steps of half the time. At the finest time step t
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from worker.simulate.rod.arrays import Bodies, Motion, Scratch
 from worker.simulate.rod.bending import Operator, energy_of
 from worker.simulate.rod.compiled import compiled
-from worker.simulate.rod.contact import stir, was_stirred
 from worker.simulate.rod.floor import catch_sunk, hold_on_floor, let_go_pulled
-from worker.simulate.rod.impulses import (
-    Touch,
-    correct,
-    find_touched,
-    gather_load,
-    predict,
-    work_of_depenetration,
-    worst_miss,
-)
+from worker.simulate.rod.forces import resisted
+from worker.simulate.rod.impulses import correct, gather_load, predict
 from worker.simulate.rod.lengths import MAX_ITERATIONS, keep_lengths
 from worker.simulate.rod.model import Array
 from worker.simulate.rod.passing import count_passes
+from worker.simulate.rod.stirring import stir, was_stirred
 from worker.simulate.rod.tally import GAINS, ITERATIONS, MISSES, PASSES, RETRIES, ROUNDS, STOPS, SWEEPS, UNKEPT, Tally
+from worker.simulate.rod.touch import Touch, find_touched, work_of_depenetration, worst_miss
 from worker.simulate.rod.world import World
 
 MAX_ROUNDS = 4
@@ -85,7 +80,7 @@ def make_step(
     scratch.start[:] = motion.x
     spare = 0.5 * bodies.mass[~bodies.pinned].sum() * SPEED_SPARE_M_S**2
     may_miss = MISS_RADII * bodies.radius.min() / operator.step
-    sound = False
+    sound, gained = False, 0.0
     for attempt in range(3):
         if attempt == 1 and finest:
             continue
@@ -112,6 +107,7 @@ def make_step(
             return False
         tally.counts[STOPS] += 1
         scratch.v[:] = 0.0
+    tally.gained[0] = gained if sound else 0.0
     motion.v[:] = scratch.v
     find_touched(bodies, motion, touch)
     return True
@@ -151,7 +147,7 @@ def _take_turns(
 ) -> bool:
     """Find impulses, and places with tensions, in turn; return whether all lengths are kept in the end."""
     rods, stirred = len(bodies.length), scratch.stirred
-    due = np.empty(rods, np.bool_)
+    due, sticks = np.empty(rods, np.bool_), np.zeros(rods, np.bool_)
     predict(bodies, operator, motion, touch, scratch)
     stirred[:] = 0
     sweeps, tolerance = 0, 0.0
@@ -161,31 +157,84 @@ def _take_turns(
         if touch.pairs > 0 or len(touch.floor) > 0:
             sweeps, tolerance = correct(bodies, operator, motion, world, touch, scratch, sweeps, tolerance)
             if turn > 0 and sweeps == before + 1:
+                # What this last sweep has changed is little, but must not be lost.
+                gather_load(motion, touch, scratch)
                 break
         elif turn > 0:
             break
         tally.counts[ROUNDS] += 1
         gather_load(motion, touch, scratch)
-        # A stretch of nodes may reach from one rod into the next, so all rods are checked before any is placed.
-        for rod in range(rods):
-            due[rod] = turn == 0 or was_stirred(stirred, bodies.first[rod], bodies.first[rod + 1], before)
+        _find_due(bodies, operator, motion, world, scratch, turn, before, due, sticks)
         for rod in range(rods):
             if due[rod]:
+                sticks[rod] = False
                 _place(bodies, operator, motion, world, scratch, tally, rod)
                 stir(stirred, bodies.first[rod], bodies.first[rod + 1] - bodies.first[rod], sweeps)
-        if turn > 0 and _largest_change(scratch.last, scratch.v) < STEADY_M_S:
+        if turn > 0 and largest_change(scratch.last, scratch.v) < STEADY_M_S:
             break
     tally.counts[SWEEPS] += sweeps
     kept = True
     for rod in range(rods):
-        if not _keep_lengths_on_floor(bodies, operator, motion, world, scratch, tally, rod, 1.0):
+        if not sticks[rod] and not _keep_lengths_on_floor(bodies, operator, motion, world, scratch, tally, rod, 1.0):
             tally.counts[UNKEPT] += 1
             kept = False
     return kept
 
 
 @compiled
-def _largest_change(before: Array, after: Array) -> float:
+def _find_due(  # noqa: PLR0913, PLR0917 - the state of the step, and of its turn
+    bodies: Bodies,
+    operator: Operator,
+    motion: Motion,
+    world: World,
+    scratch: Scratch,
+    turn: int,
+    before: int,
+    due: NDArray[np.bool_],
+    sticks: NDArray[np.bool_],
+) -> None:
+    """Find the rods to be placed in a turn: those that sweeps have stirred, or in the first turn all but those at rest.
+
+    Args:
+        bodies: the rods.
+        operator: operator of the time step.
+        motion: state of the rods; those at rest are put back to where the step starts.
+        world: forces and surfaces that act on them.
+        scratch: arrays of the step, whose `v` is the guess; that of rods at rest becomes 0.
+        turn: number of the turn.
+        before: number of sweeps before this turn.
+        due: (rods,) array that gets whether each rod is to be placed.
+        sticks: (rods,) array that gets, in the first turn, whether dry resistance keeps each rod in its place.
+    """
+    for rod in range(len(due)):
+        # A stretch of nodes may reach from one rod into the next, so all rods are checked before any is placed.
+        due[rod] = turn == 0 or was_stirred(scratch.stirred, bodies.first[rod], bodies.first[rod + 1], before)
+        if turn == 0 and _sticks(bodies, motion, world, scratch.v, operator.step, rod):
+            due[rod], sticks[rod] = False, True
+            _stop(bodies, motion, scratch, rod)
+
+
+@compiled
+def _sticks(bodies: Bodies, motion: Motion, world: World, v: Array, step: float, rod: int) -> bool:
+    """Whether dry resistance stops a rod whose velocities would be its part of `v` (3, nodes), m/s."""
+    most = resisted(bodies, motion, world, step, rod)
+    for i in range(bodies.first[rod], bodies.first[rod + 1]):
+        if v[0, i] * v[0, i] + v[1, i] * v[1, i] + v[2, i] * v[2, i] >= most * most:
+            return False
+    return True
+
+
+@compiled
+def _stop(bodies: Bodies, motion: Motion, scratch: Scratch, rod: int) -> None:
+    """Stop a rod where the step starts."""
+    for c in range(3):
+        for i in range(bodies.first[rod], bodies.first[rod + 1]):
+            scratch.v[c, i] = 0.0
+            motion.x[c, i] = scratch.start[c, i]
+
+
+@compiled
+def largest_change(before: Array, after: Array) -> float:
     """Compute the largest change of a coordinate of velocities (3, nodes), m/s."""
     largest = 0.0
     for c in range(3):

@@ -1,10 +1,12 @@
 """Dry resistance: a share R of the weight that opposes the motion of a rod in contact."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from benchmarks.physics.closed_forms import euler_fall_m
-from tests.worker.simulate.physics.rods import GRAVITY_M_S2, IN_THE_AIR, RADIUS_M, line, rod
+from tests.worker.simulate.physics.rods import GRAVITY_M_S2, IN_THE_AIR, RADIUS_M, line, masses_kg, rod
 from worker.simulate.rod.model import Surroundings
 from worker.simulate.rod.simulation import RodSimulation
 
@@ -49,6 +51,24 @@ def test_it_stops_a_rod_and_does_not_push_it_back() -> None:
     simulation.advance(round(duration * STEPS_PER_S) + 2)
     assert np.abs(simulation.velocities_m_s(0)).max() < 1e-9
     assert simulation.nodes_m(0)[0, 0] == pytest.approx(0.2 * duration / 2, abs=2 * 0.2 * STEP_S)
+
+
+@pytest.mark.parametrize(("share", "moves"), [(0.5, False), (2.0, True)])
+def test_it_holds_a_rod_that_is_pulled_by_less_than_it(share: float, moves: bool) -> None:
+    """A pull of half of R times the weight moves nothing; one of twice as much does, at R g."""
+    resistance, steps = 0.05, 200
+    lying = rod(line((0, 0, RADIUS_M), (0.2, 0, RADIUS_M), 40))
+    pull = np.outer(masses_kg(lying), [0.0, share * resistance * GRAVITY_M_S2, 0.0])
+    surroundings = Surroundings(friction_floor=0, resistance=resistance)
+    simulation = RodSimulation([replace(lying, pull_n=pull)], surroundings, steps_per_s=STEPS_PER_S)
+    simulation.advance(steps)
+    speed = simulation.velocities_m_s(0)[:, 1]
+    if moves:
+        assert speed == pytest.approx(resistance * GRAVITY_M_S2 * steps * STEP_S, rel=2 / steps)
+    else:
+        # In the first step nothing is known to touch the rod yet.
+        assert np.abs(speed).max() == 0.0
+        assert simulation.nodes_m(0)[:, 1] == pytest.approx(0.0, abs=resistance * GRAVITY_M_S2 * STEP_S**2)
 
 
 LENGTH_M = 0.1

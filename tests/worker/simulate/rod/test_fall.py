@@ -21,7 +21,7 @@ from worker.simulate.rod.fall import (
     surroundings_of,
 )
 from worker.simulate.rod.model import Rod
-from worker.simulate.rod.segments import FINEST_RADII, segment_m
+from worker.simulate.rod.segments import FINEST_RADII, MOST_TURN_RAD, segment_m
 from worker.simulate.rod.simulation import RodSimulation
 
 RADIUS_M = 0.0015
@@ -41,6 +41,18 @@ def test_what_bends_more_tightly_has_shorter_segments() -> None:
 def test_segments_have_a_least_length() -> None:
     """Segments have a least length for any softness."""
     assert segment_m(RADIUS_M, 1.0, 1500.0, segment_radii=4.0) == pytest.approx(FINEST_RADII * RADIUS_M)
+
+
+@pytest.mark.parametrize("radii", [8.0, 20.0])
+def test_a_tight_coil_has_shorter_segments(radii: float) -> None:
+    """Segments turn by half a radian at most; where six radii turn by less, they stay."""
+    scene = make_scene(ranges={"cable": {"count": [1, 1]}})
+    drawn = scene.cables[0]
+    turning = 1 / (radii * drawn.diameter_m / 2)
+    coiled = drawn.model_copy(update={"bends_per_m": (turning,) * 33, "length_m": 0.2, "knot": None})
+    (coil,) = rods_of(scene.model_copy(update={"cables": (coiled,), "sticks": ()}), RodFall())
+    over_radius = coil.segment_length_m / coil.radius_m
+    assert over_radius == pytest.approx(min(6.0, MOST_TURN_RAD * radii), rel=0.1)
 
 
 def over_a_stick(kind: StickKind = StickKind.ROD, diameter_m: float = 0.008) -> Scene:
