@@ -19,7 +19,7 @@ from worker.simulate.rod.narrow_phase import find_reach
 from worker.simulate.rod.step import largest_change, make_step
 from worker.simulate.rod.stirring import STRETCH
 from worker.simulate.rod.tally import CONTACTS, LISTS, STEPS, Tally
-from worker.simulate.rod.touch import Touch, ease
+from worker.simulate.rod.touch import Touch
 from worker.simulate.rod.world import World
 
 CALM_STEPS = 4
@@ -122,7 +122,7 @@ def march(
             return Outcome.SLOW_ENOUGH.value, candidates
         momentum_to_be(bodies, motion, world, step, tally.time[0] + step, scratch.momentum)
         scratch.before[:] = motion.v
-        touch = _find_touch(bodies, operator, motion, world, candidates, contacts, near, scratch, -tally.gained[0])
+        touch = _find_touch(bodies, operator, motion, world, candidates, contacts, near, scratch)
         if not make_step(bodies, operator, motion, world, touch, scratch, tally, bounds.finest):
             tally.wary[0] = WARY_STEPS
             tally.jolt[0], tally.calm[0] = 0.0, 0
@@ -180,7 +180,7 @@ def room_for_step(nodes: int) -> Scratch:
 
 
 @compiled
-def _find_touch(  # noqa: PLR0913, PLR0917 - the whole state, and what the last step lost
+def _find_touch(
     bodies: Bodies,
     operator: Operator,
     motion: Motion,
@@ -189,7 +189,6 @@ def _find_touch(  # noqa: PLR0913, PLR0917 - the whole state, and what the last 
     contacts: Contacts,
     near: float,
     scratch: Scratch,
-    lost: float,
 ) -> Touch:
     count = gather_contacts(bodies, operator, motion, candidates, scratch, near, contacts)
     touching = 0
@@ -197,9 +196,7 @@ def _find_touch(  # noqa: PLR0913, PLR0917 - the whole state, and what the last 
         touching = find_near_floor(
             bodies, motion, scratch.bends, operator.step, world.friction_floor, scratch.near_floor, scratch.rise
         )
-    touch = Touch(contacts, count, candidates.impulse, scratch.near_floor[:touching])
-    ease(bodies, motion, touch, scratch.rise, lost)
-    return touch
+    return Touch(contacts, count, candidates.impulse, scratch.near_floor[:touching])
 
 
 @compiled
@@ -221,9 +218,9 @@ def _is_landing(bodies: Bodies, motion: Motion, horizon: float) -> bool:
 
 @compiled
 def _has_landed(bodies: Bodies, motion: Motion) -> bool:
-    """Whether every rod has landed, or is held in its place."""
+    """Whether every rod has landed, or is pinned all along."""
     for rod in range(len(bodies.length)):
-        if not motion.landed[rod] and not bodies.pinned[bodies.first[rod]]:
+        if not motion.landed[rod] and not bodies.pinned[bodies.first[rod] : bodies.first[rod + 1]].all():
             return False
     return True
 

@@ -21,9 +21,9 @@ MAX_DOUBLINGS = 1
 """Largest number of times that the planned time step is doubled, while rods settle slowly. In longer steps sweeps need
 more turns than there are fewer steps."""
 
-JOLT_RADII = 0.05
+JOLT_RADII = 0.01
 """Largest distance, in the smallest radius, by which the change of a node's velocity may bend its way in a step that is
-longer than planned. Implicit Euler errs by half of it: a fortieth of the radius."""
+longer than planned. Implicit Euler errs by half of it."""
 
 MOVE_RADII = 1.0
 """Largest relative movement of nodes in a step, in the smallest radius; faster nodes get a smaller time step."""

@@ -80,7 +80,7 @@ def make_step(
     scratch.start[:] = motion.x
     spare = 0.5 * bodies.mass[~bodies.pinned].sum() * SPEED_SPARE_M_S**2
     may_miss = MISS_RADII * bodies.radius.min() / operator.step
-    sound, gained = False, 0.0
+    sound = False
     for attempt in range(3):
         if attempt == 1 and finest:
             continue
@@ -107,7 +107,6 @@ def make_step(
             return False
         tally.counts[STOPS] += 1
         scratch.v[:] = 0.0
-    tally.gained[0] = gained if sound else 0.0
     motion.v[:] = scratch.v
     find_touched(bodies, motion, touch)
     return True

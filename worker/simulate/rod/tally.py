@@ -37,7 +37,6 @@ class Tally(NamedTuple):
             other.
         time: (1,) time since the start, s.
         quiet: (1,) time for which the rods have been at rest, s.
-        gained: (1,) energy that the rods have gained in the last step, J.
         jolt: (1,) distance by which the change of a node's velocity has bent its way in the last step, m.
         calm: (1,) number of steps in a row for which that was little, and all rods had landed.
         wary: (1,) number of steps before a larger time step is tried.
@@ -46,7 +45,6 @@ class Tally(NamedTuple):
     counts: Integers
     time: Array
     quiet: Array
-    gained: Array
     jolt: Array
     calm: Integers
     wary: Integers
@@ -58,7 +56,6 @@ def new_tally() -> Tally:
         counts=np.zeros(len(COUNT_NAMES), np.int64),
         time=np.zeros(1),
         quiet=np.zeros(1),
-        gained=np.zeros(1),
         jolt=np.zeros(1),
         calm=np.zeros(1, np.int64),
         wary=np.zeros(1, np.int64),

@@ -4,15 +4,7 @@ from typing import NamedTuple
 
 from worker.simulate.rod.arrays import Bodies, Contacts, Integers, Motion
 from worker.simulate.rod.compiled import compiled
-from worker.simulate.rod.contact import UNDOING_S
 from worker.simulate.rod.model import Array
-
-GIVEN_M_S = 4.5e-4
-"""Speed, in m/s, of all rods together whose energy the undoing of shallow penetrations may give in a step beyond what
-the rods lose: half of what gate 7 allows to a pile that falls from two centimetres."""
-
-SHALLOW_RADII = 0.01
-"""Depth in the smaller radius, half of gate 2's target, up to which a penetration may be undone later."""
 
 
 class Touch(NamedTuple):
@@ -45,32 +37,6 @@ def work_of_depenetration(motion: Motion, touch: Touch, rise: Array) -> float:
     for i in touch.floor:
         total += max(rise[i], 0.0) * motion.floor_impulse[2, i]
     return total
-
-
-@compiled
-def ease(bodies: Bodies, motion: Motion, touch: Touch, rise: Array, lost: float) -> None:
-    """Slow the undoing of shallow penetrations, where it would lift the rods by more energy than they lose.
-
-    Args:
-        bodies: the rods.
-        motion: state of the rods, with the floor's impulses of the step before.
-        touch: contacts of this step, with the impulses of the step before; their least speeds are changed.
-        rise: (nodes,) least upward speed of each node near the floor, m/s, changed in place.
-        lost: energy that the rods have lost in the step before, J.
-    """
-    contacts, radius, owner = touch.contacts, bodies.radius, bodies.owner
-    given = work_of_depenetration(motion, touch, rise)
-    most = 0.5 * bodies.mass[~bodies.pinned].sum() * GIVEN_M_S**2 + max(lost, 0.0)
-    if given <= most:
-        return
-    share, fastest = most / given, SHALLOW_RADII / UNDOING_S
-    for n in range(touch.pairs):
-        smaller = min(radius[owner[contacts.base[0, n]]], radius[owner[contacts.base[1, n]]])
-        if 0.0 < contacts.approach[n] < fastest * smaller:
-            contacts.approach[n] *= share
-    for i in touch.floor:
-        if 0.0 < rise[i] < fastest * radius[owner[i]]:
-            rise[i] *= share
 
 
 @compiled

@@ -16,13 +16,16 @@ from worker.simulate.rod.fall import (
     curvature_at_rest,
 )
 from worker.simulate.rod.model import Array, Rod, Surroundings
+from worker.simulate.rod.segments import MOST_TURN_RAD
 from worker.simulate.rod.simulation import RodSimulation
 from worker.simulate.shapes import bent_rod
 
 STEPS_PER_S = RodFall().steps_per_s
-SEGMENT_M = RodFall().segment_radii * RADIUS_M
 TIGHTEST_M = 8 * RADIUS_M
 """Radius of the tightest coil of the style `wide`, four diameters."""
+
+SEGMENT_M = min(RodFall().segment_radii * RADIUS_M, MOST_TURN_RAD * TIGHTEST_M)
+"""Length of the segments with which such a coil falls."""
 
 UNEVENNESS = 0.08
 """Standard deviation of a drawn coil's curvature, as a share of its mean."""
