@@ -48,7 +48,7 @@ def rod_settings() -> tuple[Setting, ...]:
     default = RodFall()
     steps, radii = default.steps_per_s, default.segment_radii
     pairs = [(250, radii), (500, radii), (steps, radii), (2000, radii), (4000, radii)]
-    pairs += [(steps, 3.0), (steps, 4.0)]
+    pairs += [(steps, 2.5), (steps, 3.0)]
     return tuple(_rod(RodFall(steps_per_s=each, segment_radii=length), default) for each, length in pairs)
 
 

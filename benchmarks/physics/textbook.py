@@ -19,6 +19,7 @@ from farm.scene.physics import GRAVITY_M_S2
 from farm.spec.simulation import ClothFall, RodFall
 from worker.simulate.cloth import material, scale
 from worker.simulate.rod.model import Rod, Surroundings
+from worker.simulate.rod.segments import longest_radii
 from worker.simulate.rod.simulation import DivergedError, RodSimulation
 
 SLENDERNESS = (1.0, 10.0, 100.0, 1000.0)
@@ -83,7 +84,7 @@ def _rod_cantilever(slenderness: float, fall: RodFall) -> CantileverError:
     It is free from the middle of the first segment on. The number of segments is rounded, and the modulus is adjusted
     to make up for it.
     """
-    segment = fall.segment_radii * _RADIUS_M
+    segment = longest_radii(fall.segment_radii) * _RADIUS_M
     segments = max(round(_free_length_m(slenderness) / segment + 0.5), _LEAST_SEGMENTS)
     length = (segments - 0.5) * segment
     nodes = np.zeros((segments + 1, 3))
@@ -119,7 +120,7 @@ def _rod_crossing(fall: RodFall) -> CrossingError:
 
     There is no friction, since the reference has no tension.
     """
-    segment = fall.segment_radii * _RADIUS_M
+    segment = longest_radii(fall.segment_radii) * _RADIUS_M
     half = _HALF_LENGTHS * _REFERENCE.lift_off_m
     nodes = np.zeros((round(2 * half / segment) + 1, 3))
     nodes[:, 0] = np.linspace(-half, half, len(nodes))

@@ -47,12 +47,13 @@ class RodFall(Model):
 
     Attributes:
         steps_per_s: time steps per second of the fall.
-        segment_radii: length of a segment over the cable's radius.
+        segment_radii: length of a segment over the cable's radius in knots; elsewhere up to half as much again, and
+            less in tight curves.
         max_time_s: seconds after which a fall that has not come to rest is given up, and another scene is drawn.
     """
 
     steps_per_s: Annotated[int, Field(ge=100, le=100_000)] = 1000
-    segment_radii: Annotated[float, Field(ge=1, le=20)] = 6.0
+    segment_radii: Annotated[float, Field(ge=1, le=20)] = 4.0
     max_time_s: Annotated[float, Field(gt=0, le=60)] = 4.0
 
 

@@ -12,7 +12,7 @@ from farm.scene.scene import Scene
 from farm.spec.simulation import RodFall
 from worker.simulate.rod.knots import tie
 from worker.simulate.rod.model import Array, Breeze, Rod, Surroundings
-from worker.simulate.rod.segments import FINEST_RADII, MOST_TURN_RAD, largest_turn_rad, segment_m
+from worker.simulate.rod.segments import FINEST_RADII, MOST_TURN_RAD, largest_turn_rad, longest_radii, segment_m
 from worker.simulate.rod.simulation import DivergedError, RodSimulation, TooManyStepsError
 from worker.simulate.shapes import CableShapes, height_at, start_nodes
 
@@ -147,7 +147,8 @@ def _rod(cable: Cable, segment_radii: float) -> Rod:
     if cable.knot is not None:
         return _placed(tie(cable, segment_radii), cable)
     radius = cable.diameter_m / 2
-    length = segment_m(radius, cable.youngs_modulus_pa, cable.density_kg_m3, segment_radii)
+    longest = longest_radii(segment_radii)
+    length = segment_m(radius, cable.youngs_modulus_pa, cable.density_kg_m3, longest)
     nodes = start_nodes(cable, _segments(cable, length) + 1)
     turn = largest_turn_rad(nodes)
     if turn > MOST_TURN_RAD:
@@ -191,7 +192,7 @@ def _fixed_rod(peg: Peg) -> Rod:
 def _stiff_rod(stick: Stick, segment_radii: float) -> Rod:
     """Make a straight, level rod of a stick."""
     radius = stick.diameter_m / 2
-    segments = int(np.clip(round(stick.length_m / (segment_radii * radius)), 8, 2000))
+    segments = int(np.clip(round(stick.length_m / (longest_radii(segment_radii) * radius)), 8, 2000))
     along = np.linspace(-0.5, 0.5, segments + 1) * stick.length_m
     turn = np.radians(stick.rotation_deg)
     height = np.full_like(along, radius + stick.start_height_m)

@@ -18,7 +18,7 @@ from worker.curves import smooth
 from worker.simulate.checks.knot_type import FIGURE_EIGHT, OVERHAND, determinant
 from worker.simulate.rod.knot_start import loose_knot
 from worker.simulate.rod.model import Array, Rod, Surroundings
-from worker.simulate.rod.segments import KNOT_RADII, segment_m
+from worker.simulate.rod.segments import segment_m
 from worker.simulate.rod.simulation import DivergedError, RodSimulation
 
 DETERMINANTS = MappingProxyType({KnotKind.OVERHAND: OVERHAND, KnotKind.FIGURE_EIGHT: FIGURE_EIGHT})
@@ -100,7 +100,7 @@ def tie(cable: Cable, segment_radii: float) -> Rod:
     if knot is None:
         raise ValueError("the cable has no knot")
     radius = cable.diameter_m / 2
-    wanted = segment_m(radius, cable.youngs_modulus_pa, cable.density_kg_m3, min(segment_radii, KNOT_RADII))
+    wanted = segment_m(radius, cable.youngs_modulus_pa, cable.density_kg_m3, segment_radii)
     segments = int(np.clip(round(cable.length_m / wanted), 8, 2000))
     length = cable.length_m / segments
     pulled = pull_knot(knot.kind, knot.loop_radius_m / radius, length / radius)

@@ -8,8 +8,11 @@ from worker.simulate.rod.model import Array
 FINEST_RADII = 2.0
 """Length of the shortest segments, in radii."""
 
-KNOT_RADII = 4.0
-"""Length of the longest segments of a knotted cable, in radii: a knot's loop may have a radius of a few."""
+LONGER = 1.5
+"""Ratio of the length of segments to the length asked for, where nothing asks for shorter ones."""
+
+LONGEST_RADII = 6.0
+"""Length of the longest segments, in radii, unless longer ones are asked for."""
 
 MOST_TURN_RAD = 0.5
 """Largest angle between two segments of a cable at its start. In tight coils, contact between longer ones errs by some
@@ -30,6 +33,15 @@ def segment_m(radius_m: float, youngs_modulus_pa: float, density_kg_m3: float, s
     """
     bending_m = (youngs_modulus_pa * radius_m**2 / (4 * density_kg_m3 * GRAVITY_M_S2)) ** (1 / 3)
     return float(min(segment_radii * radius_m, max(bending_m / 2, FINEST_RADII * radius_m)))
+
+
+def longest_radii(segment_radii: float) -> float:
+    """Compute the length of a gently curved rod's segments, in radii, from the length asked for.
+
+    Contacts lie on smooth curves, so segments need not be that short: at 6 radii instead of 4, the textbook's errors
+    double and stay within their gates, and a fall costs half.
+    """
+    return max(segment_radii, min(LONGER * segment_radii, LONGEST_RADII))
 
 
 def largest_turn_rad(nodes: Array) -> float:

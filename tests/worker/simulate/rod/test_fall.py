@@ -21,7 +21,7 @@ from worker.simulate.rod.fall import (
     surroundings_of,
 )
 from worker.simulate.rod.model import Rod
-from worker.simulate.rod.segments import FINEST_RADII, MOST_TURN_RAD, segment_m
+from worker.simulate.rod.segments import FINEST_RADII, MOST_TURN_RAD, longest_radii, segment_m
 from worker.simulate.rod.simulation import RodSimulation
 
 RADIUS_M = 0.0015
@@ -45,14 +45,14 @@ def test_segments_have_a_least_length() -> None:
 
 @pytest.mark.parametrize("radii", [8.0, 20.0])
 def test_a_tight_coil_has_shorter_segments(radii: float) -> None:
-    """Segments turn by half a radian at most; where six radii turn by less, they stay."""
+    """Segments turn by half a radian at most; where six radii turn by less, they are that long."""
     scene = make_scene(ranges={"cable": {"count": [1, 1]}})
     drawn = scene.cables[0]
     turning = 1 / (radii * drawn.diameter_m / 2)
     coiled = drawn.model_copy(update={"bends_per_m": (turning,) * 33, "length_m": 0.2, "knot": None})
     (coil,) = rods_of(scene.model_copy(update={"cables": (coiled,), "sticks": ()}), RodFall())
     over_radius = coil.segment_length_m / coil.radius_m
-    assert over_radius == pytest.approx(min(6.0, MOST_TURN_RAD * radii), rel=0.1)
+    assert over_radius == pytest.approx(min(longest_radii(RodFall().segment_radii), MOST_TURN_RAD * radii), rel=0.1)
 
 
 def over_a_stick(kind: StickKind = StickKind.ROD, diameter_m: float = 0.008) -> Scene:
