@@ -23,7 +23,10 @@ less is left."""
 
 ALONG = 0.02
 """Determinant of the distance's second derivatives, over the product of its diagonal, below which two curves run along
-each other, within 8 degrees if they are straight: the closest places are then looked for at the segments' ends, too."""
+each other, within 8 degrees if they are straight: the closest places are then looked for all along."""
+
+PARABOLAS = 2
+"""Parabolas by which the closest place is refined where curves run along each other."""
 
 SINGULAR = 1e-4
 """Such a determinant below which Newton's method does not tell where along the curves they are closest."""
@@ -138,7 +141,7 @@ def closest_on_curves(x: Array, bends: Array, i: int, j: int, s: float, t: float
         s, t = s + ds, t + dt
         if abs(ds) + abs(dt) < ENOUGH:
             break
-    return _closest_at_ends(one, other, s, t) if along else (s, t)
+    return _closest_along(one, other, s, t) if along else (s, t)
 
 
 @compiled
@@ -187,19 +190,55 @@ def _bend(curve: Polynomial, t: float) -> Vector:
 
 
 @compiled
-def _closest_at_ends(one: Polynomial, other: Polynomial, s: float, t: float) -> tuple[float, float]:
-    """Find the closest of two places and of each segment's ends with its closest place on the other segment's curve."""
+def _closest_along(one: Polynomial, other: Polynomial, s: float, t: float) -> tuple[float, float]:
+    """Find the closest places of two segments' curves that run along each other; s and t are a first guess.
+
+    Along the stretch where one is beside the other, their squared distance is about a parabola, whose lowest place is
+    refined.
+    """
+    start, end = _closest_to_point(_at(other, 0.0), one, s), _closest_to_point(_at(other, 1.0), one, s)
+    low, high = min(start, end), max(start, end)
+    middle = 0.5 * (low + high)
     best_s, best_t, least = s, t, _squared(one, other, s, t)
-    for end in (0.0, 1.0):
-        place = _closest_to_point(_at(one, end), other, t)
-        squared = _squared(one, other, end, place)
+    heights = (0.0, 0.0, 0.0)
+    for place in (low, middle, high):
+        beside, squared = _beside(one, other, place, t)
+        heights = heights[1], heights[2], squared
         if squared < least:
-            best_s, best_t, least = end, place, squared
-        place = _closest_to_point(_at(other, end), one, s)
-        squared = _squared(one, other, place, end)
+            best_s, best_t, least = place, beside, squared
+    at_low, at_middle, at_high = heights
+    for _ in range(PARABOLAS):
+        place = _lowest(low, middle, high, at_low, at_middle, at_high)
+        if not low < place < high:
+            break
+        beside, squared = _beside(one, other, place, t)
         if squared < least:
-            best_s, best_t, least = place, end, squared
+            best_s, best_t, least = place, beside, squared
+        if place < middle:
+            if squared < at_middle:
+                high, at_high, middle, at_middle = middle, at_middle, place, squared
+            else:
+                low, at_low = place, squared
+        elif squared < at_middle:
+            low, at_low, middle, at_middle = middle, at_middle, place, squared
+        else:
+            high, at_high = place, squared
     return best_s, best_t
+
+
+@compiled
+def _beside(one: Polynomial, other: Polynomial, s: float, t: float) -> tuple[float, float]:
+    """Find the share of `other`, from a guess t, that is closest to share s of `one`, and their distance squared."""
+    place = _closest_to_point(_at(one, s), other, t)
+    return place, _squared(one, other, s, place)
+
+
+@compiled
+def _lowest(a: float, b: float, c: float, at_a: float, at_b: float, at_c: float) -> float:
+    """Find the lowest place of the parabola through three points a < b < c; NaN or inf if it has none."""
+    left, right = (at_b - at_a) / (b - a), (at_c - at_b) / (c - b)
+    curvature = (right - left) / (c - a)
+    return 0.5 * (a + b) - 0.5 * left / curvature if curvature > 0.0 else np.inf
 
 
 @compiled

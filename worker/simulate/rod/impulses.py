@@ -20,6 +20,9 @@ TOLERANCE_M_S = 3e-3
 """Change of velocity, summed over a rod, in m/s, below which sweeps end. About five nodes of a soft rod respond to a
 push; each then changes by a quarter of the speed that counts as rest."""
 
+CAREFUL_M_S = 1e-4
+"""Such a change in a step whose first turns find no sound end, m/s."""
+
 ENOUGH = 0.05
 """Share of the largest change in the step's first sweep below which sweeps end, if it is more than `TOLERANCE_M_S`."""
 
@@ -168,6 +171,7 @@ def correct(
     scratch: Scratch,
     done: int,
     tolerance: float,
+    careful: bool,
 ) -> tuple[int, float]:
     """Sweep over the contacts until their impulses hardly change, at most `MAX_SWEEPS` times.
 
@@ -180,6 +184,7 @@ def correct(
         scratch: arrays of the step, whose `v` and `stirred` are changed: the impulses act on the nodes nearby.
         done: number of sweeps in this step so far.
         tolerance: change of velocity, m/s, that the last call returned; 0 in the step's first call.
+        careful: whether the first turns of the step have found no sound end.
 
     Returns:
         The number of sweeps in this step so far, and the change of velocity, m/s, below which they end.
@@ -190,7 +195,7 @@ def correct(
         done += 1
         worst = _sweep(bodies, operator, motion, world, touch, scratch, done, tolerance)
         if tolerance == 0.0:
-            tolerance = max(TOLERANCE_M_S, ENOUGH * worst)
+            tolerance = CAREFUL_M_S if careful else max(TOLERANCE_M_S, ENOUGH * worst)
         if worst < tolerance:
             break
     return done, tolerance

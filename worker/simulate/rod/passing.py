@@ -19,7 +19,9 @@ BISECTIONS = 40
 
 @compiled
 def count_passes(contacts: Contacts, pairs: int, start: Array, end: Array) -> int:
-    """Count the contacts whose segments pass through each other in a step.
+    """Count the contacts whose segments pass through each other in a step, to the wrong side.
+
+    Rods that start within each other have to pass to get to their sides.
 
     Args:
         contacts: contacts between rods, at the beginning of their arrays.
@@ -31,16 +33,22 @@ def count_passes(contacts: Contacts, pairs: int, start: Array, end: Array) -> in
     for n in range(pairs):
         i, j = contacts.segment[0, n], contacts.segment[1, n]
         s, t = closest(start, i, j)
-        squared = 0.0
+        squared = rise = 0.0
         for c in range(3):
-            here = start[c, i] + s * (start[c, i + 1] - start[c, i])
-            there = start[c, j] + t * (start[c, j + 1] - start[c, j])
-            squared += (here - there) ** 2
+            before, after = _between(start, i, j, s, t, c), _between(end, i, j, s, t, c)
+            squared += before * before
+            rise += contacts.normal[n, c] * (after - before)
         # Segments that move less than they are apart can't meet.
         way = max(_way(start, end, i), _way(start, end, i + 1)) + max(_way(start, end, j), _way(start, end, j + 1))
-        if squared <= way * way and _pass(start, end, i, j):
+        if rise < 0.0 and squared <= way * way and _pass(start, end, i, j):
             count += 1
     return count
+
+
+@compiled
+def _between(x: Array, i: int, j: int, s: float, t: float, c: int) -> float:
+    """Compute a coordinate of the vector, m, from the place t on segment j to the place s on segment i."""
+    return float((1 - s) * x[c, i] + s * x[c, i + 1] - (1 - t) * x[c, j] - t * x[c, j + 1])
 
 
 @compiled

@@ -41,6 +41,9 @@ STEADY_M_S = 2e-4
 """Change of all velocities in a turn, in m/s, below which turns end: a twelfth of the speed that counts as rest. Two
 contacts at one place may trade impulses for ever without moving anything."""
 
+CAREFUL_STEADY_M_S = 1e-5
+"""Such a change in a step whose first turns find no sound end, m/s."""
+
 SLACK = 50.0
 """Multiple of the tolerances of lengths that is enough while sweeps may still change the load."""
 
@@ -84,8 +87,7 @@ def make_step(
     for attempt in range(3):
         if attempt == 1 and finest:
             continue
-        rounds = MAX_ROUNDS if attempt == 0 else MORE_ROUNDS
-        kept = _take_turns(bodies, operator, motion, world, touch, scratch, tally, rounds)
+        kept = _take_turns(bodies, operator, motion, world, touch, scratch, tally, attempt > 0)
         gained = _energy_gained(bodies, operator, motion.v, scratch)
         given = work_of_depenetration(motion, touch, scratch.rise)
         missed = worst_miss(touch.contacts, touch.pairs, scratch.v)
@@ -142,9 +144,13 @@ def _take_turns(
     touch: Touch,
     scratch: Scratch,
     tally: Tally,
-    rounds: int,
+    careful: bool,
 ) -> bool:
-    """Find impulses, and places with tensions, in turn; return whether all lengths are kept in the end."""
+    """Find impulses, and places with tensions, in turn; return whether all lengths are kept in the end.
+
+    Careful turns are more, and end later.
+    """
+    rounds, steady = (MORE_ROUNDS, CAREFUL_STEADY_M_S) if careful else (MAX_ROUNDS, STEADY_M_S)
     rods, stirred = len(bodies.length), scratch.stirred
     due, sticks = np.empty(rods, np.bool_), np.zeros(rods, np.bool_)
     predict(bodies, operator, motion, touch, scratch)
@@ -154,7 +160,7 @@ def _take_turns(
         before = sweeps
         scratch.last[:] = scratch.v
         if touch.pairs > 0 or len(touch.floor) > 0:
-            sweeps, tolerance = correct(bodies, operator, motion, world, touch, scratch, sweeps, tolerance)
+            sweeps, tolerance = correct(bodies, operator, motion, world, touch, scratch, sweeps, tolerance, careful)
             if turn > 0 and sweeps == before + 1:
                 # What this last sweep has changed is little, but must not be lost.
                 gather_load(motion, touch, scratch)
@@ -169,7 +175,7 @@ def _take_turns(
                 sticks[rod] = False
                 _place(bodies, operator, motion, world, scratch, tally, rod)
                 stir(stirred, bodies.first[rod], bodies.first[rod + 1] - bodies.first[rod], sweeps)
-        if turn > 0 and largest_change(scratch.last, scratch.v) < STEADY_M_S:
+        if turn > 0 and largest_change(scratch.last, scratch.v) < steady:
             break
     tally.counts[SWEEPS] += sweeps
     kept = True

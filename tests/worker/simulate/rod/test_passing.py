@@ -11,8 +11,9 @@ from worker.simulate.rod.model import Array
 from worker.simulate.rod.passing import count_passes
 
 
-def passes(shift_m: Array, over_m: float = 0.5 * RADIUS_M, along_m: float = 0.0) -> int:
-    """Passages of two crossed rods, the second this far above the first and shifted in the step."""
+def passes(shift_m: Array, along_m: float = 0.0, *, belongs_below: bool = False) -> int:
+    """Passages of two crossed rods, the second half a radius above the first, where it belongs, and then shifted."""
+    over_m = 0.5 * RADIUS_M
     bodies, motion = flatten(
         [
             rod(line((-0.01, 0.0, 0.0), (0.01, 0.0, 0.0), 5)),
@@ -22,6 +23,7 @@ def passes(shift_m: Array, over_m: float = 0.5 * RADIUS_M, along_m: float = 0.0)
     contacts = room_for_contacts(25, operator_for(bodies, 1e-3, 0.0))
     pairs = [(i, j) for i in range(5) for j in range(6, 11)]
     contacts.segment[:] = np.array(pairs).T
+    contacts.normal[:] = (0.0, 0.0, 1.0 if belongs_below else -1.0)
     end = motion.x.copy()
     end[:, 6:] += shift_m[:, None]
     return count_passes(contacts, len(pairs), motion.x, end)
@@ -39,3 +41,8 @@ def test_rods_pass_if_their_axes_change_sides(shift_radii: tuple[float, float, f
 def test_a_rod_that_comes_down_beside_another_passes_nothing() -> None:
     """Beyond the other's end no segments cross, although their lines change sides."""
     assert passes(RADIUS_M * np.array([0.0, 0.0, -1.2]), along_m=0.0101) == 0
+
+
+def test_a_rod_may_pass_to_the_side_where_it_belongs() -> None:
+    """Rods that start within each other get to their sides through each other, which is no passage."""
+    assert passes(RADIUS_M * np.array([0.0, 0.0, -1.2]), belongs_below=True) == 0
