@@ -204,8 +204,7 @@ def _turn(normal: Array, n: int, memory: Array, pair: int, touching: float) -> f
             for c in range(3):
                 normal[n, c] = memory[pair, c] / known
     else:
-        if side < 0.0 and distance < touching:
-            distance = -distance
+        # A step is too short for a rod to pass as far as this, but two hairpins touch at several places of a pair.
         for c in range(3):
             normal[n, c] /= distance
     for c in range(3):
