@@ -94,6 +94,9 @@ def play(case: Case, most_steps: int = MOST_STEPS) -> Result:
     fault = StressFault.NOT_FINITE if broke else stress_fault(shapes, reach_m=setting.reach_m, passes=watch.passes)
     if cut and fault in {StressFault.PENETRATED, StressFault.NOT_AT_REST}:
         fault = None
+    if cut and fault is StressFault.PASSED_THROUGH and watch.passes == 0:
+        # A cable that starts deep within the floor is not out of it yet.
+        fault = None
     measurable = fault not in {StressFault.NOT_FINITE, StressFault.ESCAPED}
     figures = measure(shapes) if measurable else None
     return Result(

@@ -162,7 +162,7 @@ def gather_load(motion: Motion, touch: Touch, scratch: Scratch) -> None:
 
 
 @compiled
-def correct(
+def correct(  # noqa: PLR0913, PLR0917 - the state of the step, and of its sweeps
     bodies: Bodies,
     operator: Operator,
     motion: Motion,

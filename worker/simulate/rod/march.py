@@ -16,11 +16,15 @@ from worker.simulate.rod.forces import momentum_to_be
 from worker.simulate.rod.lengths import AT_REST, FREE, keep_lengths, room_for_system
 from worker.simulate.rod.model import Array
 from worker.simulate.rod.narrow_phase import find_reach
-from worker.simulate.rod.step import largest_change, make_step
+from worker.simulate.rod.step import fastest, largest_change, make_step
 from worker.simulate.rod.stirring import STRETCH
 from worker.simulate.rod.tally import CONTACTS, LISTS, STEPS, Tally
 from worker.simulate.rod.touch import Touch
 from worker.simulate.rod.world import World
+
+FARTHER = 2.0
+"""Ratio of the largest sound movement in a step to the one allowed by the speeds at its start. Wind may take a thin rod
+from rest across another in one step."""
 
 CALM_STEPS = 4
 """Number of steps with little change of velocity, before a time step longer than planned is tried."""
@@ -102,7 +106,7 @@ def march(
         landing = world.floor and _is_landing(bodies, motion, bounds.horizon)
         # Rods that fall together do not meet, until the first of them lands.
         frame = np.zeros(3) if landing else middle_of(motion.v)
-        move = step * _fastest(motion.v, frame)
+        move = step * fastest(motion.v, frame)
         # Both rods of a pair may move, and gravity adds to it within the step.
         near = 2 * move + 0.1 * smallest
         find_bends(bodies, motion.x, scratch.bends)
@@ -123,7 +127,8 @@ def march(
         momentum_to_be(bodies, motion, world, step, tally.time[0] + step, scratch.momentum)
         scratch.before[:] = motion.v
         touch = _find_touch(bodies, operator, motion, world, candidates, contacts, near, scratch)
-        if not make_step(bodies, operator, motion, world, touch, scratch, tally, bounds.finest):
+        farthest = FARTHER * max(move, bounds.most_move)
+        if not make_step(bodies, operator, motion, world, touch, scratch, tally, bounds.finest, frame, farthest):
             tally.wary[0] = WARY_STEPS
             tally.jolt[0], tally.calm[0] = 0.0, 0
             return Outcome.UNSOUND.value, candidates
@@ -223,16 +228,6 @@ def _has_landed(bodies: Bodies, motion: Motion) -> bool:
         if not motion.landed[rod] and not bodies.pinned[bodies.first[rod] : bodies.first[rod + 1]].all():
             return False
     return True
-
-
-@compiled
-def _fastest(v: Array, frame: Array) -> float:
-    """Compute the largest speed, m/s, of nodes with velocities (3, nodes) relative to a velocity `frame` (3,)."""
-    worst = 0.0
-    for i in range(v.shape[1]):
-        ax, ay, az = v[0, i] - frame[0], v[1, i] - frame[1], v[2, i] - frame[2]
-        worst = max(worst, ax * ax + ay * ay + az * az)
-    return float(np.sqrt(worst))
 
 
 @compiled

@@ -4,9 +4,11 @@ The impulses of contacts and the tensions that keep the lengths depend on each o
 over the contacts change impulses, then the places and tensions of each rod that the sweeps have changed are found
 exactly, until a sweep finds nothing more to do, or nothing moves any more.
 
-A step has a sound end if lengths are kept, rods are not pushed far into each other or through each other, and no energy
-is gained, as impulses and tensions only take it. A step without one goes on from the impulses it has, then starts again
-from none, then is made as two steps of half the time. At the finest time step the rods stop in their places.
+A step has a sound end if no rod moves much farther than its speed at the start tells, lengths are kept, rods are not
+pushed far into each other or through each other, and no energy is gained, as impulses and tensions only take it. A step
+that moves a rod too far is made as two steps of half the time. Another one without a sound end goes on from the
+impulses it has, more carefully, then starts again from none, and is halved after that. At the finest time step the rods
+stop in their places.
 """
 
 import numpy as np
@@ -55,7 +57,7 @@ SPEED_SPARE_M_S = 1e-3
 
 
 @compiled
-def make_step(
+def make_step(  # noqa: PLR0913, PLR0917 - the state of the step, and its bounds
     bodies: Bodies,
     operator: Operator,
     motion: Motion,
@@ -64,6 +66,8 @@ def make_step(
     scratch: Scratch,
     tally: Tally,
     finest: bool,
+    frame: Array,
+    farthest: float,
 ) -> bool:
     """Move the rods by a step.
 
@@ -76,6 +80,8 @@ def make_step(
         scratch: arrays of the step; `momentum` holds the momentum at its end without contact and tension.
         tally: counts, which are added to.
         finest: whether the time step can't be made smaller; rods then stop in their places if no sound end is found.
+        frame: (3,) velocity that all rods share, m/s.
+        farthest: largest sound movement of a node in that frame, m: beyond it, contacts are not known.
 
     Returns:
         Whether the step was made; if not, nothing has moved, and impulses and tensions are 0.
@@ -88,6 +94,9 @@ def make_step(
         if attempt == 1 and finest:
             continue
         kept = _take_turns(bodies, operator, motion, world, touch, scratch, tally, attempt > 0)
+        if operator.step * fastest(scratch.v, frame) > farthest:
+            _undo(motion, touch, scratch)
+            return False
         gained = _energy_gained(bodies, operator, motion.v, scratch)
         given = work_of_depenetration(motion, touch, scratch.rise)
         missed = worst_miss(touch.contacts, touch.pairs, scratch.v)
@@ -100,10 +109,7 @@ def make_step(
         tally.counts[PASSES] += passed > 0
         tally.counts[RETRIES] += 1
         if attempt > 0 or finest:
-            motion.x[:] = scratch.start
-            motion.tension[:] = 0.0
-            motion.floor_impulse[:] = 0.0
-            touch.impulse[:] = 0.0
+            _undo(motion, touch, scratch)
     if not sound:
         if not finest:
             return False
@@ -112,6 +118,15 @@ def make_step(
     motion.v[:] = scratch.v
     find_touched(bodies, motion, touch)
     return True
+
+
+@compiled
+def _undo(motion: Motion, touch: Touch, scratch: Scratch) -> None:
+    """Put the rods back to where the step starts, without impulses and tensions."""
+    motion.x[:] = scratch.start
+    motion.tension[:] = 0.0
+    motion.floor_impulse[:] = 0.0
+    touch.impulse[:] = 0.0
 
 
 @compiled
@@ -246,6 +261,16 @@ def largest_change(before: Array, after: Array) -> float:
         for i in range(before.shape[1]):
             largest = max(largest, abs(after[c, i] - before[c, i]))
     return largest
+
+
+@compiled
+def fastest(v: Array, frame: Array) -> float:
+    """Compute the largest speed, m/s, of nodes with velocities (3, nodes) relative to a velocity `frame` (3,)."""
+    worst = 0.0
+    for i in range(v.shape[1]):
+        ax, ay, az = v[0, i] - frame[0], v[1, i] - frame[1], v[2, i] - frame[2]
+        worst = max(worst, ax * ax + ay * ay + az * az)
+    return float(np.sqrt(worst))
 
 
 @compiled
