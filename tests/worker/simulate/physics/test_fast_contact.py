@@ -1,9 +1,12 @@
 """Rods that meet at speeds far above those of any fall."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from tests.worker.simulate.physics.rods import WEIGHTLESS, line, rod, shapes
+from farm.scene.physics import GRAVITY_M_S2
+from tests.worker.simulate.physics.rods import RADIUS_M, WEIGHTLESS, line, rod, shapes
 from worker.simulate.checks.measure import Gate, measure
 from worker.simulate.rod.model import Surroundings
 from worker.simulate.rod.simulation import RodSimulation
@@ -35,6 +38,17 @@ def test_rods_fired_at_each_other_do_not_pass_through(
         met = met or bool(simulation.contact_force_n(1, 0)[2] > 0)
         assert Gate.CABLE_PASS_THROUGH.on_target(measure(shapes(simulation, [low, high])).pass_throughs)
     assert met
+
+
+@pytest.mark.parametrize("weights", [10, 100])
+def test_no_force_takes_a_rod_from_rest_through_another(weights: int) -> None:
+    """It hangs over a fixed rod six radii below; its weight alone moves it by g h^2 = 4 radii in a step."""
+    low = rod(line((0, -0.1, 1), (0, 0.1, 1), 40), pinned=range(41))
+    high = rod(line((-0.1, 0, 1 + 6 * RADIUS_M), (0.1, 0, 1 + 6 * RADIUS_M), 40))
+    pull = np.tile([0, 0, -weights * GRAVITY_M_S2 * high.mass_per_length_kg_m * high.segment_length_m], (41, 1))
+    simulation = RodSimulation([low, replace(high, pull_n=pull)], WEIGHTLESS, steps_per_s=50)
+    simulation.advance(20)
+    assert simulation.nodes_m(1)[20, 2] > 1 + RADIUS_M
 
 
 @FAST
