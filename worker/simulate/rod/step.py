@@ -95,6 +95,7 @@ def make_step(  # noqa: PLR0913, PLR0917 - the state of the step, and its bounds
             continue
         kept = _take_turns(bodies, operator, motion, world, touch, scratch, tally, attempt > 0)
         if operator.step * fastest(scratch.v, frame) > farthest:
+            tally.counts[RETRIES] += 1
             _undo(motion, touch, scratch)
             return False
         gained = _energy_gained(bodies, operator, motion.v, scratch)
