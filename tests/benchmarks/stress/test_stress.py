@@ -176,6 +176,14 @@ def test_a_run_that_is_cut_off_is_not_blamed_for_unrest() -> None:
     assert (result.cut, result.fault, result.steps) == (True, None, 1)
 
 
+def test_a_run_that_is_cut_off_is_not_blamed_for_its_start_within_the_floor() -> None:
+    """After one step a sunk cable is still below the floor, which no cable has passed."""
+    result = play(of_start(Start.IN_FLOOR), most_steps=1)
+    assert result.figures is not None
+    assert result.figures.floor_pass_throughs > 0
+    assert (result.cut, result.fault, result.passes) == (True, None, 0)
+
+
 @pytest.mark.slow
 def test_a_real_stress_test_agrees_with_its_replays(tmp_path: Path) -> None:
     """Six scenes in two processes give the same results as each one played alone."""
